@@ -1,0 +1,102 @@
+"""Errors that people read, and the exit code each of them ends the program with.
+
+Every error a user can cause is a :class:`TmdError`: one line that says what is wrong, where, and what to do.
+Anything else that reaches the command line is a fault of the program (exit code 39).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """Exit codes of ``tmd``, in decades: 0 success, 10 a clean "no", 20 a limit, 30 an error."""
+
+    OK = 0
+    UNREACHABLE = 10
+    """It is proven that no plan exists."""
+    INVALID_PLAN = 11
+    """The plan was read, and it does not work."""
+    NOT_GROUNDED = 12
+    """The text was read, and no valid plan for it was found."""
+    FAULTS_FOUND = 13
+    """A check ended and found faults."""
+    GAVE_UP = 20
+    """A search ended at its limit: nothing is proven."""
+    USAGE = 30
+    """The command line is wrong."""
+    BAD_INPUT = 31
+    """A file or a text cannot be used; the message says where and why."""
+    MISSING_TOOL = 32
+    """An optional tool or package that this command needs is not there."""
+    BAD_DATA = 33
+    """A data set is missing, truncated or of another version."""
+    CANNOT_WRITE = 34
+    """Output could not be written; nothing was half-written."""
+    INTERNAL = 39
+    """A fault of tmd itself."""
+    INTERRUPTED = 130
+    """Stopped by the user."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Location:
+    """A place in a text: lines and columns count from 1."""
+
+    file: str
+    line: int
+    column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+class TmdError(Exception):
+    """Something the user can mend.
+
+    Args:
+        message: What is wrong, in one line.
+        location: Where, if it stands in a text.
+        hint: What to do about it, in one line.
+        source: The source line at ``location``, shown with a caret when the error is printed at length.
+    """
+
+    exit_code = ExitCode.BAD_INPUT
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        location: Location | None = None,
+        hint: str | None = None,
+        source: str | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.message = message
+        self.location = location
+        self.hint = hint
+        self.source = source
+
+    def __str__(self) -> str:
+        place = f"{self.location}: " if self.location else ""
+        hint = f" ({self.hint})" if self.hint else ""
+        return f"{place}{self.message}{hint}"
+
+
+class DataError(TmdError):
+    """A data set is missing, truncated or of another version."""
+
+    exit_code = ExitCode.BAD_DATA
+
+
+class MissingToolError(TmdError):
+    """An optional tool or package is not installed."""
+
+    exit_code = ExitCode.MISSING_TOOL
+
+
+class OutputError(TmdError):
+    """A file or directory cannot be written."""
+
+    exit_code = ExitCode.CANNOT_WRITE

@@ -1,0 +1,81 @@
+"""What the language room hands to the others: verb clauses, C = (ν, [obj], ρ) of section III-A."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+
+class Span(NamedTuple):
+    """Character offsets into the text: ``text[start:end]``."""
+
+    start: int
+    end: int
+
+
+class Relation(NamedTuple):
+    """One entry of the relation matrix ρ: ``on: cup -> stove``.
+
+    ``source`` is ``None`` where the related object is elided ("put in the microwave").
+    """
+
+    relation: str
+    source: str | None
+    target: str
+
+
+@dataclass(frozen=True, slots=True)
+class Clause:
+    """A verb clause.
+
+    Attributes:
+        verb: The stem, with its particle: ``take``, ``turn_on``.
+        objects: Language-objects in order of mention: singular heads with their modifiers collapsed
+            (``raspberry_syrup``). Pronouns stand as they were written.
+        relations: The relation matrix, as its entries.
+        span: Where the clause stands in the text.
+        text: What stands there.
+        antecedents: For each pronoun in ``objects`` (and ``""`` for an elided object) what it may mean,
+            likeliest first.
+        quantities: For objects said with a number, the number as written (``two``, ``3``).
+        condition: A condition ("until it boils"), as written.
+        duration: A duration ("for 3 minutes"), as written.
+        purpose: A purpose ("to make tea"), as written.
+    """
+
+    verb: str
+    objects: tuple[str, ...] = ()
+    relations: tuple[Relation, ...] = ()
+    span: Span = Span(0, 0)
+    text: str = field(default="", compare=False)
+    antecedents: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
+    quantities: Mapping[str, str] = field(default_factory=dict, compare=False)
+    condition: str | None = field(default=None, compare=False)
+    duration: str | None = field(default=None, compare=False)
+    purpose: str | None = field(default=None, compare=False)
+
+    def resolved(self) -> tuple[str, ...]:
+        """The objects with each pronoun replaced by its likeliest antecedents, each name once."""
+        names: dict[str, None] = {}
+        for name in self.objects:
+            names.update(dict.fromkeys(self.antecedents.get(name, (name,))[:1] or (name,)))
+        names.update(dict.fromkeys(self.antecedents.get("", ())[:1]))
+        return tuple(names)
+
+
+class Skipped(NamedTuple):
+    """A piece of text that no clause accounts for."""
+
+    text: str
+    span: Span
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class Parsed:
+    """A text as clauses. Nothing of the text is silently lost: what no clause covers is in ``skipped``."""
+
+    text: str
+    clauses: tuple[Clause, ...]
+    skipped: tuple[Skipped, ...] = ()

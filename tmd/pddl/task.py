@@ -1,0 +1,116 @@
+"""The ground form of a problem that searching uses: states and conditions are bit sets.
+
+Bit ``i`` of a state is the fluent atom ``task.atoms[i]``. Facts that never change are compiled away, operators
+that can never apply are left out, so everything here is small and an application costs microseconds.
+The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold the two against each other.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import NamedTuple, TypeAlias
+
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+
+Bits: TypeAlias = int
+"""A set of fluent atoms, bit ``i`` for ``task.atoms[i]``."""
+
+
+class Cube(NamedTuple):
+    """A conjunction of literals: all of ``positive`` hold and none of ``negative``."""
+
+    positive: Bits = 0
+    negative: Bits = 0
+
+    def holds(self, state: Bits) -> bool:
+        """Whether ``state`` satisfies every literal."""
+        return state & self.positive == self.positive and not state & self.negative
+
+
+class ConditionalEffect(NamedTuple):
+    """``when condition``, ``add`` and ``delete``; the condition reads the state before the action."""
+
+    condition: Cube
+    add: Bits
+    delete: Bits
+
+
+@dataclass(frozen=True, slots=True)
+class Operator:
+    """A ground action.
+
+    It applies where ``precondition`` holds and none of the ``forbidden`` cubes does (each cube is the negation
+    of one disjunctive clause). Where an atom is both deleted and added, it is added (PDDL semantics).
+    """
+
+    instruction: Instruction
+    precondition: Cube
+    add: Bits
+    delete: Bits
+    conditional: tuple[ConditionalEffect, ...] = ()
+    forbidden: tuple[Cube, ...] = ()
+    cost: int = 1
+
+    def applicable(self, state: Bits) -> bool:
+        """Whether the precondition holds in ``state``."""
+        positive, negative = self.precondition
+        if state & positive != positive or state & negative:
+            return False
+        return not any(cube.holds(state) for cube in self.forbidden)
+
+    def apply(self, state: Bits) -> Bits:
+        """The state after this operator (the paper's Φ for one instruction); preconditions are not read."""
+        add, delete = self.add, self.delete
+        for (positive, negative), also_add, also_delete in self.conditional:
+            if state & positive == positive and not state & negative:
+                add |= also_add
+                delete |= also_delete
+        return state & ~delete | add
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A ground problem.
+
+    Attributes:
+        problem: What was ground.
+        atoms: The fluent atoms, sorted; an atom's bit is its index.
+        static: The atoms that hold always.
+        init: The initial state.
+        goal: The goal as a disjunction of cubes; empty where no reachable state can satisfy it.
+        operators: Every operator that relaxed reachability from ``init`` admits, sorted by instruction.
+        index: The bit number of each fluent atom.
+        by_instruction: The operator of each instruction.
+    """
+
+    problem: Problem
+    atoms: tuple[GroundAtom, ...]
+    static: State
+    init: Bits
+    goal: tuple[Cube, ...]
+    operators: tuple[Operator, ...]
+    index: Mapping[GroundAtom, int] = field(repr=False)
+    by_instruction: Mapping[Instruction, Operator] = field(repr=False)
+
+    def encode(self, state: State) -> Bits:
+        """The bits of ``state``; atoms that are not fluent here are left out."""
+        bits = 0
+        for atom in state:
+            number = self.index.get(atom)
+            if number is not None:
+                bits |= 1 << number
+        return bits
+
+    def decode(self, bits: Bits) -> State:
+        """The full state (static atoms included) of ``bits``."""
+        return self.static | frozenset(self.names(bits))
+
+    def names(self, bits: Bits) -> list[GroundAtom]:
+        """The atoms of ``bits``, sorted."""
+        found = []
+        while bits:
+            low = bits & -bits
+            found.append(self.atoms[low.bit_length() - 1])
+            bits ^= low
+        return found
