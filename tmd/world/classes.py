@@ -1,0 +1,242 @@
+"""Object classes as directed part graphs (section III-B): parts with states, edges of functional dependency.
+
+``objects.yaml`` of a domain folder holds them. A class inherits the facts, states, parts and edges of its parent.
+A part is itself of a class, so a stove says only that it has four burners and which knob controls which.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from tmd.errors import TmdError
+from tmd.pddl.model import OBJECT
+from tmd.pddl.syntax import nearest
+from tmd.world.yaml_source import YamlSource
+
+NAME = r"^[a-z][a-z0-9_]*$"
+ROOT = "root"
+"""The vertex that stands for the whole object."""
+SELF = "self"
+"""In a fact of a class: the vertex itself."""
+MAX_DEPTH = 32
+
+StateValue: TypeAlias = bool | str | list[str]
+"""``true``/``false`` for ``(p x)``; a name or names for ``(p x name)``."""
+
+
+class PartEntry(BaseModel):
+    """One part of a class, as ``objects.yaml`` says it."""
+
+    model_config = ConfigDict(extra="forbid")
+    class_name: str = Field(alias="class", pattern=NAME)
+    facts: list[str] = []
+    init: list[str] = []
+    states: dict[str, StateValue] = {}
+
+
+class ClassEntry(BaseModel):
+    """One class, as ``objects.yaml`` says it."""
+
+    model_config = ConfigDict(extra="forbid")
+    parent: str | None = Field(default=None, pattern=NAME)
+    facts: list[str] = []
+    init: list[str] = []
+    states: dict[str, StateValue] = {}
+    parts: dict[str, PartEntry] = {}
+    edges: list[str] = []
+
+
+class ObjectsFile(BaseModel):
+    """The whole of ``objects.yaml``."""
+
+    model_config = ConfigDict(extra="forbid")
+    substances: dict[str, str] = {}
+    facts: list[str] = []
+    init: list[str] = []
+    derive: list[str] = []
+    classes: dict[str, ClassEntry] = {}
+
+
+@dataclass(frozen=True, slots=True)
+class Vertex:
+    """A part of an object: its class, what always holds of it, and the states it starts in.
+
+    ``facts`` and ``init`` are atoms as tuples, with ``self`` for the vertex, ``root`` and part names for others.
+    """
+
+    name: str
+    class_name: str
+    facts: tuple[tuple[str, ...], ...] = ()
+    init: tuple[tuple[str, ...], ...] = ()
+    states: Mapping[str, StateValue] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectClass:
+    """A class of objects: a directed graph over its parts.
+
+    Attributes:
+        name: The class, a PDDL type.
+        parent: Its parent type.
+        vertices: The parts by name, ``root`` first.
+        edges: ``(predicate, tail, head, *more)``; acting on the tail changes the head.
+    """
+
+    name: str
+    parent: str
+    vertices: Mapping[str, Vertex]
+    edges: tuple[tuple[str, ...], ...]
+
+
+class Classes:
+    """All object classes of a domain.
+
+    Args:
+        source: ``objects.yaml``.
+        types: The types (with their parents) that the domain's instructions know already.
+
+    Raises:
+        TmdError: With the place in ``objects.yaml`` of what does not fit.
+    """
+
+    def __init__(self, source: YamlSource, types: Mapping[str, str]) -> None:
+        self.source = source
+        self.entries = source.load(ObjectsFile)
+        self._types = types
+        self._resolved: dict[str, ObjectClass] = {}
+        for name in self.entries.classes:
+            self._check_name(name)
+            self.get(name)
+
+    def new_types(self) -> Iterator[tuple[str, str]]:
+        """The types that classes add, with their parents, parents first."""
+        done: set[str] = set()
+        for name in self.entries.classes:
+            for ancestor in reversed(self._line(name)):
+                if ancestor not in done and ancestor not in self._types and ancestor != OBJECT:
+                    done.add(ancestor)
+                    yield ancestor, self._parent(ancestor)
+
+    def get(self, name: str) -> ObjectClass:
+        """The class ``name`` with all it inherits.
+
+        Raises:
+            TmdError: There is no such class.
+        """
+        if name not in self._resolved:
+            if name not in self.entries.classes and name not in self._types:
+                raise self.source.error(("classes",), f"there is no class '{name}'", self.suggest(name))
+            self._resolved[name] = self._resolve(name)
+        return self._resolved[name]
+
+    def suggest(self, name: str) -> str | None:
+        """A hint with the class names nearest to ``name``."""
+        return nearest(name, [*self.entries.classes, *self._types])
+
+    def _check_name(self, name: str) -> None:
+        if not re.match(NAME, name) or name in (ROOT, SELF):
+            raise self.source.error(
+                ("classes", name), f"'{name}' cannot name a class", "use lower-case letters, digits and _"
+            )
+
+    def _parent(self, name: str) -> str:
+        entry = self.entries.classes.get(name)
+        if entry is not None and entry.parent is not None:
+            return entry.parent
+        if name in self._types:
+            return self._types[name]
+        raise self.source.error(("classes", name), f"class '{name}' has no parent", "add `parent: TYPE`")
+
+    def _line(self, name: str) -> list[str]:
+        """``name`` and its ancestors, nearest first."""
+        line = [name]
+        while line[-1] != OBJECT:
+            parent = self._parent(line[-1])
+            if parent in line or len(line) > MAX_DEPTH:
+                raise self.source.error(("classes", name), f"class '{name}' is its own ancestor")
+            if parent not in self.entries.classes and parent not in self._types and parent != OBJECT:
+                raise self.source.error(
+                    ("classes", line[-1], "parent"),
+                    f"there is no class or type '{parent}'",
+                    self.suggest(parent),
+                )
+            line.append(parent)
+        return line
+
+    def _resolve(self, name: str) -> ObjectClass:
+        facts: list[tuple[str, ...]] = []
+        init: list[tuple[str, ...]] = []
+        states: dict[str, StateValue] = {}
+        parts: dict[str, Vertex] = {}
+        edges: list[tuple[str, ...]] = []
+        for ancestor in reversed(self._line(name)):
+            entry = self.entries.classes.get(ancestor)
+            if entry is None:
+                continue
+            facts += [_words(fact) for fact in entry.facts]
+            init += [_words(fact) for fact in entry.init]
+            states |= entry.states
+            for part, said in entry.parts.items():
+                parts[part] = self._part(ancestor, part, said)
+            for index, edge in enumerate(entry.edges):
+                edges.append(self._edge(ancestor, index, edge, parts))
+        root = Vertex(ROOT, name, tuple(facts), tuple(init), states)
+        return ObjectClass(name, self._line(name)[1], {ROOT: root} | parts, tuple(edges))
+
+    def _part(self, owner: str, part: str, said: PartEntry) -> Vertex:
+        self._check_name(part)
+        if said.class_name not in self.entries.classes:
+            raise self.source.error(
+                ("classes", owner, "parts", part),
+                f"there is no class '{said.class_name}'",
+                self.suggest(said.class_name),
+            )
+        if self._line(said.class_name) and owner in self._line(said.class_name):
+            raise self.source.error(("classes", owner, "parts", part), f"'{owner}' cannot be its own part")
+        own = self.get(said.class_name)
+        if len(own.vertices) > 1:
+            raise self.source.error(
+                ("classes", owner, "parts", part), f"'{said.class_name}' has parts; a part cannot have any"
+            )
+        base = own.vertices[ROOT]
+        return Vertex(
+            part,
+            said.class_name,
+            base.facts + tuple(map(_words, said.facts)),
+            base.init + tuple(map(_words, said.init)),
+            {**base.states, **said.states},
+        )
+
+    def _edge(self, owner: str, index: int, edge: str, parts: Mapping[str, Vertex]) -> tuple[str, ...]:
+        words = _words(edge)
+        if len(words) < 3:
+            raise self.source.error(
+                ("classes", owner, "edges", index), f"'{edge}' is no edge", "write `tail predicate head`"
+            )
+        tail, predicate, head, *more = words
+        for vertex in (tail, head):
+            if vertex != ROOT and vertex not in parts:
+                raise self.source.error(
+                    ("classes", owner, "edges", index),
+                    f"'{owner}' has no part '{vertex}'",
+                    nearest(vertex, [ROOT, *parts]),
+                )
+        return (predicate, tail, head, *more)
+
+
+def _words(fact: str) -> tuple[str, ...]:
+    """``allows self on`` (brackets may stand around it) as a tuple."""
+    return tuple(fact.strip().strip("()").split())
+
+
+def no_classes(name: str) -> TmdError:
+    """The error for an environment of a domain that has no object graphs."""
+    return TmdError(
+        f"domain '{name}' has no objects.yaml, so it has no environments in YAML",
+        hint="give a PDDL problem instead",
+    )

@@ -1,0 +1,242 @@
+"""Object graphs to PDDL: classes and instructions to ``domain.pddl``, an environment to a problem.
+
+A class becomes a type, a part an object ``<object>_<part>``, an edge of the graph a static fact that the action
+schemas quantify over, a state an atom. The compiled domain stays one readable text: the hand-written
+``instructions.pddl`` with the types and constants of ``objects.yaml`` set in.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from tmd.errors import TmdError
+from tmd.pddl.hierarchy import hierarchy, universe
+from tmd.pddl.model import (
+    TRUE,
+    ActionSchema,
+    Domain,
+    GroundAtom,
+    Instruction,
+    Predicate,
+    Problem,
+    State,
+    TypedName,
+)
+from tmd.pddl.read_formula import read_effects
+from tmd.pddl.reader import parse_domain
+from tmd.pddl.semantics import apply
+from tmd.pddl.syntax import nearest, parse, read_text
+from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
+from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
+
+PART_OF = "part_of"
+"""Compiled for every part where the domain declares it: ``(part_of part object)``."""
+AT = "at"
+"""What ``at: on counter1`` compiles to: ``(at object counter1 on)``."""
+_HEADER = "; Compiled from instructions.pddl and objects.yaml; change those and run `tmd compile`.\n;\n"
+_DERIVE = "derive"
+
+
+def compile_domain(folder: DomainFolder) -> str:
+    """The text of ``domain.pddl`` for a folder with object graphs.
+
+    Raises:
+        TmdError: A source is wrong; with its place.
+    """
+    path = folder.instructions_path
+    text = read_text(path).replace("\r\n", "\n")
+    document = parse(text, str(path))
+    classes = folder.classes
+    types = [f"{name} - {parent}" for name, parent in classes.new_types()]
+    constants = [f"{name} - {kind}" for name, kind in classes.entries.substances.items()]
+    lines = text.split("\n")
+    insertions = []
+    for section, added in ((":types", types), (":constants", constants)):
+        group = next((g for g in document.groups[0].parts[1:] if getattr(g, "head", "") == section), None)
+        if group is None or not hasattr(group, "end"):
+            raise TmdError(f"{path}: has no ({section} …) for objects.yaml to add to")
+        insertions.append((group.end, added, section))
+    for end, added, section in sorted(insertions, key=lambda item: item[0], reverse=True):
+        row, column = end.line - 1, end.column - 1
+        before, after = lines[row][:column].rstrip(), lines[row][column:]
+        block = [f"    ; {section[1:]} of objects.yaml", *(f"    {entry}" for entry in added), f"  {after}"]
+        lines[row : row + 1] = ([before] if before else []) + block
+    compiled = _HEADER + "\n".join(lines)
+    parse_domain(compiled, str(folder.path / "domain.pddl"))
+    return compiled
+
+
+def compile_problem(environment: Environment, folder: DomainFolder) -> Problem:
+    """The environment as a PDDL problem with an empty goal.
+
+    Raises:
+        TmdError: The environment does not fit the domain; with the place in its file.
+    """
+    return _Compiler(environment, folder).problem()
+
+
+class _Compiler:
+    """Compiles one environment; holds what the steps share."""
+
+    def __init__(self, environment: Environment, folder: DomainFolder) -> None:
+        self.environment = environment
+        self.folder = folder
+        self.domain = folder.domain
+        self.predicates = {p.name: p for p in self.domain.predicates}
+        self.init: set[GroundAtom] = set()
+        if environment.domain != folder.name:
+            raise environment.source.error(
+                ("domain",), f"this environment is of domain '{environment.domain}', not '{folder.name}'"
+            )
+
+    def problem(self) -> Problem:
+        objects = tuple(self._objects())
+        shell = Problem(self.environment.name, self.domain, objects)
+        self.universe = universe(shell)
+        for name, entry in self.environment.objects.items():
+            self._object(name, self.folder.classes.get(entry.class_name))
+            self._where(name, entry.at)
+        self._stated()
+        return replace(shell, init=self._derive(replace(shell, init=frozenset(self.init))))
+
+    def _objects(self) -> Iterable[TypedName]:
+        constants = {c.name for c in self.domain.constants}
+        names: set[str] = set()
+        for name, entry in self.environment.objects.items():
+            where = ("objects", name)
+            if entry.class_name not in self.folder.classes.entries.classes:
+                raise self.environment.source.error(
+                    (*where, "class"),
+                    f"'{name}' is of class '{entry.class_name}', which objects.yaml does not have",
+                    nearest(entry.class_name, sorted(self.folder.classes.entries.classes)),
+                )
+            for vertex in self.folder.classes.get(entry.class_name).vertices.values():
+                full = _vertex(name, vertex.name)
+                if full in names or full in constants:
+                    raise self.environment.source.error(where, f"there are two objects named '{full}'")
+                names.add(full)
+                yield TypedName(full, (vertex.class_name,))
+
+    def _object(self, name: str, graph: ObjectClass) -> None:
+        entry = self.environment.objects[name]
+        for part in entry.parts:
+            if part not in graph.vertices or part == ROOT:
+                raise self.environment.source.error(
+                    ("objects", name, "parts", part),
+                    f"'{name}' ({graph.name}) has no part '{part}'",
+                    nearest(part, [p for p in graph.vertices if p != ROOT]),
+                )
+        for vertex in graph.vertices.values():
+            is_root = vertex.name == ROOT
+            said = entry.states if is_root else entry.parts.get(vertex.name, {})
+            place = ("objects", name, "states") if is_root else ("objects", name, "parts", vertex.name)
+            for fact in (*vertex.facts, *vertex.init):
+                self._add(self._bind(fact, name, vertex.name), ("objects", name))
+            for state in said:
+                self._known_state(state, vertex.states, (*place, state), name)
+            for state, value in {**vertex.states, **said}.items():
+                self._set(_vertex(name, vertex.name), state, value, (*place, state))
+            if not is_root and PART_OF in self.predicates:
+                self._add((PART_OF, _vertex(name, vertex.name), name), ("objects", name))
+        for edge in graph.edges:
+            self._add(self._bind(edge, name, ROOT), ("objects", name))
+
+    def _known_state(self, state: str, declared: Iterable[str], path: Sequence[str], name: str) -> None:
+        if state not in declared and state not in self.predicates:
+            raise self.environment.source.error(
+                path, f"'{name}' has no state '{state}'", nearest(state, sorted({*declared, *self.predicates}))
+            )
+
+    def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
+        """A fact of a class with its names replaced: ``self``, ``root`` and the object's parts."""
+        parts = self.folder.classes.get(self.environment.objects[name].class_name).vertices
+        bound = [fact[0]]
+        for term in fact[1:]:
+            own = vertex if term == SELF else term
+            bound.append(_vertex(name, own) if own in parts else term)
+        return tuple(bound)
+
+    def _set(self, vertex: str, state: str, value: StateValue, path: Sequence[str]) -> None:
+        if value is False:
+            return
+        values = [()] if value is True else [(v,) for v in ([value] if isinstance(value, str) else value)]
+        for rest in values:
+            self._add((state, vertex, *rest), path)
+
+    def _where(self, name: str, at: str | None) -> None:
+        if at is None:
+            return
+        path = ("objects", name, "at")
+        words = at.split()
+        if len(words) != 2:
+            raise self.environment.source.error(path, f"'{at}' is no place", "write `RELATION OBJECT`")
+        self._add((AT, name, words[1], words[0]), path)
+
+    def _stated(self) -> None:
+        said = self.folder.classes.entries
+        for kind in ("facts", "init"):
+            for fact in getattr(said, kind):
+                self._add(tuple(fact.strip("()").split()), (), f"objects.yaml: {kind}: ")
+        for index, fact in enumerate(self.environment.facts):
+            self._add(tuple(fact.strip("()").split()), ("facts", index))
+
+    def _add(self, words: Sequence[str], path: Sequence[str | int], what: str = "") -> None:
+        """Add one atom after checking predicate, arity, names and types."""
+        text = f"({' '.join(words)})"
+        predicate = self.predicates.get(words[0]) if words else None
+        source = self.environment.source
+        if predicate is None:
+            hint = nearest(words[0], sorted(self.predicates)) if words else None
+            raise source.error(path, f"{what}{text}: the domain has no predicate '{text}'", hint)
+        if len(predicate.parameters) != len(words) - 1:
+            raise source.error(
+                path, f"{what}{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
+            )
+        for parameter, name in zip(predicate.parameters, words[1:], strict=True):
+            if name not in self.universe.types_of:
+                raise source.error(
+                    path, f"{what}{text}: there is no '{name}'", nearest(name, sorted(self.universe.types_of))
+                )
+            if not self.universe.is_a(name, parameter.types):
+                is_a = "/".join(self.universe.types_of[name])
+                raise source.error(
+                    path, f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
+                )
+        self.init.add(GroundAtom(words[0], tuple(words[1:])))
+
+    def _derive(self, problem: Problem) -> State:
+        """The initial state with the ``derive`` rules applied, in their order."""
+        classes = self.folder.classes
+        state = problem.init
+        for index, rule in enumerate(classes.entries.derive):
+            location = classes.source.locate(("derive", index))
+            document = parse(rule, str(classes.source.path))
+            try:
+                effects = tuple(read_effects(document.groups[0], document.source).flat)
+                schema = ActionSchema(_DERIVE, (), TRUE, effects)
+                state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
+            except (TmdError, IndexError) as error:
+                raise TmdError(f"derive: {rule}: {error}", location=location) from error
+        return state
+
+
+def _with_action(problem: Problem, schema: ActionSchema) -> Problem:
+    domain: Domain = replace(problem.domain, actions=(schema,))
+    return replace(problem, domain=domain)
+
+
+def _vertex(name: str, part: str) -> str:
+    return name if part == ROOT else f"{name}_{part}"
+
+
+def object_types(problem: Problem) -> dict[str, tuple[str, ...]]:
+    """For every object and constant its type and that type's ancestors, nearest first."""
+    kinds = hierarchy(problem.domain)
+    return {o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()}
+
+
+def state_predicates(domain: Domain) -> tuple[Predicate, ...]:
+    """The domain's predicates, sorted by name."""
+    return tuple(sorted(domain.predicates, key=lambda p: p.name))

@@ -1,0 +1,83 @@
+"""Environments: which objects there are, where they stand and what state they are in.
+
+An environment is a YAML file::
+
+    name: kitchen1
+    domain: kitchen
+    about: One line for people.
+    objects:
+      counter1: {class: counter, position: [0.0, 1.0, 0.9]}
+      mug1: {class: mug, at: on counter1, states: {contains: [water]}}
+      stove1:
+        class: stove
+        parts:
+          knob2: {set_to: high}
+    facts: []   # any further atoms, e.g. `found pr2 mug1`
+
+Positions are metres in the room's frame (x forward, y left, z up). The parts of an object are objects as well,
+named ``stove1_knob2``.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from tmd.world.classes import NAME, StateValue
+from tmd.world.yaml_source import YamlSource
+
+Position = tuple[float, float, float]
+
+
+class ObjectEntry(BaseModel):
+    """One object, as an environment file says it."""
+
+    model_config = ConfigDict(extra="forbid")
+    class_name: str = Field(alias="class", pattern=NAME)
+    at: str | None = None
+    states: dict[str, StateValue] = {}
+    parts: dict[str, dict[str, StateValue]] = {}
+    position: Position | None = None
+
+
+class EnvironmentFile(BaseModel):
+    """The whole of an environment file."""
+
+    model_config = ConfigDict(extra="forbid")
+    name: str = Field(pattern=NAME)
+    domain: str
+    about: str = ""
+    objects: dict[str, ObjectEntry]
+    facts: list[str] = []
+
+
+@dataclass(frozen=True, slots=True)
+class Environment:
+    """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning."""
+
+    name: str
+    domain: str
+    about: str
+    objects: Mapping[str, ObjectEntry]
+    facts: tuple[str, ...]
+    source: YamlSource
+
+
+def load_environment(path: Path) -> Environment:
+    """Read an environment file.
+
+    Raises:
+        TmdError: It cannot be read or is not an environment; with file, line and column.
+    """
+    source = YamlSource(path)
+    said = source.load(EnvironmentFile)
+    for name in said.objects:
+        if not re.match(NAME, name):
+            raise source.error(
+                ("objects", name), f"'{name}' cannot name an object", "use lower-case letters, digits and _"
+            )
+    return Environment(said.name, said.domain, said.about, said.objects, tuple(said.facts), source)

@@ -1,0 +1,101 @@
+"""Domain folders, and where they are found.
+
+A domain is a folder ``<domains>/<name>/``. It holds ``domain.pddl`` and, where the domain has object graphs,
+``objects.yaml`` and ``instructions.pddl`` from which ``domain.pddl`` is compiled; ``lexicon.yaml`` for its words.
+Its environments, problems and demonstrations lie in ``<problems>/<name>/``.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from tmd.errors import TmdError
+from tmd.pddl.model import Domain
+from tmd.pddl.reader import read_domain
+from tmd.pddl.syntax import nearest
+from tmd.world.classes import Classes, no_classes
+from tmd.world.yaml_source import YamlSource
+
+_PACKAGE = Path(__file__).resolve().parent.parent
+
+
+@dataclass(frozen=True)
+class DomainFolder:
+    """A domain's folder, and what it holds, read when first asked for."""
+
+    path: Path
+
+    @property
+    def name(self) -> str:
+        """The folder's name, which is the domain's."""
+        return self.path.name
+
+    @cached_property
+    def domain(self) -> Domain:
+        """``domain.pddl``.
+
+        Raises:
+            TmdError: It is missing or wrong.
+        """
+        return read_domain(self.path / "domain.pddl")
+
+    @cached_property
+    def classes(self) -> Classes:
+        """``objects.yaml``.
+
+        Raises:
+            TmdError: It is missing or wrong.
+        """
+        path = self.path / "objects.yaml"
+        if not path.is_file():
+            raise no_classes(self.name)
+        source = YamlSource(path)
+        types = {t.name: t.parent for t in read_domain(self.instructions_path).types}
+        return Classes(source, types)
+
+    @property
+    def instructions_path(self) -> Path:
+        """The PDDL that people write: ``instructions.pddl`` where classes are compiled in."""
+        return self.path / "instructions.pddl"
+
+    @property
+    def lexicon_path(self) -> Path | None:
+        """``lexicon.yaml``, if there is one."""
+        path = self.path / "lexicon.yaml"
+        return path if path.is_file() else None
+
+
+def find_root(kind: str, given: Path | None = None) -> Path:
+    """The directory of all ``domains`` or all ``problems``.
+
+    The first of: ``given``, ``./<kind>``, the copy in the installed package, the copy beside the package (a
+    checkout).
+
+    Raises:
+        TmdError: There is none.
+    """
+    if given is not None:
+        if not given.is_dir():
+            raise TmdError(f"{given}: no such directory", hint=f"--{kind} takes the directory of all {kind}")
+        return given
+    for candidate in (Path(kind), _PACKAGE / "bundled" / kind, _PACKAGE.parent / kind):
+        if candidate.is_dir():
+            return candidate
+    raise TmdError(f"there is no directory of {kind}", hint=f"give one with --{kind} DIR")
+
+
+def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
+    """The folder of domain ``name``.
+
+    Raises:
+        TmdError: There is none; the hint names the nearest.
+    """
+    root = find_root("domains", domains)
+    path = root / name
+    if Path(name).name != name or not (path / "domain.pddl").is_file():
+        known = sorted(p.parent.name for p in root.glob("*/domain.pddl"))
+        hint = nearest(name, known) or f"there are {', '.join(known) or 'none'} in {root}"
+        raise TmdError(f"there is no domain '{name}'", hint=hint)
+    return DomainFolder(path)

@@ -1,0 +1,149 @@
+"""YAML that remembers where everything stands: a fault is reported with file, line and column.
+
+Only plain data is accepted: no tags, no aliases (an alias can blow a small file up), no key twice. ``on``,
+``off``, ``yes`` and ``no`` are words, as in YAML 1.2, because they are words of our domains.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TypeVar
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+from tmd.errors import Location, TmdError
+from tmd.pddl.syntax import read_text
+
+MAX_BYTES = 10_000_000
+"""Larger files are refused: no environment or class file comes near."""
+
+Model = TypeVar("Model", bound=BaseModel)
+
+
+class _Loader(yaml.SafeLoader):
+    """The safe loader with YAML 1.2's idea of a truth value."""
+
+
+_Loader.yaml_implicit_resolvers = {
+    first: [(tag, regexp) for tag, regexp in resolvers if tag != "tag:yaml.org,2002:bool"]
+    for first, resolvers in yaml.SafeLoader.yaml_implicit_resolvers.items()
+}
+_Loader.add_implicit_resolver("tag:yaml.org,2002:bool", re.compile(r"^(?:true|false)$"), list("tf"))
+
+
+class YamlSource:
+    """One YAML file: its text, its data and the place of every node.
+
+    Args:
+        path: The file.
+
+    Raises:
+        TmdError: The file cannot be read, is not UTF-8, or is not YAML of the accepted kind.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.text = _read(path)
+        self._lines = self.text.splitlines()
+        try:
+            self._refuse_aliases()
+            self._root: yaml.Node | None = yaml.compose(self.text, Loader=_Loader)
+        except yaml.MarkedYAMLError as error:
+            raise self._from_yaml(error) from None
+        except yaml.YAMLError as error:
+            raise TmdError(f"{path}: not YAML: {error}".replace("\n", " ")) from None
+        except RecursionError:
+            raise TmdError(f"{path}: nested too deeply", hint="a YAML file here needs four levels") from None
+        self._refuse_twins()
+
+    def load(self, model: type[Model]) -> Model:
+        """The file as ``model``.
+
+        Raises:
+            TmdError: With the place of the first key that does not fit.
+        """
+        if self._root is None:
+            raise TmdError(f"{self.path}: the file is empty")
+        data = yaml.load(self.text, Loader=_Loader)
+        try:
+            return model.model_validate(data)
+        except ValidationError as error:
+            first = error.errors()[0]
+            path = tuple(part for part in first["loc"] if isinstance(part, str | int))
+            where = ".".join(map(str, path)) or "the file"
+            raise self.error(path, f"{where}: {first['msg']}") from None
+
+    def error(self, path: Sequence[str | int], message: str, hint: str | None = None) -> TmdError:
+        """An error at the node that ``path`` (keys and indices from the root) leads to."""
+        location = self.locate(path)
+        return TmdError(message, location=location, hint=hint, source=self._line(location.line))
+
+    def locate(self, path: Sequence[str | int]) -> Location:
+        """Where the node that ``path`` leads to begins; the deepest node that exists where it breaks off."""
+        node, mark = self._root, None
+        for part in path:
+            step = _child(node, part)
+            if step is None:
+                break
+            node, mark = step
+        if mark is None:
+            mark = node.start_mark if node is not None else None
+        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
+        return Location(str(self.path), line, column)
+
+    def _line(self, number: int) -> str | None:
+        return self._lines[number - 1] if 0 < number <= len(self._lines) else None
+
+    def _from_yaml(self, error: yaml.MarkedYAMLError) -> TmdError:
+        mark = error.problem_mark or error.context_mark
+        problem = (error.problem or error.context or "not YAML").replace("\n", " ")
+        if mark is None:
+            return TmdError(f"{self.path}: {problem}")
+        location = Location(str(self.path), mark.line + 1, mark.column + 1)
+        return TmdError(f"not YAML: {problem}", location=location, source=self._line(mark.line + 1))
+
+    def _refuse_aliases(self) -> None:
+        for event in yaml.parse(self.text, Loader=_Loader):
+            if isinstance(event, yaml.AliasEvent):
+                location = Location(str(self.path), event.start_mark.line + 1, event.start_mark.column + 1)
+                raise TmdError("aliases are not accepted", location=location, hint="write the value out")
+
+    def _refuse_twins(self) -> None:
+        waiting: list[yaml.Node] = [self._root] if self._root is not None else []
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, yaml.SequenceNode):
+                waiting.extend(node.value)
+            if isinstance(node, yaml.MappingNode):
+                seen: set[str] = set()
+                for key, value in node.value:
+                    if key.value in seen:
+                        location = Location(
+                            str(self.path), key.start_mark.line + 1, key.start_mark.column + 1
+                        )
+                        raise TmdError(
+                            f"the key '{key.value}' stands here twice",
+                            location=location,
+                            source=self._line(location.line),
+                        )
+                    seen.add(key.value)
+                    waiting.append(value)
+
+
+def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:
+    if isinstance(node, yaml.MappingNode):
+        for key, value in node.value:
+            if key.value == str(part):
+                return value, key.start_mark
+    if isinstance(node, yaml.SequenceNode) and isinstance(part, int) and part < len(node.value):
+        return node.value[part], node.value[part].start_mark
+    return None
+
+
+def _read(path: Path) -> str:
+    if path.is_file() and path.stat().st_size > MAX_BYTES:
+        raise TmdError(f"{path}: larger than {MAX_BYTES // 1_000_000} MB", hint="this is no file of tmd")
+    return read_text(path)
