@@ -1,0 +1,13 @@
+"""The verb-environment-instruction library (section V of the paper).
+
+==================  ==============================================================================
+module              holds
+==================  ==============================================================================
+``demonstration``   texts with the instruction sequences that people gave for them, aligned
+``states``          what can be said of one object in a state: its own states, its relations
+``template``        generalising a demonstrated sequence: objects become variables
+``library``         the templates of a corpus, by verb
+``mentions``        nouns of a clause to the objects of an environment
+``instantiate``     a template in a new environment: the three rules of section V-A
+==================  ==============================================================================
+"""

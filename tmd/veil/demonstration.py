@@ -1,0 +1,136 @@
+"""Demonstrations: a text, an environment, and the instructions a person gave for each piece of the text.
+
+A corpus is JSON Lines, one demonstration a line::
+
+    {"id": "ramen-kitchen1-01", "task": "ramen", "environment": "kitchen1",
+     "text": "Fill the pot and boil it. …",
+     "segments": [{"text": "Fill the pot", "instructions": ["find(pot1)", "moveto(pot1)", …]}, …],
+     "end_state": ["(contains pot1 cooked_ramen)", …]}
+
+Segments are pieces of the text, in order and without overlap; each carries the instructions that serve it.
+``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from tmd.errors import Location, TmdError
+from tmd.pddl.model import Instruction
+from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.syntax import read_text
+
+_KEYS = ("id", "task", "environment", "text", "segments")
+
+
+@dataclass(frozen=True, slots=True)
+class Segment:
+    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it."""
+
+    start: int
+    end: int
+    instructions: tuple[Instruction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Demonstration:
+    """One demonstration, as described in the module's docstring."""
+
+    id: str
+    task: str
+    environment: str
+    text: str
+    segments: tuple[Segment, ...]
+    end_state: tuple[str, ...] = ()
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The whole sequence, segment after segment."""
+        return tuple(instruction for segment in self.segments for instruction in segment.instructions)
+
+
+def read_demonstrations(path: Path) -> list[Demonstration]:
+    """Read a corpus.
+
+    Raises:
+        TmdError: A line is not a demonstration; with file, line and column.
+    """
+    found: list[Demonstration] = []
+    seen: set[str] = set()
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        if not line.strip():
+            continue
+        reader = _Line(path, number)
+        demonstration = reader.read(line)
+        if demonstration.id in seen:
+            raise reader.error(f"the id '{demonstration.id}' stands in this file twice")
+        seen.add(demonstration.id)
+        found.append(demonstration)
+    return found
+
+
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """Reads one line; knows where it is."""
+
+    path: Path
+    number: int
+
+    def error(self, message: str, hint: str | None = None, column: int = 1) -> TmdError:
+        return TmdError(message, location=Location(str(self.path), self.number, column), hint=hint)
+
+    def read(self, line: str) -> Demonstration:
+        try:
+            data = json.loads(line)
+        except json.JSONDecodeError as error:
+            raise self.error(f"not JSON: {error.msg}", column=error.colno) from None
+        except RecursionError:
+            raise self.error("not a demonstration: nested too deeply") from None
+        if not isinstance(data, dict):
+            raise self.error("a demonstration is a JSON object")
+        for key in _KEYS:
+            if key not in data:
+                raise self.error(f"the key '{key}' is missing", f"a demonstration has {', '.join(_KEYS)}")
+        for key in _KEYS[:4]:
+            if not isinstance(data[key], str):
+                raise self.error(f"'{key}' is not a string")
+        end_state = data.get("end_state", [])
+        if not isinstance(end_state, list) or not all(isinstance(item, str) for item in end_state):
+            raise self.error("'end_state' is not a list of strings")
+        return Demonstration(
+            data["id"],
+            data["task"],
+            data["environment"],
+            data["text"],
+            tuple(self._segments(data["text"], data["segments"])),
+            tuple(end_state),
+        )
+
+    def _segments(self, text: str, segments: object) -> Iterator[Segment]:
+        if not isinstance(segments, list):
+            raise self.error("'segments' is not a list")
+        after = 0
+        for index, segment in enumerate(segments):
+            where = f"segment {index + 1}"
+            if not isinstance(segment, dict) or not isinstance(segment.get("text"), str):
+                raise self.error(f"{where} has no 'text'")
+            start = text.find(segment["text"], after)
+            if start < 0:
+                raise self.error(
+                    f"{where}: '{segment['text']}' does not stand in the text after the segment before it",
+                    "segments are pieces of the text, letter by letter and in its order",
+                )
+            after = start + len(segment["text"])
+            yield Segment(start, after, tuple(self._instructions(where, segment.get("instructions"))))
+
+    def _instructions(self, where: str, lines: object) -> Iterator[Instruction]:
+        if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
+            raise self.error(f"{where}: 'instructions' is not a list of strings")
+        for line in lines:
+            try:
+                yield parse_instruction(line)
+            except TmdError as error:
+                raise self.error(f"{where}: '{line}': {error.message}", error.hint) from None
