@@ -1,10 +1,24 @@
 """PDDL: its nouns, its semantics, reading, writing, grounding and validating.
 
-==================  ==============================================================================
-module              holds
-==================  ==============================================================================
-``model``           types, objects, atoms, formulas, effects, action schemas, domain, problem
-``semantics``       what PDDL means: ``holds``, ``apply`` (the paper's Φ), ``regress``
-``task``            the ground form that searching uses: states and conditions as bit sets
-==================  ==============================================================================
+======================  ==========================================================================
+module                  holds
+======================  ==========================================================================
+``model``               types, objects, atoms, formulas, effects, action schemas, domain, problem
+``hierarchy``           which type is a kind of which, and the objects of each type
+``syntax``              nested parentheses with their places
+``read_formula``        names, typed lists, conditions and effects
+``reader``              domains and problems from text
+``check``               every fault of a domain or problem, with place and hint
+``check_requirements``  features used without their requirement
+``writer``              domains and problems as flat typed ADL
+``plan_file``           plans and single instructions as text
+``semantics``           what PDDL means: ``holds``, ``apply`` (the paper's Φ), ``regress``
+``regress``             the inverse of Φ, on the ground form
+``task``                the ground form that searching uses: states and conditions as bit sets
+``grounding``           from a problem to its task; its steps are ``instantiate`` and ``prune``
+``normal_form``         ground conditions as clauses or cubes
+``join``                bindings that satisfy a conjunction
+``reachability``        which atoms may hold and which rules may fire, deleting ignored
+``validator``           whether a plan works, and the first reason why it does not
+======================  ==========================================================================
 """

@@ -197,7 +197,8 @@ class Problem:
 
     ``objects`` are the problem's own; :meth:`all_objects` adds the domain's constants. ``init`` holds every
     atom that is true at the start, static ones included. ``function_values`` gives the values that cost
-    expressions read.
+    expressions read. ``requirements`` are the problem's own, beside its domain's. ``init_locations`` tells
+    where each initial atom and function value was read.
     """
 
     name: str
@@ -205,9 +206,11 @@ class Problem:
     objects: tuple[TypedName, ...] = ()
     init: State = frozenset()
     goal: Formula = TRUE
-    function_values: Mapping[GroundAtom, int] = field(default_factory=dict)
+    function_values: Mapping[GroundAtom, int] = field(default_factory=dict, hash=False)
     minimize_cost: bool = False
+    requirements: tuple[str, ...] = ()
     location: Location | None = field(default=None, compare=False, repr=False)
+    init_locations: Mapping[GroundAtom, Location] = field(default_factory=dict, compare=False, repr=False)
 
     def all_objects(self) -> tuple[TypedName, ...]:
         """The domain's constants, then the problem's objects, each once."""

@@ -1,8 +1,8 @@
 """The ground form of a problem that searching uses: states and conditions are bit sets.
 
-Bit ``i`` of a state is the fluent atom ``task.atoms[i]``. Facts that never change are compiled away, operators
-that can never apply are left out, so everything here is small and an application costs microseconds.
-The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold the two against each other.
+Bit ``i`` of a state is the fluent atom ``task.atoms[i]``. Facts that never change are compiled away and
+operators that can never apply are left out, so everything here is small and an application costs
+microseconds. The meaning is that of :mod:`tmd.pddl.semantics`, and tests hold the two against each other.
 """
 
 from __future__ import annotations
@@ -40,8 +40,9 @@ class ConditionalEffect(NamedTuple):
 class Operator:
     """A ground action.
 
-    It applies where ``precondition`` holds and none of the ``forbidden`` cubes does (each cube is the negation
-    of one disjunctive clause). Where an atom is both deleted and added, it is added (PDDL semantics).
+    It applies where ``precondition`` holds and none of the ``forbidden`` cubes does (each cube is the
+    negation of one disjunctive clause). Where an atom is both deleted and added, it is added (PDDL
+    semantics).
     """
 
     instruction: Instruction

@@ -1,0 +1,254 @@
+"""The meaning of a domain or problem, checked: every fault at once, each with its place and a hint.
+
+Syntax is :mod:`tmd.pddl.reader`'s affair. What is found here: names declared twice or not at all, wrong
+numbers and types of arguments, free variables, and features used without their requirement.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from tmd.errors import Location, TmdError
+from tmd.pddl.check_requirements import missing_requirements
+from tmd.pddl.hierarchy import TypeHierarchy
+from tmd.pddl.model import (
+    OBJECT,
+    TOTAL_COST,
+    ActionSchema,
+    And,
+    Atom,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    Imply,
+    Not,
+    Or,
+    Predicate,
+    Problem,
+    TypedName,
+)
+from tmd.pddl.syntax import nearest
+
+
+def check_domain(domain: Domain) -> list[TmdError]:
+    """Every fault of ``domain``, in order of appearance; empty where there is none."""
+    check = _Check(domain, domain.constants)
+    check.declarations()
+    for action in domain.actions:
+        check.action(action)
+    check.faults.extend(missing_requirements(domain))
+    return _in_order(check.faults)
+
+
+def check_problem(problem: Problem) -> list[TmdError]:
+    """Every fault of ``problem`` itself (its domain is taken as checked), in order of appearance."""
+    check = _Check(problem.domain, problem.all_objects())
+    check.objects(problem)
+    for atom in sorted(problem.init):
+        place = problem.init_locations.get(atom)
+        check.atom(Atom(atom.predicate, atom.args, place), {}, check.predicates, "predicate")
+    check.values(problem)
+    check.formula(problem.goal, {})
+    check.faults.extend(missing_requirements(problem.domain, problem))
+    return _in_order(check.faults)
+
+
+def _in_order(faults: list[TmdError]) -> list[TmdError]:
+    """By place; faults without one come last, as they were found."""
+    placed = sorted((f for f in faults if f.location), key=lambda f: f.location or Location("", 0, 0))
+    return placed + [f for f in faults if not f.location]
+
+
+class _Check:
+    """Names in scope, and the faults found so far."""
+
+    def __init__(self, domain: Domain, objects: Sequence[TypedName]) -> None:
+        self.domain = domain
+        self.hierarchy = TypeHierarchy(domain.types)
+        self.predicates = {p.name: p for p in domain.predicates}
+        self.functions = {f.name: f for f in domain.functions}
+        self.known_objects = {o.name: o.types for o in objects}
+        self.faults: list[TmdError] = []
+
+    def fault(self, message: str, location: Location | None, hint: str | None = None) -> None:
+        self.faults.append(TmdError(message, location=location, hint=hint))
+
+    def declarations(self) -> None:
+        """Types, constants, predicates and functions."""
+        domain = self.domain
+        self.unique(domain.types, "type")
+        self.unique(domain.predicates, "predicate")
+        self.unique(domain.functions, "function")
+        self.unique(domain.actions, "action")
+        self.unique(domain.constants, "constant")
+        for declared in domain.types:
+            self.type_known(declared.parent, declared.location)
+            self.no_cycle(declared.name, declared.location)
+        for constant in domain.constants:
+            self.one_type(constant, "constant")
+        for signature in (*domain.predicates, *domain.functions):
+            self.parameters(signature.parameters, {})
+        for signature in domain.functions:
+            if signature.name == TOTAL_COST and signature.parameters:
+                self.fault(f"{TOTAL_COST} has no parameters", signature.location)
+
+    def unique(self, declared: Iterable[TypedName | Predicate | ActionSchema | object], what: str) -> None:
+        seen: set[str] = set()
+        for item in declared:
+            name = str(getattr(item, "name", ""))
+            if name in seen:
+                self.fault(
+                    f'{what} "{name}" is declared twice',
+                    getattr(item, "location", None),
+                    "rename one of them",
+                )
+            seen.add(name)
+
+    def type_known(self, name: str, location: Location | None) -> None:
+        if not self.hierarchy.known(name):
+            names = [OBJECT, *self.hierarchy.parents]
+            self.fault(f'unknown type "{name}"', location, nearest(name, names, what="types"))
+
+    def no_cycle(self, name: str, location: Location | None) -> None:
+        chain: list[str] = []
+        current: str | None = name
+        while current is not None and current not in chain:
+            chain.append(current)
+            current = self.hierarchy.parents.get(current)
+        if current == name:
+            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)))
+
+    def one_type(self, declared: TypedName, what: str) -> None:
+        for name in declared.types:
+            self.type_known(name, declared.location)
+        if len(declared.types) > 1:
+            self.fault(
+                f'{what} "{declared.name}" must have one type, "either" belongs to parameters',
+                declared.location,
+                "declare a common parent type",
+            )
+
+    def parameters(
+        self, parameters: Sequence[TypedName], scope: Mapping[str, tuple[str, ...]]
+    ) -> dict[str, tuple[str, ...]]:
+        """``scope`` with ``parameters`` in it."""
+        inner = dict(scope)
+        for parameter in parameters:
+            for name in parameter.types:
+                self.type_known(name, parameter.location)
+            if parameter.name in inner:
+                self.fault(
+                    f'variable "{parameter.name}" is declared twice', parameter.location, "rename one of them"
+                )
+            inner[parameter.name] = parameter.types
+        return inner
+
+    def action(self, action: ActionSchema) -> None:
+        scope = self.parameters(action.parameters, {})
+        self.formula(action.precondition, scope)
+        for effect in action.effects:
+            self.effect(effect, scope)
+        if isinstance(action.cost, Atom):
+            self.atom(action.cost, scope, self.functions, "function")
+        if action.cost is not None and TOTAL_COST not in self.functions:
+            place = action.cost.location if isinstance(action.cost, Atom) else action.location
+            self.fault(
+                f'unknown function "{TOTAL_COST}"', place, f"declare (:functions ({TOTAL_COST}) - number)"
+            )
+
+    def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
+        inner = self.parameters(effect.parameters, scope)
+        self.formula(effect.condition, inner)
+        self.atom(effect.atom, inner, self.predicates, "predicate")
+
+    def formula(self, formula: Formula, scope: Mapping[str, tuple[str, ...]]) -> None:
+        if isinstance(formula, Atom):
+            self.atom(formula, scope, self.predicates, "predicate")
+        elif isinstance(formula, Equals):
+            for term in (formula.left, formula.right):
+                self.term(term, scope, formula.location)
+        elif isinstance(formula, Not):
+            self.formula(formula.part, scope)
+        elif isinstance(formula, And | Or):
+            for part in formula.parts:
+                self.formula(part, scope)
+        elif isinstance(formula, Imply):
+            self.formula(formula.left, scope)
+            self.formula(formula.right, scope)
+        elif isinstance(formula, Forall | Exists):
+            self.formula(formula.part, self.parameters(formula.parameters, scope))
+
+    def atom(
+        self, atom: Atom, scope: Mapping[str, tuple[str, ...]], signatures: Mapping[str, Predicate], what: str
+    ) -> None:
+        """Predicate or function, number of arguments, and the type of each."""
+        signature = signatures.get(atom.predicate)
+        if signature is None:
+            hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
+            self.fault(f'unknown {what} "{atom.predicate}"', atom.location, hint)
+            for term in atom.terms:
+                self.term(term, scope, atom.location)
+            return
+        shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
+        if len(atom.terms) != len(signature.parameters):
+            self.fault(
+                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), '
+                f"found {len(atom.terms)}",
+                atom.location,
+                f"declared as {shown}",
+            )
+            return
+        for term, parameter in zip(atom.terms, signature.parameters, strict=True):
+            given = self.term(term, scope, atom.location)
+            known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
+            if given is not None and known and not self.hierarchy.accepts(parameter.types, given):
+                self.fault(
+                    f'"{term}" is of type {_either(given)}, '
+                    f"{parameter.name} of {shown} needs {_either(parameter.types)}",
+                    atom.location,
+                )
+
+    def term(
+        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None
+    ) -> tuple[str, ...] | None:
+        """The types of ``term``; ``None`` where it is not declared (which is a fault)."""
+        if term.startswith("?"):
+            if term not in scope:
+                self.fault(
+                    f'free variable "{term}"', location, nearest(term, list(scope), what="variables here")
+                )
+            return scope.get(term)
+        if term not in self.known_objects:
+            hint = nearest(term, list(self.known_objects), what="objects")
+            if f"?{term}" in scope:
+                hint = f'did you mean "?{term}"?'
+            self.fault(f'unknown object "{term}"', location, hint)
+        return self.known_objects.get(term)
+
+    def objects(self, problem: Problem) -> None:
+        """The problem's objects. A constant may be listed again with the same type."""
+        self.unique(problem.objects, "object")
+        constants = {c.name: c.types for c in problem.domain.constants}
+        for declared in problem.objects:
+            self.one_type(declared, "object")
+            if constants.get(declared.name, declared.types) != declared.types:
+                self.fault(
+                    f'"{declared.name}" is a constant of another type', declared.location, "rename the object"
+                )
+
+    def values(self, problem: Problem) -> None:
+        """The values of cost functions, and that there is a cost to minimise."""
+        for function in sorted(problem.function_values):
+            place = problem.init_locations.get(function)
+            self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
+        if problem.minimize_cost and TOTAL_COST not in self.functions:
+            self.fault(
+                f'the metric needs the function "{TOTAL_COST}"', problem.location, "declare it in the domain"
+            )
+
+
+def _either(types: Sequence[str]) -> str:
+    return f'"{types[0]}"' if len(types) == 1 else f"either {' '.join(types)}"

@@ -1,0 +1,316 @@
+"""Instantiating actions while relaxed reachability collects the atoms that may ever hold.
+
+The positive atoms of a precondition are joined against what is reached so far, the new atoms of each round
+first (semi-naive evaluation), so no binding is tried that could not apply.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.errors import TmdError
+from tmd.pddl.hierarchy import Universe, universe
+from tmd.pddl.join import Check, Join, Query, Relation, Row, plan_join
+from tmd.pddl.model import (
+    ActionSchema,
+    And,
+    Atom,
+    Effect,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Instruction,
+    Not,
+    Or,
+    Problem,
+    State,
+)
+from tmd.pddl.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
+from tmd.pddl.reachability import Reachability, Rule
+from tmd.pddl.read_formula import free_variables
+from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
+
+_MOST_ACTIONS = 500_000
+
+
+@dataclass(frozen=True, slots=True)
+class GroundEffect:
+    """One literal, and the cube under which it comes about (empty: always)."""
+
+    condition: Literals
+    atom: int
+    positive: bool
+
+
+@dataclass(frozen=True, slots=True)
+class GroundInstance:
+    """An instantiated action: its clauses must all hold; ``forced`` ones count even if they cannot."""
+
+    instruction: Instruction
+    clauses: tuple[Literals, ...]
+    effects: tuple[GroundEffect, ...]
+    cost: int
+    forced: bool
+
+    def rule(self, number: int) -> Rule:
+        """What this instance means for reachability."""
+        inner = []
+        heads = []
+        for place, effect in enumerate(self.effects):
+            if effect.positive and not effect.condition:
+                heads.append(effect.atom)
+            elif effect.condition:
+                clauses = [frozenset((literal,)) for literal in effect.condition]
+                inner.append(Rule((number, place), clauses, (effect.atom,) if effect.positive else ()))
+        return Rule((number, -1), () if self.forced else self.clauses, heads, tuple(inner))
+
+
+@dataclass(frozen=True, slots=True)
+class Instances:
+    """All instances that may apply, over the numbered ``atoms``.
+
+    ``everywhere`` holds in every initial state, ``somewhere`` in one at least; ``static`` are the atoms of
+    predicates that no action changes.
+    """
+
+    atoms: Sequence[GroundAtom]
+    static: State
+    everywhere: frozenset[int]
+    somewhere: tuple[int, ...]
+    instances: Sequence[GroundInstance]
+
+
+def instantiate_actions(
+    problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]
+) -> Instances:
+    """Every instance that relaxed reachability from the union of ``initial_states`` admits."""
+    return _Instantiation(problem, initial_states, forced).run()
+
+
+def conjuncts(formula: Formula) -> list[Formula]:
+    """The parts of a conjunction, however nested."""
+    if isinstance(formula, And):
+        return [inner for part in formula.parts for inner in conjuncts(part)]
+    return [formula]
+
+
+def predicates_of(formula: Formula) -> frozenset[str]:
+    """The predicates that ``formula`` speaks of."""
+    match formula:
+        case Atom(predicate):
+            return frozenset((predicate,))
+        case Equals():
+            return frozenset()
+        case Not(part) | Forall(_, part) | Exists(_, part):
+            return predicates_of(part)
+        case And(parts) | Or(parts):
+            return frozenset[str]().union(*(predicates_of(p) for p in parts))
+        case Imply(left, right):
+            return predicates_of(left) | predicates_of(right)
+
+
+@dataclass(frozen=True, slots=True)
+class _EffectPlan:
+    """A lifted effect, with the join that finds the values of its own parameters."""
+
+    effect: Effect
+    join: Join | None
+    rest: Formula
+
+
+@dataclass(frozen=True, slots=True)
+class _ActionPlan:
+    """A lifted action: its joins (one for each positive fluent atom that may come last) and the rest."""
+
+    action: ActionSchema
+    fluent: tuple[Atom, ...]
+    rest: Formula
+    first: Join
+    joins: tuple[Join, ...]
+    effects: tuple[_EffectPlan, ...]
+
+
+class _Instantiation:
+    """The state of one run."""
+
+    def __init__(
+        self, problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]
+    ) -> None:
+        self.problem = problem
+        self.objects: Universe = universe(problem)
+        self.forced = forced
+        self.numbers: dict[GroundAtom, int] = {}
+        self.atoms: list[GroundAtom] = []
+        self.instances: dict[Instruction, GroundInstance] = {}
+        self.refused: set[Instruction] = set()
+        somewhere = frozenset[GroundAtom]().union(*initial_states)
+        everywhere = frozenset(problem.init).intersection(*initial_states)
+        changing = {e.atom.predicate for a in problem.domain.actions for e in a.effects}
+        changing |= {atom.predicate for atom in somewhere - everywhere}
+        self.changing = frozenset(changing)
+        self.static: State = frozenset(a for a in everywhere if a.predicate not in changing)
+        self.relations = {p.name: Relation() for p in problem.domain.predicates}
+        for atom in sorted(self.static):
+            self.relations[atom.predicate].add(atom.args)
+        fluent = sorted(a for a in somewhere if a.predicate in changing)
+        self.somewhere = tuple(self.number(a) for a in fluent)
+        self.everywhere = frozenset(self.number(a) for a in fluent if a in everywhere)
+        self.reachability = Reachability(self.somewhere)
+        self.plans = [self.plan(action) for action in problem.domain.actions]
+
+    def number(self, atom: GroundAtom) -> int:
+        found = self.numbers.get(atom)
+        if found is None:
+            found = self.numbers[atom] = len(self.atoms)
+            self.atoms.append(atom)
+        return found
+
+    def lookup(self, atom: GroundAtom) -> Tree:
+        """Atoms of static predicates are known; others get their literal."""
+        if atom.predicate in self.changing:
+            return 2 * self.number(atom)
+        return TRUE if atom in self.static else FALSE
+
+    def run(self) -> Instances:
+        for plan in self.plans:
+            if not plan.fluent:
+                self.instantiate(plan, plan.first.order, plan.first.run([()]))
+        for instruction in sorted(self.forced):
+            plan = next(p for p in self.plans if p.action.name == instruction.name)
+            self.instantiate(plan, [p.name for p in plan.action.parameters], [instruction.args])
+        while new := self.reachability.run():
+            self.extend(new)
+        return Instances(
+            self.atoms, self.static, self.everywhere, self.somewhere, tuple(self.instances.values())
+        )
+
+    def extend(self, new: Iterable[int]) -> None:
+        """Instantiate what the atoms ``new`` make possible."""
+        rows: dict[str, list[Row]] = {}
+        for number in new:
+            atom = self.atoms[number]
+            self.relations[atom.predicate].add(atom.args)
+            rows.setdefault(atom.predicate, []).append(atom.args)
+        for plan in self.plans:
+            for atom_plan, join in zip(plan.fluent, plan.joins, strict=True):
+                start = self.unify(plan, atom_plan, rows.get(atom_plan.predicate, ()))
+                if start:
+                    self.instantiate(plan, join.order, join.run(start))
+
+    def unify(self, plan: _ActionPlan, atom: Atom, rows: Iterable[Row]) -> list[Row]:
+        """The values that matching ``atom`` with each of ``rows`` gives to its variables."""
+        types = {p.name: p.types for p in plan.action.parameters}
+        found: list[Row] = []
+        for row in rows:
+            values: dict[str, str] = {}
+            for term, value in zip(atom.terms, row, strict=True):
+                known = values.setdefault(term, value) if term.startswith("?") else term
+                if known != value or (term in types and not self.objects.is_a(value, types[term])):
+                    break
+            else:
+                found.append(tuple(values.values()))
+        return found
+
+    def is_static(self, formula: Formula) -> bool:
+        return not predicates_of(formula) & self.changing
+
+    def plan(self, action: ActionSchema) -> _ActionPlan:
+        parts = conjuncts(action.precondition)
+        fluent = tuple(dict.fromkeys(p for p in parts if isinstance(p, Atom) and not self.is_static(p)))
+        rest = And(tuple(p for p in parts if not self.is_static(p) and p not in fluent))
+        variables = {p.name: self.objects.of(p.types) for p in action.parameters}
+        static = [p for p in parts if self.is_static(p)]
+        joins = []
+        for atom in fluent:
+            given = tuple(dict.fromkeys(t for t in atom.terms if t.startswith("?")))
+            others = tuple(a for a in fluent if a != atom)
+            joins.append(self.join(variables, static, others, given))
+        return _ActionPlan(
+            action,
+            fluent,
+            rest,
+            self.join(variables, static, (), ()),
+            tuple(joins),
+            tuple(self.effect_plan(e, tuple(variables)) for e in action.effects),
+        )
+
+    def join(
+        self,
+        variables: dict[str, tuple[str, ...]],
+        static: Sequence[Formula],
+        fluent: Sequence[Atom],
+        given: Sequence[str],
+    ) -> Join:
+        atoms = [p for p in static if isinstance(p, Atom)]
+        checks = [
+            Check(free_variables(p), lambda binding, p=p: holds(p, self.static, self.objects, binding))  # type: ignore[misc]
+            for p in static
+            if not isinstance(p, Atom)
+        ]
+        return plan_join(Query(variables, [*atoms, *fluent], self.relations, checks, given))
+
+    def effect_plan(self, effect: Effect, given: tuple[str, ...]) -> _EffectPlan:
+        if not effect.parameters:
+            return _EffectPlan(effect, None, effect.condition)
+        parts = conjuncts(effect.condition)
+        static = [p for p in parts if self.is_static(p)]
+        rest = And(tuple(p for p in parts if not self.is_static(p)))
+        variables = {p.name: self.objects.of(p.types) for p in effect.parameters}
+        return _EffectPlan(effect, self.join(variables, static, (), given), rest)
+
+    def instantiate(self, plan: _ActionPlan, order: Sequence[str], rows: Iterable[Row]) -> None:
+        """Make the instances for ``rows`` (values in ``order``), each once, and let them take part."""
+        action = plan.action
+        places = [order.index(p.name) for p in action.parameters]
+        for row in rows:
+            instruction = Instruction(action.name, tuple(row[p] for p in places))
+            if instruction in self.instances or instruction in self.refused:
+                continue
+            binding = dict(zip(order, row, strict=True))
+            instance = self.instance(plan, instruction, binding)
+            if instance is None:
+                self.refused.add(instruction)
+                continue
+            if len(self.instances) >= _MOST_ACTIONS:
+                raise TmdError(f"grounding gives more than {_MOST_ACTIONS} actions")
+            self.reachability.add(instance.rule(len(self.instances)))
+            self.instances[instruction] = instance
+
+    def instance(
+        self, plan: _ActionPlan, instruction: Instruction, binding: Binding
+    ) -> GroundInstance | None:
+        """The instance, or ``None`` where its precondition contradicts itself or what never changes."""
+        forced = instruction in self.forced
+        what = str(instruction)
+        precondition = plan.action.precondition if forced else plan.rest
+        clauses = conjunctive(expand(precondition, binding, self.objects, self.lookup), what)
+        if not forced:
+            clauses.extend(frozenset((2 * self.number(instantiate(atom, binding)),)) for atom in plan.fluent)
+            units = {literal for clause in clauses if len(clause) == 1 for literal in clause}
+            if frozenset() in clauses or any(literal ^ 1 in units for literal in units):
+                return None
+        effects = [ground for effect in plan.effects for ground in self.effects(effect, binding, what)]
+        cost = action_cost(self.problem, plan.action, binding)
+        return GroundInstance(
+            instruction, tuple(dict.fromkeys(clauses)), tuple(dict.fromkeys(effects)), cost, forced
+        )
+
+    def effects(self, plan: _EffectPlan, outer: Binding, what: str) -> Iterable[GroundEffect]:
+        rows: Iterable[Binding] = (outer,)
+        if plan.join is not None:
+            join = plan.join
+            rows = (
+                dict(zip(join.order, row, strict=True))
+                for row in join.run([tuple(outer[v] for v in join.order[: len(outer)])])
+            )
+        for binding in rows:
+            tree = expand(plan.rest, binding, self.objects, self.lookup)
+            if tree == FALSE:
+                continue
+            atom = self.number(instantiate(plan.effect.atom, binding))
+            for cube in disjunctive(tree, what):
+                yield GroundEffect(cube, atom, plan.effect.positive)

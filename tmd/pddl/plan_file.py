@@ -1,0 +1,161 @@
+"""Plans as text: the plan files of the planning competitions, and the functional notation of instructions.
+
+A plan file has one ``(name arg ...)`` a line; ``;`` begins a comment, and the last line tells the cost:
+``; cost = 3 (unit cost)``. The functional notation of an instruction is ``keep(mug1, counter1, on)``.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tmd.errors import Location, OutputError, TmdError
+from tmd.pddl.model import Instruction
+from tmd.pddl.syntax import read_text
+
+_NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
+_COST = re.compile(r";\s*cost\s*=\s*([0-9]+)\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
+_STAMP = re.compile(r"[0-9.]+\s*:")
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """A plan that was read: its instructions, the cost it claims, and where each instruction stands."""
+
+    instructions: tuple[Instruction, ...] = ()
+    cost: int | None = None
+    locations: tuple[Location, ...] = field(default=(), compare=False, repr=False)
+
+
+def read_plan(path: str | Path) -> Plan:
+    """The plan in the file at ``path``.
+
+    Raises:
+        TmdError: The file cannot be read, or a line of it is no instruction.
+    """
+    return parse_plan(read_text(path), str(path))
+
+
+def parse_plan(text: str, file: str = "<text>") -> Plan:
+    """The plan that ``text`` lists; ``file`` names it in errors.
+
+    Raises:
+        TmdError: A line is no instruction.
+    """
+    instructions: list[Instruction] = []
+    locations: list[Location] = []
+    cost: int | None = None
+    for number, line in enumerate(text.splitlines(), start=1):
+        claimed = _COST.match(line.strip())
+        if claimed:
+            cost = int(claimed[1])
+        code = line.partition(";")[0]
+        if code.strip():
+            place = Location(file, number, len(code) - len(code.lstrip()) + 1)
+            instructions.append(_parse_line(code.strip(), place, line))
+            locations.append(place)
+    return Plan(tuple(instructions), cost, tuple(locations))
+
+
+def _parse_line(code: str, place: Location, line: str) -> Instruction:
+    if _STAMP.match(code):
+        raise TmdError(
+            "temporal plans are not supported", location=place, source=line, hint="remove the time"
+        )
+    if not (code.startswith("(") and code.endswith(")")) or code.count("(") != 1 or code.count(")") != 1:
+        raise TmdError(
+            "a plan has one (name argument ...) a line",
+            location=place,
+            source=line,
+            hint=f'found "{_shown(code)}"',
+        )
+    words = code[1:-1].lower().split()
+    if not words:
+        raise TmdError("() is no instruction", location=place, source=line, hint="write (name argument ...)")
+    for word in words:
+        if not _NAME.fullmatch(word):
+            column = place.column + code.lower().find(word)
+            raise TmdError(
+                f'"{_shown(word)}" is not a name',
+                location=Location(place.file, place.line, column),
+                source=line,
+            )
+    return Instruction(words[0], tuple(words[1:]))
+
+
+def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True) -> str:
+    """The text of a plan file.
+
+    Args:
+        instructions: The plan.
+        cost: Its cost; the number of instructions where ``None``.
+        unit: Whether each instruction costs 1, as the last line says.
+    """
+    lines = [instruction.pddl() for instruction in instructions]
+    total = len(lines) if cost is None else cost
+    lines.append(f"; cost = {total} ({'unit' if unit else 'general'} cost)")
+    return "\n".join(lines) + "\n"
+
+
+def write_plan(
+    path: str | Path, instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True
+) -> None:
+    """Write a plan file, whole or not at all.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    target = Path(path)
+    draft = target.with_name(f".{target.name}.{os.getpid()}")
+    try:
+        draft.write_text(format_plan(instructions, cost, unit=unit), encoding="utf-8")
+        draft.replace(target)
+    except OSError as error:
+        draft.unlink(missing_ok=True)
+        raise OutputError(f"{target} cannot be written: {error.strerror or error}") from error
+
+
+def parse_instruction(text: str, *, file: str = "<text>", line: int = 1, column: int = 1) -> Instruction:
+    """The instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
+
+    Args:
+        text: What to read.
+        file: Names the text in errors.
+        line: The line on which ``text`` stands, for errors.
+        column: The column at which ``text`` begins, for errors.
+
+    Raises:
+        TmdError: It is no instruction.
+    """
+
+    def error(message: str, offset: int, hint: str = "write name(argument, ...)") -> TmdError:
+        return TmdError(message, location=Location(file, line, column + offset), source=text, hint=hint)
+
+    body = text.rstrip()
+    start = len(body) - len(body.lstrip())
+    opening = body.find("(")
+    if opening < 0:
+        raise error(f'"{_shown(body.strip())}" has no parentheses', start)
+    if not body.endswith(")"):
+        raise error('the closing ")" is missing', len(body))
+    pieces = body[opening + 1 : -1].split(",")
+    if pieces == [""] or (len(pieces) == 1 and not pieces[0].strip()):
+        pieces = []
+    words: list[str] = []
+    offset = start
+    for number, piece in enumerate((body[start:opening], *pieces)):
+        if number:
+            offset = opening + 1 if number == 1 else offset + len(pieces[number - 2]) + 1
+        word = piece.strip().lower()
+        if not _NAME.fullmatch(word):
+            at = offset + len(piece) - len(piece.lstrip())
+            raise error(f'"{_shown(word)}" is not a name' if word else "a name is missing here", at)
+        words.append(word)
+    return Instruction(words[0], tuple(words[1:]))
+
+
+def _shown(text: str) -> str:
+    return text if len(text) <= 40 else f"{text[:37]}..."

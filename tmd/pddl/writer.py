@@ -1,0 +1,187 @@
+"""Writing PDDL that every reader takes: flat typed ADL.
+
+Each effect stands by itself, ``(forall (...) (when condition literal))``, so no reader can mistake a ``when``
+within a ``when``. An empty precondition is ``(and)``. Parent types stand before their children. The comment
+of a predicate stands beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from tmd.pddl.hierarchy import parents_first
+from tmd.pddl.model import (
+    OBJECT,
+    TOTAL_COST,
+    TRUE,
+    ActionSchema,
+    And,
+    Atom,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Not,
+    Or,
+    Predicate,
+    Problem,
+    TypedName,
+)
+
+_WIDTH = 100
+
+
+def format_domain(domain: Domain) -> str:
+    """``domain`` as text; reading it gives an equal domain."""
+    sections = [f"(define (domain {domain.name})"]
+    if domain.requirements:
+        sections.append(f"  (:requirements {' '.join(domain.requirements)})")
+    if domain.types:
+        sections.append(_section("types", [f"{t.name} - {t.parent}" for t in parents_first(domain.types)]))
+    if domain.constants:
+        sections.append(_section("constants", _listed(domain.constants)))
+    if domain.predicates:
+        sections.append(_section("predicates", _predicates(domain.predicates)))
+    if domain.functions:
+        sections.append(_section("functions", [f"{_signature(f)} - number" for f in domain.functions]))
+    sections.extend(_action(action) for action in domain.actions)
+    return "\n\n".join(sections) + "\n)\n"
+
+
+def format_problem(problem: Problem) -> str:
+    """``problem`` as text; reading it with the same domain gives an equal problem."""
+    sections = [f"(define (problem {problem.name})\n  (:domain {problem.domain.name})"]
+    if problem.requirements:
+        sections.append(f"  (:requirements {' '.join(problem.requirements)})")
+    if problem.objects:
+        sections.append(_section("objects", _listed(problem.objects)))
+    init = [str(atom) for atom in sorted(problem.init)]
+    if any(f.name == TOTAL_COST for f in problem.domain.functions):
+        init.append(f"(= ({TOTAL_COST}) 0)")
+    init.extend(f"(= {function} {value})" for function, value in sorted(problem.function_values.items()))
+    sections.append(_section("init", init))
+    sections.append(f"  (:goal {_laid_out(problem.goal, 8)})")
+    if problem.minimize_cost:
+        sections.append(f"  (:metric minimize ({TOTAL_COST}))")
+    return "\n\n".join(sections) + "\n)\n"
+
+
+def format_formula(formula: Formula, binding: Mapping[str, str] | None = None) -> str:
+    """``formula`` on one line, with the variables of ``binding`` replaced."""
+    bound = binding or {}
+    match formula:
+        case Atom():
+            return str(GroundAtom(formula.predicate, tuple(bound.get(t, t) for t in formula.terms)))
+        case Equals(left, right):
+            return f"(= {bound.get(left, left)} {bound.get(right, right)})"
+        case Not(part):
+            return f"(not {format_formula(part, bound)})"
+        case And(parts):
+            return _compound("and", parts, bound)
+        case Or(parts):
+            return _compound("or", parts, bound)
+        case Imply(left, right):
+            return _compound("imply", (left, right), bound)
+        case Forall(parameters, part):
+            return f"(forall ({_typed(parameters)}) {_within(parameters, part, bound)})"
+        case Exists(parameters, part):
+            return f"(exists ({_typed(parameters)}) {_within(parameters, part, bound)})"
+
+
+def _compound(word: str, parts: Iterable[Formula], bound: Mapping[str, str]) -> str:
+    return f"({' '.join((word, *(format_formula(p, bound) for p in parts)))})"
+
+
+def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, str]) -> str:
+    own = {p.name for p in parameters}
+    return format_formula(part, {name: value for name, value in bound.items() if name not in own})
+
+
+def format_effect(effect: Effect) -> str:
+    """``effect`` on one line."""
+    text = format_formula(effect.atom)
+    if not effect.positive:
+        text = f"(not {text})"
+    if effect.condition != TRUE:
+        text = f"(when {format_formula(effect.condition)} {text})"
+    if effect.parameters:
+        text = f"(forall ({_typed(effect.parameters)}) {text})"
+    return text
+
+
+def _section(name: str, lines: Iterable[str]) -> str:
+    return "\n".join([f"  (:{name}", *(f"    {line}" for line in lines), "  )"])
+
+
+def _type_text(types: Sequence[str]) -> str:
+    return types[0] if len(types) == 1 else f"(either {' '.join(types)})"
+
+
+def _runs(names: Iterable[TypedName]) -> list[tuple[tuple[str, ...], list[str]]]:
+    """Neighbours of the same types together; order is kept."""
+    runs: list[tuple[tuple[str, ...], list[str]]] = []
+    for name in names:
+        if not runs or runs[-1][0] != name.types:
+            runs.append((name.types, []))
+        runs[-1][1].append(name.name)
+    return runs
+
+
+def _typed(names: Sequence[TypedName]) -> str:
+    """A typed list. Where no type is said anywhere, none is written, so plain STRIPS stays plain."""
+    if all(name.types == (OBJECT,) for name in names):
+        return " ".join(name.name for name in names)
+    return " ".join(f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names))
+
+
+def _listed(names: Sequence[TypedName]) -> list[str]:
+    if all(name.types == (OBJECT,) for name in names):
+        return [" ".join(name.name for name in names)]
+    return [f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names)]
+
+
+def _signature(predicate: Predicate) -> str:
+    typed = _typed(predicate.parameters)
+    return f"({predicate.name} {typed})" if typed else f"({predicate.name})"
+
+
+def _predicates(predicates: Sequence[Predicate]) -> list[str]:
+    signatures = [_signature(p) for p in predicates]
+    width = max(len(s) for s in signatures)
+    return [
+        f"{signature:<{width}} ; {p.comment}" if p.comment else signature
+        for signature, p in zip(signatures, predicates, strict=True)
+    ]
+
+
+def _action(action: ActionSchema) -> str:
+    effects = [format_effect(e) for e in action.effects]
+    if action.cost is not None:
+        amount = format_formula(action.cost) if isinstance(action.cost, Atom) else str(action.cost)
+        effects.append(f"(increase ({TOTAL_COST}) {amount})")
+    lines = [
+        f"  (:action {action.name}",
+        f"    :parameters ({_typed(action.parameters)})",
+        f"    :precondition {_laid_out(action.precondition, 6)}",
+        f"    :effect {_lines('and', effects, 6)})",
+    ]
+    return "\n".join(lines)
+
+
+def _laid_out(formula: Formula, indent: int) -> str:
+    """``formula``; a conjunction that is too long for one line gets a line for each part."""
+    line = format_formula(formula)
+    if len(line) + indent <= _WIDTH or not isinstance(formula, And):
+        return line
+    return _lines("and", [format_formula(p) for p in formula.parts], indent)
+
+
+def _lines(word: str, parts: Sequence[str], indent: int) -> str:
+    if not parts:
+        return f"({word})"
+    pad = "\n" + " " * indent
+    return f"({word}{pad}{pad.join(parts)})"
