@@ -1,0 +1,32 @@
+"""getConstraints (section VI-E): what a sequence of instructions needs of the state it begins in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tmd.pddl.semantics import regress
+from tmd.pddl.task import Cube, Operator
+
+MOST_CUBES = 64
+"""Conditional effects can make the constraints a long disjunction; the smallest cubes are kept. What is lost
+are only roundabout ways to make the sequence executable; every cube kept is exact."""
+
+
+def get_constraints(operators: Sequence[Operator]) -> list[tuple[Cube, ...]]:
+    """For each t the constraints of ``operators[t:]``, as a disjunction of cubes; the last entry is "true".
+
+    A sequence begun in a state that satisfies one of the cubes can be executed to its end. An empty
+    disjunction means that it never can.
+    """
+    found: list[tuple[Cube, ...]] = [(Cube(),)]
+    for operator in reversed(operators):
+        cubes: set[Cube] = set()
+        for cube in found[-1]:
+            cubes.update(regress(cube, operator))
+        found.append(tuple(sorted(cubes, key=_size)[:MOST_CUBES]))
+    found.reverse()
+    return found
+
+
+def _size(cube: Cube) -> tuple[int, int, int]:
+    return (cube.positive.bit_count() + cube.negative.bit_count(), cube.positive, cube.negative)

@@ -1,0 +1,68 @@
+"""The factors of the energy, under the paper's names (section VI-A). Each is a cost: smaller is better."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.veil.instantiate import Instantiation
+from tmd.veil.states import differences
+
+
+def delta_env(instantiation: Instantiation) -> float:
+    """Environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
+
+    Δ_env = 1/|Z| Σ_z 1/|T(z)| Σ_t 1(ξ(z)[t] ≠ ξ_s(z)[t]); 0 for a template without variables.
+    """
+    variables = instantiation.grounding
+    if not variables:
+        return 0.0
+    before = instantiation.template.profiles
+    return sum(differences(before[z], instantiation.profiles[z]) for z in variables) / len(variables)
+
+
+def delta_nl(template_clause: Clause, clause: Clause) -> float:
+    """Natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
+
+    The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
+    without objects are alike.
+    """
+    ours, theirs = set(clause.resolved()), set(template_clause.resolved())
+    union = ours | theirs
+    return 1 - len(ours & theirs) / len(union) if union else 0.0
+
+
+def delta_sim(instantiation: Instantiation) -> float:
+    """Parameter similarity cost: the share of variables that stand for another object than in the sample."""
+    variables = instantiation.grounding
+    if not variables:
+        return 0.0
+    before = instantiation.template.grounding
+    return sum(before[z] != name for z, name in variables.items()) / len(variables)
+
+
+def delta_pcc(template_clause: Clause, clause: Clause) -> float:
+    """Parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
+    return float(len(clause.resolved()) != len(template_clause.resolved()))
+
+
+def delta_dscpl(instructions: Sequence[Instruction]) -> float:
+    """Description length: the sum over the instructions of the number of arguments plus one."""
+    return float(sum(1 + len(instruction.args) for instruction in instructions))
+
+
+def delta_trim(kept: int, whole: int) -> float:
+    """Trimming cost: (|I_s| - |I_i|)²."""
+    return float((whole - kept) ** 2)
+
+
+def of_template(instantiation: Instantiation, clause: Clause) -> Mapping[str, float]:
+    """The factors that do not depend on how much of the template is kept."""
+    template = instantiation.template.clause
+    return {
+        "env": delta_env(instantiation),
+        "nl": delta_nl(template, clause),
+        "sim": delta_sim(instantiation),
+        "pcc": delta_pcc(template, clause),
+    }

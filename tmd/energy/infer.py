@@ -1,0 +1,216 @@
+"""Inference: the forward pass of Algorithm 1 over the clauses, and the best plans it leads to.
+
+α_j maps each environment that clause j can end in to the cheapest ways of getting there. For every template of
+the clause's verb, and every trimming of it, the constraints of what is left go to the planner, which finds the
+instructions that the person left unsaid. A verb without templates leaves the environment as it is:
+α_j = α_{j-1}.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tmd.energy.constraints import get_constraints
+from tmd.energy.factors import delta_dscpl, delta_trim, of_template
+from tmd.energy.plans import Choice, RankedPlan, Refusal, Step, why_lost
+from tmd.energy.weights import Weights
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits, Cube, Operator
+from tmd.planning.result import Filled, GaveUp, Planner, Unreachable
+from tmd.veil.instantiate import Instantiation, instantiate
+from tmd.veil.library import Library
+from tmd.veil.world import World
+
+Sequence_ = tuple[Instruction, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A way through the clauses so far: its cost, where it ends, and the choices that make it."""
+
+    energy: float
+    state: Bits
+    choices: tuple[Choice, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class _Candidate:
+    """A trimmed instantiation: what it costs before the planner has been asked."""
+
+    source: str
+    instructions: Sequence_
+    factors: dict[str, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Inferred:
+    """The outcome: plans, cheapest first, and the candidates that could not be executed."""
+
+    plans: tuple[RankedPlan, ...]
+    refusals: tuple[Refusal, ...]
+
+
+class Inference:
+    """Inference in one environment with one library.
+
+    Args:
+        world: The environment.
+        library: The templates.
+        weights: What each factor counts for.
+        filler: The planner that finds what was left unsaid.
+        beam: How many environments each α keeps; ``None`` keeps all, which is exact.
+        trim: How many leading instructions may be trimmed; ``None`` is any number.
+        top: How many plans are wanted; each α keeps as many ways to each environment.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        library: Library,
+        weights: Weights,
+        filler: Planner,
+        *,
+        beam: int | None = 5,
+        trim: int | None = None,
+        top: int = 1,
+    ) -> None:
+        self.world = world
+        self.library = library
+        self.weights = weights
+        self.filler = filler
+        self.beam = beam
+        self.trim = trim
+        self.top = top
+        self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
+        self._refused: dict[tuple[int, str, str], Refusal] = {}
+
+    def infer(self, clauses: Sequence[Clause], state: Bits) -> Inferred:
+        """The best plans for ``clauses`` from ``state``."""
+        self._refused.clear()
+        alpha = {state: [Path(0.0, state)]}
+        for number, clause in enumerate(clauses):
+            alpha = self._forward(number, clause, alpha)
+        paths = sorted((path for ways in alpha.values() for path in ways), key=_order)
+        plans = _distinct(paths, self.top)
+        ranked = [plans[0], *(_explained(plan, plans[0]) for plan in plans[1:])] if plans else []
+        return Inferred(tuple(ranked), tuple(self._refused.values()))
+
+    def _forward(self, number: int, clause: Clause, alpha: dict[Bits, list[Path]]) -> dict[Bits, list[Path]]:
+        """One step of Algorithm 1."""
+        if not self.library.propose(clause):
+            unseen = Choice(None, (), {})
+            return {s: [Path(p.energy, s, (*p.choices, unseen)) for p in ways] for s, ways in alpha.items()}
+        found: dict[Bits, list[Path]] = {}
+        for state, ways in alpha.items():
+            for choice, end in self._choices(number, clause, state):
+                for path in ways:
+                    found.setdefault(end, []).append(
+                        Path(path.energy + choice.energy, end, (*path.choices, choice))
+                    )
+        kept = {end: _cheapest(paths, self.top) for end, paths in found.items()}
+        ends = sorted(kept, key=lambda end: _order(kept[end][0]))[: self.beam]
+        return {end: kept[end] for end in ends}
+
+    def _choices(self, number: int, clause: Clause, state: Bits) -> list[tuple[Choice, Bits]]:
+        """Every executable choice for the clause in ``state``, with the state it ends in."""
+        found = []
+        for candidate in self._candidates(number, clause, state):
+            operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
+            answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
+            match answer:
+                case Filled():
+                    found.append(self._choice(number, candidate, answer, operators))
+                case Unreachable(reason):
+                    self._refuse(number, candidate.source, reason)
+                case GaveUp(limit):
+                    self._refuse(number, candidate.source, f"the planner gave up at {limit}")
+        return found
+
+    def _choice(
+        self, number: int, candidate: _Candidate, filled: Filled, operators: Sequence[Operator]
+    ) -> tuple[Choice, Bits]:
+        end = filled.state
+        for operator in operators:
+            end = operator.apply(end)
+        steps = tuple(Step(i, number, latent=True) for i in filled.plan)
+        steps += tuple(Step(i, number, latent=False) for i in candidate.instructions)
+        latent = self.weights["latent_dscpl"] * delta_dscpl(filled.plan)
+        return Choice(candidate.source, steps, {**candidate.factors, "latent_dscpl": latent}), end
+
+    def _candidates(self, number: int, clause: Clause, state: Bits) -> list[_Candidate]:
+        """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
+        best: dict[Sequence_, tuple[float, _Candidate]] = {}
+        for template in self.library.propose(clause):
+            instantiation = instantiate(template, clause, self.world, state)
+            if instantiation is None:
+                self._refuse(number, template.source, "there is no object for one of its variables")
+                continue
+            unknown = next(
+                (i for i in instantiation.instructions if i not in self.world.task.by_instruction), None
+            )
+            if unknown is not None:
+                self._refuse(number, template.source, f"{unknown} can never be done here")
+                continue
+            for candidate in self._trimmings(instantiation, clause):
+                energy = sum(candidate.factors.values())
+                if candidate.instructions not in best or energy < best[candidate.instructions][0]:
+                    best[candidate.instructions] = energy, candidate
+        return [candidate for _, candidate in best.values()]
+
+    def _trimmings(self, instantiation: Instantiation, clause: Clause) -> list[_Candidate]:
+        """I[t..] for every t that is allowed, with its factors weighed."""
+        whole = instantiation.instructions
+        fixed = {name: self.weights[name] * v for name, v in of_template(instantiation, clause).items()}
+        most = len(whole) if self.trim is None else min(self.trim, len(whole))
+        found = []
+        for t in range(most + 1):
+            kept = whole[t:]
+            own = {
+                "dscpl": self.weights["dscpl"] * delta_dscpl(kept),
+                "trim": self.weights["trim"] * delta_trim(len(kept), len(whole)),
+            }
+            found.append(_Candidate(instantiation.template.source, kept, fixed | own))
+        return found
+
+    def _needs(self, instructions: Sequence_, operators: Sequence[Operator]) -> tuple[Cube, ...]:
+        """The constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""
+        if instructions not in self._constraints:
+            for t, cubes in enumerate(get_constraints(operators)):
+                self._constraints[instructions[t:]] = cubes
+        return self._constraints[instructions]
+
+    def _refuse(self, number: int, source: str, reason: str) -> None:
+        self._refused.setdefault((number, source, reason), Refusal(number, source, reason))
+
+
+def _order(path: Path) -> tuple[float, tuple[Instruction, ...]]:
+    """Cheapest first; ties in the order of the instructions, so that the ranking is the same everywhere."""
+    return path.energy, _instructions(path)
+
+
+def _instructions(path: Path) -> tuple[Instruction, ...]:
+    return tuple(step.instruction for choice in path.choices for step in choice.steps)
+
+
+def _cheapest(paths: Sequence[Path], count: int) -> list[Path]:
+    """The ``count`` cheapest paths that differ in what is done."""
+    seen: set[tuple[Instruction, ...]] = set()
+    kept: list[Path] = []
+    for path in sorted(paths, key=_order):
+        done = _instructions(path)
+        if done not in seen:
+            seen.add(done)
+            kept.append(path)
+        if len(kept) == count:
+            break
+    return kept
+
+
+def _distinct(paths: Sequence[Path], count: int) -> list[RankedPlan]:
+    return [RankedPlan(path.choices, path.state) for path in _cheapest(paths, count)]
+
+
+def _explained(plan: RankedPlan, best: RankedPlan) -> RankedPlan:
+    return RankedPlan(plan.choices, plan.state, why_lost(plan, best))

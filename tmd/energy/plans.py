@@ -1,0 +1,106 @@
+"""Ranked plans: what inference hands out, with the reasons for the ranking."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One instruction of a plan.
+
+    Attributes:
+        instruction: What to do.
+        clause: The clause it serves. A latent step serves the instructions of this clause that follow it.
+        latent: Whether the person left it unsaid (it is in I_il, found by the planner).
+    """
+
+    instruction: Instruction
+    clause: int
+    latent: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """What was chosen for one clause.
+
+    Attributes:
+        source: The demonstration whose template was used; ``None`` where the verb is in none.
+        steps: The latent steps, then those of the template.
+        factors: The weighed factors, by name.
+    """
+
+    source: str | None
+    steps: tuple[Step, ...]
+    factors: Mapping[str, float]
+
+    @property
+    def energy(self) -> float:
+        """The sum of the factors."""
+        return sum(self.factors.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """A candidate that did not survive: a template, and why it cannot be executed here."""
+
+    clause: int
+    source: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class RankedPlan:
+    """A plan for the whole text.
+
+    Attributes:
+        choices: One for each clause.
+        state: The state it ends in.
+        why: Why it is not ranked first; empty for the first.
+    """
+
+    choices: tuple[Choice, ...]
+    state: Bits
+    why: str = ""
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """All steps in order."""
+        return tuple(step for choice in self.choices for step in choice.steps)
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The plan as it is executed."""
+        return tuple(step.instruction for step in self.steps)
+
+    @property
+    def factors(self) -> dict[str, float]:
+        """The weighed factors, summed over the clauses."""
+        total: dict[str, float] = {}
+        for choice in self.choices:
+            for name, value in choice.factors.items():
+                total[name] = total.get(name, 0.0) + value
+        return total
+
+    @property
+    def energy(self) -> float:
+        """Γ: the sum of all factors."""
+        return sum(choice.energy for choice in self.choices)
+
+
+def why_lost(plan: RankedPlan, best: RankedPlan) -> str:
+    """The factor that cost ``plan`` most against ``best``, and in which clause the two part."""
+    gaps = {
+        name: plan.factors.get(name, 0.0) - best.factors.get(name, 0.0)
+        for name in sorted(plan.factors.keys() | best.factors.keys())
+    }
+    name, gap = max(gaps.items(), key=lambda item: item[1], default=("", 0.0))
+    pairs = enumerate(zip(plan.choices, best.choices, strict=False), start=1)
+    clause = next((number for number, (ours, theirs) in pairs if ours.steps != theirs.steps), 0)
+    if gap <= 0:
+        return f"equal energy; another way for clause {clause}"
+    return f"energy {plan.energy - best.energy:+.4g}: {name} {gap:+.4g}, first for clause {clause}"

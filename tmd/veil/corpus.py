@@ -1,0 +1,77 @@
+"""The bundled problems of a domain: environments by name, and the demonstrations of its tasks."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from pathlib import Path
+
+from tmd.errors import TmdError
+from tmd.language.lexicon import Lexicon
+from tmd.pddl.syntax import nearest
+from tmd.veil.demonstration import Demonstration, read_demonstrations
+from tmd.veil.world import World, make_world
+from tmd.world.compile import compile_problem
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder
+
+
+class Corpus:
+    """What lies in ``<problems>/<domain>/``: ``environments/*.yaml`` and ``<task>/demonstrations.jsonl``.
+
+    Args:
+        folder: The domain.
+        directory: ``<problems>/<domain>``.
+    """
+
+    def __init__(self, folder: DomainFolder, directory: Path) -> None:
+        self.folder = folder
+        self.directory = directory
+        self._worlds: dict[str, World] = {}
+
+    @cached_property
+    def lexicon(self) -> Lexicon:
+        """The built-in words with those of the domain."""
+        return Lexicon.load(self.folder.lexicon_path)
+
+    def environments(self) -> list[str]:
+        """The names of the environments, sorted."""
+        return sorted(path.stem for path in (self.directory / "environments").glob("*.yaml"))
+
+    def world(self, name: str) -> World:
+        """The environment ``name``, ground; made once.
+
+        Raises:
+            TmdError: There is none, or it is wrong.
+        """
+        if name not in self._worlds:
+            path = self.directory / "environments" / f"{name}.yaml"
+            if name not in self.environments():
+                raise TmdError(
+                    f"there is no environment '{name}' in {path.parent}",
+                    hint=nearest(name, self.environments()),
+                )
+            problem = compile_problem(load_environment(path), self.folder)
+            self._worlds[name] = make_world(name, problem, self.lexicon)
+        return self._worlds[name]
+
+    def tasks(self) -> list[str]:
+        """The tasks there are demonstrations of, sorted."""
+        return sorted(path.parent.name for path in self.directory.glob("*/demonstrations.jsonl"))
+
+    def demonstrations(self, task: str | None = None) -> list[Demonstration]:
+        """The demonstrations of one task, or of all, in the order of the files.
+
+        Raises:
+            TmdError: There is no such task, or a file is wrong.
+        """
+        if task is not None and task not in self.tasks():
+            raise TmdError(
+                f"there are no demonstrations of '{task}' in {self.directory}",
+                hint=nearest(task, self.tasks()),
+            )
+        tasks = self.tasks() if task is None else [task]
+        return [
+            demonstration
+            for name in tasks
+            for demonstration in read_demonstrations(self.directory / name / "demonstrations.jsonl")
+        ]

@@ -1,0 +1,75 @@
+"""Which objects of an environment a noun may mean.
+
+The evidence about words is the language room's (:func:`tmd.language.nouns.rank`). Here it meets the environment:
+a noun that names no object but something an object contains (*coffee*, *raspberry syrup*) means what contains it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from tmd.language.lexicon import Lexicon
+from tmd.language.nouns import Candidate, Match, rank
+from tmd.pddl.hierarchy import hierarchy
+from tmd.pddl.task import Bits
+from tmd.veil.states import PART_OF, Profiles
+
+CONTAINED = "contained"
+"""How a :class:`Match` was found: the object contains what the noun names."""
+_CONTAINED_SHARE = 0.9
+"""A container is a weaker reading than the thing itself."""
+
+
+class Mentions:
+    """The nouns of one environment.
+
+    Args:
+        profiles: The environment's objects and their states.
+        lexicon: The domain's words.
+    """
+
+    def __init__(self, profiles: Profiles, lexicon: Lexicon) -> None:
+        self.profiles = profiles
+        self.lexicon = lexicon
+        problem = profiles.task.problem
+        kinds = hierarchy(problem.domain)
+        self.types: Mapping[str, tuple[str, ...]] = {
+            o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()
+        }
+        wholes = {
+            atom.args[0]: atom.args[1] for atom in profiles.task.static if atom.predicate == PART_OF
+        }
+        self._candidates = tuple(
+            Candidate(name, types[0], types[1:], _words(name, wholes.get(name)))
+            for name, types in self.types.items()
+        )
+        self._known: dict[str, tuple[Match, ...]] = {}
+
+    def of(self, noun: str, state: Bits) -> list[Match]:
+        """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
+        if noun not in self._known:
+            self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
+        found: dict[str, Match] = {}
+        for match in self._known[noun]:
+            if match.name not in self.profiles.constants:
+                found.setdefault(match.name, match)
+                continue
+            for name in self._containers(match.name, state):
+                better = Match(name, match.score * _CONTAINED_SHARE, CONTAINED)
+                if name not in found or found[name].score < better.score:
+                    found[name] = better
+        return sorted(found.values(), key=lambda m: -m.score)
+
+    def _containers(self, constant: str, state: Bits) -> list[str]:
+        """The objects in one of whose states ``constant`` stands, in the problem's order."""
+        return [
+            name
+            for name in self.profiles.objects
+            if any(constant in key[1:] and value for key, value in self.profiles.own(name, state).items())
+        ]
+
+
+def _words(name: str, whole: str | None) -> tuple[str, ...]:
+    """The words in an object's name; a part also answers to the name of its whole."""
+    words = [word.rstrip("0123456789") for word in name.split("_")]
+    return tuple(dict.fromkeys([w for w in words if w] + ([whole.rstrip("0123456789")] if whole else [])))

@@ -1,0 +1,31 @@
+"""One environment, ready for grounding: the ground task, the objects' states and the nouns that name them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmd.language.lexicon import Lexicon
+from tmd.pddl.grounding import ground
+from tmd.pddl.hierarchy import Universe, universe
+from tmd.pddl.model import Problem
+from tmd.pddl.task import Task
+from tmd.veil.mentions import Mentions
+from tmd.veil.states import Profiles
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """What templates are made from and instantiated in."""
+
+    name: str
+    task: Task
+    objects: Universe
+    profiles: Profiles
+    mentions: Mentions
+
+
+def make_world(name: str, problem: Problem, lexicon: Lexicon) -> World:
+    """Ground ``problem`` and prepare its objects and nouns."""
+    task = ground(problem)
+    profiles = Profiles(task)
+    return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon))
