@@ -38,6 +38,7 @@ class Clause:
         text: What stands there.
         antecedents: For each pronoun in ``objects`` (and ``""`` for an elided object) what it may mean,
             likeliest first.
+        together: For each entry of ``antecedents``, how many of its first names are meant together ("them").
         quantities: For objects said with a number, the number as written (``two``, ``3``).
         condition: A condition ("until it boils"), as written.
         duration: A duration ("for 3 minutes"), as written.
@@ -50,6 +51,7 @@ class Clause:
     span: Span = Span(0, 0)
     text: str = field(default="", compare=False)
     antecedents: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
+    together: Mapping[str, int] = field(default_factory=dict, compare=False)
     quantities: Mapping[str, str] = field(default_factory=dict, compare=False)
     condition: str | None = field(default=None, compare=False)
     duration: str | None = field(default=None, compare=False)
@@ -59,9 +61,14 @@ class Clause:
         """The objects with each pronoun replaced by its likeliest antecedents, each name once."""
         names: dict[str, None] = {}
         for name in self.objects:
-            names.update(dict.fromkeys(self.antecedents.get(name, (name,))[:1] or (name,)))
-        names.update(dict.fromkeys(self.antecedents.get("", ())[:1]))
+            names.update(dict.fromkeys(self.meant(name)))
+        names.update(dict.fromkeys(self.meant("") if "" in self.antecedents else ()))
         return tuple(names)
+
+    def meant(self, name: str) -> tuple[str, ...]:
+        """What one language-object most likely means: itself unless it is a pronoun (``""``: the elided one)."""
+        likeliest = tuple(self.antecedents.get(name, ()))[: self.together.get(name, 1)]
+        return likeliest or (name,)
 
 
 class Skipped(NamedTuple):

@@ -1,0 +1,254 @@
+"""From the parse tree to clauses: which noun is object, and between which nouns a preposition stands.
+
+The rules are those of ``docs/language.md``, section "Attachment".
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from lark import Tree
+
+from tmd.language.clause import Clause, Relation, Span
+from tmd.language.grammar import Leaf
+from tmd.language.lexicon import section
+from tmd.language.morphology import singular
+from tmd.language.tokens import Kind, Token
+
+_PLACING = frozenset(
+    "put place set lay keep pour drop put_back put_down set_down return store hang insert".split()
+)
+_ORIGIN = frozenset({"from", "out_of", "off"})
+_MULTIPLE = "; "
+
+
+@dataclass(slots=True)
+class Phrase:
+    """A noun phrase: its head's name, what hangs on it with "of", its number as written."""
+
+    name: str
+    place: int
+    plural: bool
+    determined: bool
+    pronoun: bool
+    quantity: str = ""
+    of: list[Phrase] = field(default_factory=list)
+
+    def all(self) -> Iterator[Phrase]:
+        """Yield the phrase and everything under it."""
+        yield self
+        for phrase in self.of:
+            yield from phrase.all()
+
+
+@dataclass(slots=True)
+class Draft:
+    """A clause before pronouns are resolved.
+
+    Attributes:
+        verb: The verb token.
+        direct: What the verb acts on.
+        landmarks: What stands behind prepositions.
+        relations: The relation matrix.
+        folds: Conditions, durations, purposes.
+        spans: Everything that belongs to it.
+    """
+
+    verb: Token
+    direct: list[Phrase] = field(default_factory=list)
+    landmarks: list[Phrase] = field(default_factory=list)
+    relations: list[Relation] = field(default_factory=list)
+    folds: list[Token] = field(default_factory=list)
+    spans: list[Span] = field(default_factory=list)
+
+    def mentions(self) -> list[Phrase]:
+        """Every phrase in order of mention, each name once."""
+        ordered = sorted(
+            (p for top in self.direct + self.landmarks for p in top.all()), key=lambda p: p.place
+        )
+        return list({p.name: p for p in reversed(ordered)}.values())[::-1]
+
+    def clause(self, text: str) -> Clause:
+        """Return the clause without antecedents."""
+        span = Span(min(s.start for s in self.spans), max(s.end for s in self.spans))
+        mentions = self.mentions()
+        return Clause(
+            verb=self.verb.stem,
+            objects=tuple(p.name for p in mentions),
+            relations=tuple(dict.fromkeys(self.relations)),
+            span=span,
+            text=text[span.start : span.end],
+            quantities={p.name: p.quantity for p in mentions if p.quantity},
+            condition=self._folded(text, "condition"),
+            duration=self._folded(text, "duration"),
+            purpose=self._folded(text, "purpose"),
+        )
+
+    def _folded(self, text: str, form: str) -> str | None:
+        parts = [" ".join(text[t.span.start : t.span.end].split()) for t in self.folds if t.form == form]
+        return _MULTIPLE.join(parts) or None
+
+
+def drafts(tree: Tree[Leaf]) -> list[Draft]:
+    """Return the clauses of a parse tree in order."""
+    result: list[Draft] = []
+    for unit in tree.children:
+        if not isinstance(unit, Tree):
+            continue
+        front: list[Tree[Leaf] | Leaf] = []
+        for child in unit.children:
+            if isinstance(child, Tree) and child.data == "front":
+                front = [c for c in child.children if not (isinstance(c, Tree) and c.data == "group")]
+            elif isinstance(child, Tree):
+                result.extend(_clause_drafts(child, front))
+                front = []
+    return result
+
+
+def _leaves(node: Tree[Leaf] | Leaf) -> Iterator[Token]:
+    if isinstance(node, Leaf):
+        yield node.source
+    elif isinstance(node, Tree):
+        for child in node.children:
+            yield from _leaves(child)
+
+
+def _clause_drafts(clause: Tree[Leaf], front: list[Tree[Leaf] | Leaf]) -> list[Draft]:
+    verbs = [t for t in _leaves(clause.children[0]) if t.kind is Kind.V]
+    result = [Draft(verb, spans=[verb.span, *verb.parts]) for verb in verbs]
+    last, arguments = result[-1], list(clause.children[1:])
+    for node in (*front, *arguments):
+        for token in _leaves(node):
+            last.spans.extend([token.span, *token.parts])
+    first = result[0]
+    for node in front:
+        _add_fold(first, node)
+        first.spans.extend(t.span for t in _leaves(node) if first is not last)
+    if first is not last:
+        ahead = {t.span for node in front for t in _leaves(node)}
+        last.spans = [s for s in last.spans if s not in ahead]
+    _attach(last, arguments, [n for n in front if isinstance(n, Tree)])
+    for draft in result[:-1]:
+        draft.direct = last.direct
+    return result
+
+
+def _add_fold(draft: Draft, node: Tree[Leaf] | Leaf) -> None:
+    if isinstance(node, Leaf) and node.source.kind is Kind.MOD:
+        draft.folds.append(node.source)
+
+
+def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[Leaf]]) -> None:
+    state = _Attachment(draft)
+    for node in arguments:
+        if not isinstance(node, Tree):
+            _add_fold(draft, node)
+        elif node.data == "group":
+            state.group(_phrases(node))
+        else:
+            state.place(node)
+    for node in front:
+        state.host = []
+        state.place(node)
+    state.finish()
+
+
+class _Attachment:
+    """Attaches the arguments of one clause from left to right."""
+
+    def __init__(self, draft: Draft) -> None:
+        self.draft = draft
+        self.host: list[Phrase] = []
+        """The nouns the next preposition of place stands beside."""
+        self.behind = ""
+        """The preposition they stand behind, if any."""
+        self.pending: list[tuple[str, list[Phrase]]] = []
+        """Relations whose source is the direct object, which may still come."""
+
+    def group(self, phrases: list[Phrase]) -> None:
+        draft = self.draft
+        stem = draft.verb.stem
+        dative = len(draft.direct) == 1 and not self.behind and stem in section("dative_verbs")
+        if dative and not draft.relations:
+            receiver = draft.direct.pop()
+            draft.landmarks.append(receiver)
+            draft.relations.extend(Relation("to", p.name, receiver.name) for p in phrases)
+        draft.direct.extend(phrases)
+        self.host, self.behind = phrases, ""
+        self._of(phrases)
+
+    def _of(self, phrases: list[Phrase]) -> None:
+        for phrase in phrases:
+            for part in phrase.of:
+                self.draft.relations.append(Relation("of", phrase.name, part.name))
+                self._of([part])
+
+    def place(self, node: Tree[Leaf]) -> None:
+        preposition = next(_leaves(node))
+        groups = [c for c in node.children if isinstance(c, Tree)]
+        if not groups:
+            return
+        name = preposition.text
+        targets = _phrases(groups[0])
+        self.draft.landmarks.extend(targets)
+        self._of(targets)
+        if self._hosted(name) and self.host:
+            self.draft.relations.extend(Relation(name, s.name, t.name) for s in self.host for t in targets)
+        else:
+            self.pending.append((name, targets))
+        if not (name == "with" and self.draft.verb.stem in section("with_verbs")):
+            self.host, self.behind = targets, name
+        else:
+            self.host, self.behind = [], name
+
+    def _hosted(self, name: str) -> bool:
+        """Tell whether a preposition stands beside the noun before it rather than the direct object."""
+        stem = self.draft.verb.stem
+        if name == "with":
+            return stem not in section("with_verbs")
+        if name not in section("static") and name != "of":
+            return False
+        return not (self.behind in _ORIGIN and stem in _PLACING)
+
+    def finish(self) -> None:
+        for name, targets in self.pending:
+            sources: list[str | None] = [p.name for p in self.draft.direct] or [None]
+            self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
+
+
+def _phrases(group: Tree[Leaf]) -> list[Phrase]:
+    phrases = [_phrase(node) for node in group.children if isinstance(node, Tree)]
+    result: list[Phrase] = []
+    for phrase in phrases:
+        host = result[-1] if result else None
+        if host is not None and host.of and host.name in section("inner_and") and not phrase.determined:
+            host.of.append(phrase)
+        else:
+            result.append(phrase)
+    return result
+
+
+def _phrase(node: Tree[Leaf]) -> Phrase:
+    chain: list[Phrase] = []
+    lead: list[Token] = []
+    for child in node.children:
+        if isinstance(child, Leaf):
+            lead.append(child.source)
+        elif isinstance(child, Tree):
+            phrase = _head(child, lead)
+            if chain:
+                chain[-1].of.append(phrase)
+            chain.append(phrase)
+            lead = []
+    return chain[0]
+
+
+def _head(node: Tree[Leaf], lead: list[Token]) -> Phrase:
+    words = list(_leaves(node))
+    written = "_".join(t.text for t in words)
+    pronoun = words[-1].kind is Kind.PRON
+    name = written if pronoun else singular(written)
+    quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
+    determined = any(t.kind is Kind.DET for t in lead)
+    return Phrase(name, words[0].span.start, name != written, determined, pronoun, quantity)

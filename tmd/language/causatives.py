@@ -1,0 +1,113 @@
+"""Causatives as plain clauses: "let the water boil" is (boil, [water]), "make sure it is off" (turn_off, [it])."""
+
+from __future__ import annotations
+
+from tmd.language.clause import Span
+from tmd.language.lexicon import section
+from tmd.language.tokens import Kind, Token
+
+_INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.ADV, Kind.CC})
+_SWITCHES = {"on": "turn_on", "off": "turn_off"}
+
+
+def _verb(stem: str, *sources: Token) -> Token:
+    """Make the verb of a rewritten clause; it stands where its sources stand."""
+    first, *rest = (t.span for t in sources)
+    return Token(Kind.V, stem, first, stem=stem, form="base", strength=3, parts=list(rest))
+
+
+def _filler(tokens: list[Token]) -> list[Token]:
+    for token in tokens:
+        token.kind = Kind.FILLER
+    return tokens
+
+
+def _nominal_end(tokens: list[Token], at: int) -> int:
+    while at < len(tokens) and tokens[at].kind in _INSIDE:
+        at += 1
+    return at
+
+
+def rewrite_let(tokens: list[Token], at: int) -> tuple[list[Token], int]:
+    """Rewrite "let X (to) do" as "do X".
+
+    Returns:
+        The new tokens and the index where reading goes on.
+    """
+    end = _nominal_end(tokens, at + 1)
+    objects, stop = tokens[at + 1 : end], end
+    if end < len(tokens) and tokens[end].kind is Kind.TO:
+        end += 1
+    if end < len(tokens) and tokens[end].kind is Kind.V and tokens[end].form == "base":
+        verb = tokens[end]
+        if objects and objects[-1].text in ("us", "me"):
+            return [*_filler(tokens[at:end]), verb], end + 1
+        lead = _verb(verb.stem, tokens[at], verb)
+        return [lead, *objects, *_filler(tokens[stop:end])], end + 1
+    token = tokens[at]
+    token.kind, token.form, token.strength = Kind.V, "base", 3
+    return [token], at + 1
+
+
+def rewrite_ensure(tokens: list[Token], at: int) -> tuple[list[Token], int]:
+    """Rewrite "make sure (that) X is done" as "do X", and "make sure to do" as "do".
+
+    Where the state is neither a verb nor on or off, the verb stays ``make_sure``.
+    """
+    ensure, begin = tokens[at], at + 1
+    while begin < len(tokens) and (tokens[begin].text == "that" or tokens[begin].kind is Kind.TO):
+        begin += 1
+    lead = tokens[at:begin]
+    if begin < len(tokens) and tokens[begin].kind in (Kind.V, Kind.SUBJECT, Kind.NEG):
+        return _filler(lead), begin
+    copula = _nominal_end(tokens, begin)
+    place = copula
+    while place < len(tokens) and tokens[place].kind is Kind.P and copula - begin:
+        copula = place = _nominal_end(tokens, place + 1)
+    if copula >= len(tokens) or tokens[copula].kind is not Kind.AUX:
+        ensure.kind, ensure.stem, ensure.form = Kind.V, _stem(ensure.text), "base"
+        return [ensure, *_filler(lead[1:])], begin
+    state = copula + 1
+    while state < len(tokens) and tokens[state].kind in (Kind.ADV, Kind.AUX):
+        state += 1
+    stem, used = _state_verb(tokens, state)
+    sources = [ensure, *tokens[copula:used]]
+    return [_verb(stem, *sources), *_filler(lead[1:]), *tokens[begin:copula]], used
+
+
+def _stem(text: str) -> str:
+    return "make_sure" if "_" in text else text
+
+
+def _state_verb(tokens: list[Token], at: int) -> tuple[str, int]:
+    """Return the verb that brings about the state that begins at ``at``, and where it ends."""
+    if at >= len(tokens):
+        return "make_sure", at
+    token = tokens[at]
+    following = tokens[at + 1] if at + 1 < len(tokens) else None
+    nominal_next = following is not None and following.kind in _INSIDE - {Kind.CC, Kind.ADV}
+    if token.kind is Kind.P and token.text in _SWITCHES and not nominal_next:
+        return _SWITCHES[token.text], at + 1
+    if token.kind is Kind.PARTICIPLE and token.stem:
+        particle = following is not None and following.text in (
+            "on",
+            "off",
+            "up",
+            "down",
+            "in",
+            "away",
+            "out",
+        )
+        if particle and following is not None:
+            after = tokens[at + 2].kind if at + 2 < len(tokens) else Kind.STOP
+            if after not in _INSIDE - {Kind.CC, Kind.ADV}:
+                return f"{token.stem}_{following.text}", at + 2
+        return token.stem, at + 1
+    if token.stem and token.text in section("verbs") and token.kind in (Kind.ADJ, Kind.N):
+        return token.stem, at + 1
+    return "make_sure", at + (token.kind is Kind.ADJ)
+
+
+def covered(token: Token) -> list[Span]:
+    """Return every place a token stands at."""
+    return [token.span, *token.parts]

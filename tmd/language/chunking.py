@@ -1,0 +1,193 @@
+"""Prepare the token stream of the clause grammar: particles, separators against conjunctions, fillers out."""
+
+from __future__ import annotations
+
+from tmd.language.lexicon import Lexicon, section
+from tmd.language.tagging import fold
+from tmd.language.tokens import Kind, Token
+
+_PURE = frozenset({"up", "down", "out", "away", "back", "together", "apart", "aside", "around"})
+"""Particles that stay particles even when a noun follows."""
+_NP = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON})
+_HEADS = frozenset({Kind.N, Kind.PRON})
+_LINKS = frozenset({Kind.COMMA, Kind.CC})
+_VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
+
+
+def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
+    """Return the tokens the grammar sees, in order."""
+    tokens = _settings(_numbered(_partitives(tokens)))
+    _particles(tokens, lexicon)
+    tokens = [t for t in tokens if t.kind not in (Kind.FILLER, Kind.ADV, Kind.ADJ, Kind.SKIP)]
+    tokens = _links(_drop_dangling(tokens))
+    return [t for t in tokens if t.kind in _VISIBLE]
+
+
+def _following(tokens: list[Token], at: int) -> Token | None:
+    for token in tokens[at + 1 : at + 12]:
+        if token.kind not in (Kind.ADV, Kind.FILLER, Kind.ADJ):
+            return token
+    return None
+
+
+def _partitives(tokens: list[Token]) -> list[Token]:
+    """ "all of the cups" is "the cups"."""
+    for at, token in enumerate(tokens[:-1]):
+        of = tokens[at + 1]
+        quantity = token.text in section("partitives") and token.kind in (
+            Kind.N,
+            Kind.PRON,
+            Kind.DET,
+            Kind.NUM,
+        )
+        if quantity and of.kind is Kind.P and of.text == "of":
+            of.kind = Kind.FILLER
+            token.kind = Kind.NUM if token.kind is Kind.NUM else Kind.DET
+    return tokens
+
+
+def _numbered(tokens: list[Token]) -> list[Token]:
+    """Join "burner 2" to one noun; a numeral without a noun is a noun itself."""
+    result: list[Token] = []
+    for at, token in enumerate(tokens):
+        following = _following(tokens, at)
+        counted = following is not None and following.kind in (Kind.N, Kind.NUM)
+        if token.kind is Kind.NUM and not counted:
+            before = result[-1] if result else None
+            if before is not None and before.kind is Kind.N:
+                joined = fold([before, token], Kind.N)
+                joined.parts = before.parts
+                result[-1] = joined
+                continue
+            of = following is not None and following.text == "of"
+            token.kind = Kind.DET if of else Kind.PRON
+        result.append(token)
+    return result
+
+
+def _settings(tokens: list[Token]) -> list[Token]:
+    """Fold "on high", "to full": a setting without a noun says how."""
+    for at, token in enumerate(tokens[:-1]):
+        if token.kind is not Kind.P or token.text not in ("on", "to", "at", "in"):
+            continue
+        setting = next((t for t in tokens[at + 1 :][:3] if t.kind is not Kind.ADV), None)
+        if setting is None or setting.text not in section("settings"):
+            continue
+        after = _after(tokens, setting)
+        if after is None or after.kind not in (Kind.N, Kind.PARTICIPLE) and after.text != "of":
+            setting.kind, setting.form = Kind.MOD, "setting"
+            if token.text != "on":
+                token.kind = Kind.FILLER
+    return tokens
+
+
+def _after(tokens: list[Token], target: Token) -> Token | None:
+    for at, token in enumerate(tokens):
+        if token is target:
+            return tokens[at + 1] if at + 1 < len(tokens) else None
+    return None
+
+
+def _particles(tokens: list[Token], lexicon: Lexicon) -> None:
+    """Join each verb with its particle, beside it or behind its object."""
+    for at, verb in enumerate(tokens):
+        if verb.kind is Kind.V and verb.stem:
+            _join_multiword(tokens, at) or _join_particle(tokens, at, lexicon)
+
+
+def _join_multiword(tokens: list[Token], at: int) -> bool:
+    """Join "get rid of", "take care of", "look for"."""
+    verb = tokens[at]
+    for length in (3, 2):
+        run = tokens[at : at + length]
+        name = "_".join([verb.stem, *(t.text for t in run[1:])])
+        if len(run) == length and name in section("verb_of"):
+            _absorb(verb, run[1:], name)
+            return True
+    for end, token in enumerate(tokens[at + 1 : at + 15], at + 1):
+        if token.kind in (Kind.V, Kind.STOP, Kind.SEP):
+            break
+        if token.text == "ready" and f"{verb.stem}_ready" in section("verb_of"):
+            _absorb(verb, tokens[end : end + 1], f"{verb.stem}_ready")
+            return True
+    return False
+
+
+def _absorb(verb: Token, others: list[Token], stem: str) -> None:
+    verb.stem = stem
+    for token in others:
+        token.kind = Kind.FILLER
+        verb.parts.append(token.span)
+
+
+def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
+    verb = tokens[at]
+    preposition = False
+    for place, token in enumerate(tokens[at + 1 :], at + 1):
+        if token.kind in (Kind.V, Kind.STOP, Kind.SEP, Kind.SKIP):
+            return False
+        if token.kind is Kind.MOD and token.form != "setting":
+            return False
+        if token.kind not in (Kind.P, Kind.ADV):
+            continue
+        match = lexicon.particle(verb.stem, token.text)
+        if match is not None and not (preposition and token.text not in _PURE and not match):
+            if _is_particle(tokens, at, place, match):
+                _absorb(verb, [token], f"{verb.stem}_{token.text}")
+                return True
+        preposition = preposition or token.kind is Kind.P
+    return False
+
+
+def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool:
+    text = tokens[place].text
+    following = _following(tokens, place)
+    noun = following is not None and following.kind in _NP
+    if not noun or text in _PURE:
+        return True
+    adjacent = all(t.kind in (Kind.ADV, Kind.FILLER) for t in tokens[at + 1 : place])
+    return adjacent and strict
+
+
+def _drop_dangling(tokens: list[Token]) -> list[Token]:
+    """Drop determiners and numerals without a noun, and mark "of"."""
+    kept: list[Token] = []
+    for at, token in enumerate(tokens):
+        following = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
+        if token.kind in (Kind.DET, Kind.NUM) and following not in _NP:
+            continue
+        if token.kind is Kind.P and token.text == "of":
+            if not kept or kept[-1].kind not in _HEADS or following not in _NP:
+                if following not in _NP:
+                    continue
+            else:
+                token.kind = Kind.OF
+        kept.append(token)
+    return kept
+
+
+def _links(tokens: list[Token]) -> list[Token]:
+    """Decide for each comma and conjunction: between nouns, between verbs, between clauses, or nothing."""
+    result: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        token = tokens[at]
+        if token.kind is Kind.STOP:
+            token.kind = Kind.SEP
+        if token.kind not in _LINKS:
+            result.append(token)
+            at += 1
+            continue
+        end = at
+        while end < len(tokens) and tokens[end].kind in _LINKS:
+            end += 1
+        before = result[-1].kind if result else Kind.SEP
+        after = tokens[end].kind if end < len(tokens) else Kind.SEP
+        if after is Kind.V:
+            token.kind = Kind.VCC if before is Kind.V else Kind.SEP
+            result.append(token)
+        elif before in _HEADS and after in _NP:
+            token.kind = Kind.CONJ
+            result.append(token)
+        at = end
+    return result

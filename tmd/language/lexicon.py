@@ -1,0 +1,214 @@
+"""The words the parser knows: own lists, WordNet's verbs behind them, and what a domain adds.
+
+A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon_file`.
+"""
+
+from __future__ import annotations
+
+import difflib
+import gzip
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from importlib.resources import files
+from pathlib import Path
+
+from tmd.language.morphology import singular, verb_stem
+
+_TYPO_LENGTH = 4
+"""Shorter words are never corrected."""
+_TYPO_RATIO = 0.85
+"""Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
+
+
+def data_text(name: str) -> str:
+    """Return a data file of this room as text; ``.gz`` is unpacked."""
+    raw = (files("tmd.language") / "data" / name).read_bytes()
+    return (gzip.decompress(raw) if name.endswith(".gz") else raw).decode("utf-8")
+
+
+@cache
+def _sections() -> Mapping[str, tuple[str, ...]]:
+    sections: dict[str, list[str]] = {}
+    current: list[str] = []
+    for line in data_text("words.txt").splitlines():
+        if line.startswith("["):
+            current = sections.setdefault(line.strip("[]"), [])
+        elif not line.startswith("#"):
+            current.extend(line.split())
+    return {name: tuple(words) for name, words in sections.items()}
+
+
+@cache
+def section(name: str) -> frozenset[str]:
+    """Return one section of ``data/words.txt``."""
+    return frozenset(_sections()[name])
+
+
+@cache
+def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
+    """Return a section of several-word entries by first word, longest first."""
+    table: dict[str, list[tuple[str, ...]]] = {}
+    for entry in _sections()[name]:
+        words = tuple(entry.split("_"))
+        table.setdefault(words[0], []).append(words)
+    return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
+
+
+@cache
+def _wordnet_verbs() -> tuple[Mapping[str, str], dict[str, str], frozenset[str]]:
+    """Return (stem -> flag, irregular form -> stem, verbs with a particle)."""
+    flags: dict[str, str] = {}
+    irregular: dict[str, str] = {}
+    phrasal = set()
+    for line in data_text("wordnet_verbs.txt").splitlines():
+        if line.startswith("#"):
+            continue
+        head, *rest = line.split()
+        if "_" in head:
+            phrasal.add(head)
+        else:
+            flags[head] = rest[0]
+            for form in rest[1:]:
+                irregular.setdefault(form, head)
+    return flags, irregular, frozenset(phrasal)
+
+
+@cache
+def _english() -> frozenset[str]:
+    return frozenset(data_text("wordnet_words.txt.gz").split())
+
+
+@dataclass(frozen=True)
+class Lexicon:
+    """Built-in words plus those of a domain.
+
+    Attributes:
+        verbs: Further verbs.
+        phrasal: Further verbs with a particle, each with the verb it stands for (``turn_on`` itself, or
+            another): ``{"fire_up": "turn_on"}``.
+        nouns: What a noun may mean here: names of classes, objects or substances, likeliest first.
+        verb_synonyms: Verb to the verb whose templates serve it as well.
+        source: The file it came from.
+    """
+
+    verbs: frozenset[str] = frozenset()
+    phrasal: Mapping[str, str] = field(default_factory=dict)
+    nouns: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    verb_synonyms: Mapping[str, str] = field(default_factory=dict)
+    source: str = ""
+
+    @classmethod
+    def load(cls, path: Path | str) -> Lexicon:
+        """Read a ``lexicon.yaml``.
+
+        Raises:
+            TmdError: The file cannot be read or is not a lexicon; with its place.
+        """
+        from tmd.language.lexicon_file import read_lexicon
+
+        return read_lexicon(Path(path))
+
+    def canonical_verb(self, verb: str) -> str:
+        """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
+        return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
+
+    @cached_property
+    def _own_verbs(self) -> frozenset[str]:
+        return section("verbs") | section("noun_verbs") | section("lead_verbs") | self.verbs
+
+    @cached_property
+    def _own_nouns(self) -> frozenset[str]:
+        heads = {part for noun in self.nouns for part in (noun, noun.rpartition("_")[2])}
+        return section("nouns") | frozenset(heads)
+
+    @cached_property
+    def _phrasal(self) -> Mapping[str, bool]:
+        """Verb with particle -> whether the particle is one even before a noun."""
+        table = dict.fromkeys(_wordnet_verbs()[2], False)
+        table.update((entry.rstrip("!"), entry.endswith("!")) for entry in _sections()["phrasal"])
+        table.update((name, True) for name in self.phrasal)
+        return table
+
+    def verb(self, word: str) -> tuple[str, str, int] | None:
+        """Return (stem, form, strength) if a word can be a verb.
+
+        Strength 3 is a verb of the own list, 2 one that is a noun as well, 1 more often a noun.
+        """
+        found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
+        if found is None:
+            return None
+        stem, form = found
+        if stem in self.verbs:
+            return stem, form, 3
+        noun = singular(word) in self._own_nouns or stem in self._own_nouns
+        if stem in section("noun_verbs"):
+            return stem, form, 1
+        if stem in section("verbs"):
+            return stem, form, 2 if noun else 3
+        flag = _wordnet_verbs()[0].get(stem, "v")
+        strength = {"v": 2, "vn": 2, "nv": 1}[flag]
+        return stem, form, min(strength, 1) if noun else strength
+
+    def _known_verb(self, word: str) -> bool:
+        return word in self._own_verbs or word in _wordnet_verbs()[0]
+
+    def particle(self, stem: str, particle: str) -> bool | None:
+        """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
+        return self._phrasal.get(f"{stem}_{particle}")
+
+    def is_noun(self, word: str) -> bool:
+        """Tell whether the own lists or the domain know a noun, in any number."""
+        return word in self._own_nouns or singular(word) in self._own_nouns
+
+    def knows(self, word: str) -> bool:
+        """Tell whether a word is in any list, WordNet's included."""
+        return (
+            word in _closed_words()
+            or self.is_noun(word)
+            or self.verb(word) is not None
+            or word in _english()
+            or singular(word) in _english()
+        )
+
+    def correct(self, word: str) -> str | None:
+        """Return the known word a typo stands for, or ``None``.
+
+        Only words that are in no list are corrected, and only to a word with the same first letter that is
+        alike enough (:data:`_TYPO_RATIO`).
+        """
+        if len(word) < _TYPO_LENGTH or self.knows(word):
+            return None
+        near = difflib.get_close_matches(word, self._by_initial.get(word[0], ()), 1, _TYPO_RATIO)
+        return near[0] if near else None
+
+    @cached_property
+    def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
+        table: dict[str, list[str]] = {}
+        words = self._own_nouns | section("verbs") | section("noun_verbs") | self.verbs | _typo_closed()
+        for word in sorted(words):
+            if "_" not in word and len(word) >= _TYPO_LENGTH:
+                table.setdefault(word[0], []).append(word)
+        return {initial: tuple(group) for initial, group in table.items()}
+
+
+_CLOSED = (
+    "drop_adjectives keep_adjectives determiners quantifiers pronouns prepositions particles units_time units "
+    "numbers adverbs conditions relatives be modals negations names subjects let_verbs"
+).split()
+
+
+@cache
+def _closed_words() -> frozenset[str]:
+    return frozenset({"and", "or", "but", "then", "to", "not", "plus"}.union(*(section(n) for n in _CLOSED)))
+
+
+@cache
+def _typo_closed() -> frozenset[str]:
+    return section("prepositions") | section("drop_adjectives")
+
+
+@cache
+def builtin() -> Lexicon:
+    """Return the lexicon without a domain."""
+    return Lexicon()

@@ -1,0 +1,147 @@
+"""What pronouns and missing objects may mean: a ranked list from the last few clauses.
+
+The best simple rule on real instructions is the direct object of the nearest earlier clause that has one,
+with agreement in number; nouns behind prepositions come after direct objects of the same clause, but before
+those of older clauses. Whoever knows the environment picks from the list.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from tmd.language.attachment import Draft, Phrase
+from tmd.language.clause import Clause
+from tmd.language.lexicon import section
+
+SINGULAR = frozenset({"it", "this", "that", "itself", "one"})
+PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones", "everything"}) - {
+    "everything"
+}
+OPEN = frozenset({"some", "all", "each", "any", "half", "most", ""})
+"""Pronouns without number; the empty name is an elided object."""
+
+_REACH = 5
+_AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
+_MOVING = frozenset(
+    "put place take move bring grab get carry keep set pick_up put_back put_down set_down".split()
+)
+
+
+@dataclass(frozen=True, slots=True)
+class _Mention:
+    """A thing that was spoken of, with how far it stands from the verb."""
+
+    name: str
+    plural: bool
+    penalty: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Scene:
+    """What one clause leaves behind for later ones."""
+
+    mentions: tuple[_Mention, ...]
+    together: tuple[str, ...]
+    """Its direct objects, if they can be meant by a plural pronoun."""
+
+
+def resolve(drafts: Sequence[Draft], text: str) -> tuple[Clause, ...]:
+    """Return the clauses with their antecedents filled in."""
+    scenes: list[_Scene] = []
+    clauses = []
+    for draft in drafts:
+        clause = draft.clause(text)
+        antecedents, together = {}, {}
+        for pronoun in _open_places(draft, clause):
+            ranked, count = _rank(pronoun, draft, scenes)
+            if ranked:
+                antecedents[pronoun], together[pronoun] = ranked, count
+        clause = replace(clause, antecedents=antecedents, together=together)
+        clauses.append(clause)
+        scenes.append(_scene(draft, clause))
+    return tuple(clauses)
+
+
+def is_pronoun(name: str) -> bool:
+    """Tell whether a language-object stands for something said before."""
+    return bool(name) and name in SINGULAR | PLURAL | OPEN
+
+
+def _open_places(draft: Draft, clause: Clause) -> list[str]:
+    places = [name for name in clause.objects if is_pronoun(name)]
+    if not draft.direct and clause.verb not in section("intransitive"):
+        places.append("")
+    return places
+
+
+def _rank(pronoun: str, draft: Draft, scenes: list[_Scene]) -> tuple[tuple[str, ...], int]:
+    """Return the candidates, likeliest first, and how many of the first are meant together."""
+    recent = scenes[-_REACH:][::-1]
+    own = {p.name for p in draft.mentions()}
+    if pronoun in PLURAL:
+        group = _group(recent, own)
+        if group:
+            others = [name for name, _ in _scored(recent, own, draft) if name not in group]
+            return (*group, *others), len(group)
+    scored = _scored(recent, own, draft)
+    if pronoun in SINGULAR:
+        plural = {m.name for s in recent for m in s.mentions if m.plural}
+        scored = [pair for pair in scored if pair[0] not in plural] or scored
+    names = tuple(name for name, _ in scored)
+    if pronoun == "" and recent and recent[0].together:
+        group = tuple(name for name in recent[0].together if name not in own)
+        if group:
+            return (*group, *(n for n in names if n not in group)), len(group)
+    return names, 1
+
+
+def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
+    for scene in recent:
+        group = tuple(name for name in scene.together if name not in own)
+        if group and (len(group) > 1 or any(m.plural and m.name == group[0] for m in scene.mentions)):
+            return group
+    pair = [name for scene in recent[:2][::-1] for name in scene.together if name not in own]
+    return tuple(dict.fromkeys(pair))
+
+
+def _scored(recent: list[_Scene], own: set[str], draft: Draft) -> list[tuple[str, int]]:
+    best: dict[str, int] = {}
+    moving = draft.verb.stem in _MOVING
+    for age, scene in enumerate(recent):
+        for mention in scene.mentions:
+            if mention.name in own:
+                continue
+            mass = _AGE * _REACH if moving and mention.name.rpartition("_")[2] in section("mass") else 0
+            score = _AGE * age + mention.penalty + mass
+            best[mention.name] = min(score, best.get(mention.name, score))
+    return sorted(best.items(), key=lambda pair: pair[1])
+
+
+def _scene(draft: Draft, clause: Clause) -> _Scene:
+    direct = [p for p in draft.direct if p.name != "me"]
+    spread = _COORDINATED if len(direct) > 1 else 0
+    mentions: list[_Mention] = []
+    together: list[str] = []
+    for phrase in direct:
+        names = _meant(phrase, clause)
+        together.extend(names)
+        mentions.extend(_Mention(name, phrase.plural or phrase.name in PLURAL, spread) for name in names)
+        mentions.extend(_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase)
+    for name in clause.antecedents.get("", ())[: clause.together.get("", 1)]:
+        together.append(name)
+        mentions.append(_Mention(name, False, 0))
+    for landmark in draft.landmarks:
+        for part in landmark.all():
+            names = _meant(part, clause)
+            mentions.extend(
+                _Mention(name, part.plural, _LANDMARK + _PART * (part is not landmark)) for name in names
+            )
+    named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
+    return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
+
+
+def _meant(phrase: Phrase, clause: Clause) -> list[str]:
+    if not phrase.pronoun:
+        return [phrase.name]
+    return list(clause.antecedents.get(phrase.name, ())[: clause.together.get(phrase.name, 1)])

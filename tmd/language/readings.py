@@ -1,0 +1,364 @@
+"""Verb or noun: each word gets one class from its neighbours, before any grammar runs.
+
+Leaving the choice to an ambiguous grammar picks the noun reading in lists and is far slower.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmd.language.lexicon import Lexicon, section
+from tmd.language.tokens import Kind, Token
+
+_ARTICLES = frozenset({Kind.DET, Kind.PRON})
+_OPENERS = frozenset({Kind.DET, Kind.PRON, Kind.NUM, Kind.ADJ})
+_STARTS = frozenset({Kind.STOP, Kind.ENSURE, Kind.PURP, Kind.MOD})
+_DATIVE = frozenset({"me", "us", "him", "her", "you"})
+_CONTINUES = frozenset({Kind.P, Kind.ADV, Kind.STOP, Kind.MOD, Kind.SUB, Kind.PURP, Kind.TO})
+_SERIAL = frozenset({"go", "come", "run", "help", "hurry"})
+
+
+@dataclass(slots=True)
+class _State:
+    """What the pass remembers of the sentence so far."""
+
+    sub: bool = False
+    """Inside a condition or relative clause whose own verb has not come yet."""
+    nominal: bool = False
+    """... and whose subject has come."""
+    narrative: bool = False
+    """The sentence tells what somebody does: "she takes the cup"."""
+    let: bool = False
+
+    def close(self) -> None:
+        self.sub = self.nominal = False
+
+
+def decide(tokens: list[Token], lexicon: Lexicon) -> None:
+    """Set the kind of every undecided token, in place, in one pass."""
+    state = _State()
+    previous: Token | None = None
+    for at, token in enumerate(tokens):
+        following = _next(tokens, at)
+        if token.kind is Kind.STOP:
+            state = _State()
+        elif token.kind in (Kind.SUB, Kind.REL, Kind.PURP):
+            _open_subordinate(token, previous, following, state)
+        elif token.kind is Kind.LET:
+            state.let = True
+        elif token.kind is Kind.TO:
+            token.form = "inf" if _infinitive(following, _next(tokens, at, 2)) else ""
+        elif token.kind is Kind.DET:
+            _read_determiner(token, previous, following, state)
+        elif token.kind is Kind.PRON:
+            _read_pronoun(token, previous, following, state)
+        elif token.kind is Kind.AUX:
+            _read_auxiliary(token, previous, following, state, lexicon)
+        elif token.kind in (Kind.ADJ, Kind.ADV, Kind.P):
+            _read_modifier(token, previous, following)
+        elif token.kind is Kind.WORD:
+            token.kind = _read_word(token, previous, following, state, lexicon, tokens, at)
+        if token.kind in (Kind.N, Kind.PRON):
+            state.nominal = True
+        elif token.kind is Kind.FINITE:
+            state.close()
+        elif token.kind is Kind.V:
+            state.close()
+            state.let = False
+            if previous and previous.kind is Kind.V and previous.stem in _SERIAL:
+                previous.kind = Kind.FILLER
+        if token.kind not in (Kind.ADV, Kind.FILLER):
+            previous = token
+
+
+def _next(tokens: list[Token], at: int, step: int = 1) -> Token | None:
+    for token in tokens[at + 1 : at + 8]:
+        if token.kind is not Kind.ADV:
+            step -= 1
+            if step == 0:
+                return token
+    return None
+
+
+def _open_subordinate(token: Token, previous: Token | None, following: Token | None, state: _State) -> None:
+    ends = following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA, Kind.MOD)
+    if token.text == "once" and ends:
+        token.kind = Kind.ADV
+        return
+    state.sub, state.nominal = True, token.kind is Kind.REL
+
+
+def _infinitive(following: Token | None, after: Token | None) -> bool:
+    if following is None or following.form not in ("base", "") or following.kind is not Kind.WORD:
+        return following is not None and following.text in ("be", "have", "do")
+    if following.strength == 3:
+        return True
+    opens = after is not None and (after.kind in _OPENERS or (after.kind is Kind.WORD and not after.strength))
+    particle = after is not None and after.kind is Kind.P
+    if following.strength == 2:
+        return opens or after is None or particle or after.kind in (Kind.STOP, Kind.CC)
+    return following.strength == 1 and after is not None and after.kind in _ARTICLES
+
+
+def _read_determiner(token: Token, previous: Token | None, following: Token | None, state: _State) -> None:
+    """Determiners without a noun are pronouns; "that" after a noun opens a relative clause."""
+    nominal = following is not None and following.kind in (Kind.DET, Kind.ADJ, Kind.NUM, Kind.WORD)
+    of = following is not None and following.text == "of"
+    if token.text == "that" and previous and previous.kind in (Kind.N, Kind.PRON):
+        verbal = following is not None and (
+            following.kind in (Kind.AUX, Kind.PRON, Kind.SUBJECT) or following.form in ("s", "ed")
+        )
+        if verbal:
+            token.kind, state.sub, state.nominal = Kind.REL, True, True
+            return
+    if token.text in ("the", "a", "an", "my", "your", "its", "every"):
+        return
+    verb_next = following is not None and following.strength == 3 and following.form == "base"
+    if not (nominal or of) or (verb_next and token.text in section("pronouns") and previous is not None):
+        token.kind = Kind.PRON if token.text in section("pronouns") else Kind.DET
+
+
+def _read_pronoun(token: Token, previous: Token | None, following: Token | None, state: _State) -> None:
+    word = token.text
+    if word == "her" and following is not None and following.kind in (Kind.WORD, Kind.ADJ):
+        token.kind = Kind.DET
+        return
+    if word not in section("subjects") or (previous and previous.kind in (Kind.P, Kind.V, Kind.TO)):
+        return
+    if not state.sub:
+        token.kind = Kind.SUBJECT
+        state.narrative = word in ("he", "she", "they", "i", "we", "you")
+    else:
+        state.nominal = True
+
+
+def _read_auxiliary(
+    token: Token, previous: Token | None, following: Token | None, state: _State, lexicon: Lexicon
+) -> None:
+    """Auxiliaries at the start of a sentence before a noun phrase are verbs ("have a look")."""
+    if token.text in ("need", "needs", "do") and (previous is None or previous.kind is Kind.STOP):
+        if following is not None and following.kind in (Kind.DET, Kind.PRON) and following.text != "you":
+            token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
+    state.close()
+
+
+def _read_modifier(token: Token, previous: Token | None, following: Token | None) -> None:
+    """ "second" and "back" before a noun are modifiers; "past" and "out" stay prepositions."""
+    inside = previous is not None and previous.kind in (Kind.DET, Kind.ADJ)
+    noun_next = following is not None and following.kind in (Kind.WORD, Kind.N, Kind.ADJ)
+    if inside and token.text in section("keep_adjectives"):
+        token.kind = Kind.N
+    elif inside and token.text in ("inside", "outside", "front", "back") and not noun_next:
+        token.kind = Kind.N
+    elif token.kind is Kind.ADV and token.text in section("keep_adjectives") and noun_next:
+        beside = following is not None and (following.text in section("keep_adjectives"))
+        verb_before = previous is not None and previous.kind in (Kind.P, Kind.V, Kind.CC, Kind.COMMA, Kind.N)
+        if token.text != "right" or beside or (verb_before and following and following.kind is Kind.WORD):
+            token.kind = Kind.N
+
+
+def _read_word(
+    token: Token,
+    previous: Token | None,
+    following: Token | None,
+    state: _State,
+    lexicon: Lexicon,
+    tokens: list[Token],
+    at: int,
+) -> Kind:
+    if token.form == "possessive":
+        return Kind.N
+    if not token.stem:
+        return _read_unknown(token, previous, following, lexicon)
+    if token.form == "ing":
+        return _read_ing(token, previous, following, lexicon)
+    if token.form == "ed":
+        return _read_past(token, previous, following, state)
+    if token.form == "s":
+        return _read_third_person(token, previous, following, state, lexicon)
+    return _read_base(token, previous, following, state, tokens, at)
+
+
+def _read_unknown(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:
+    """A word that is no known verb: a verb only where nothing else can stand ("zap the soup")."""
+    article = following is not None and (
+        following.text in ("the", "a", "an", "my", "it", "them") and following.kind in _ARTICLES
+    )
+    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.SUBJECT)
+    if article and start and not lexicon.is_noun(token.text) and token.text.isalpha():
+        token.stem, token.form = token.text, "base"
+        return Kind.V
+    return Kind.N
+
+
+def _read_ing(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:
+    noun_next = following is not None and following.kind is Kind.WORD and following.strength < 2
+    if token.text in section("drop_adjectives") and noun_next:
+        return Kind.ADJ
+    if previous is not None and previous.kind in (Kind.AUX, Kind.SUB):
+        return Kind.ING
+    if (
+        previous is not None
+        and previous.kind is Kind.P
+        and previous.text in ("by", "without", "after", "before")
+    ):
+        return Kind.ING
+    if (
+        previous is not None
+        and previous.kind is Kind.V
+        and previous.stem in section("lead_verbs") | {"keep", "stop"}
+    ):
+        return Kind.ING
+    if lexicon.is_noun(token.text) or (
+        previous is not None and previous.kind in (Kind.DET, Kind.ADJ, Kind.P)
+    ):
+        return Kind.N
+    if previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.N, Kind.PRON, Kind.MOD):
+        bare_noun = noun_next and (previous is None or previous.kind is not Kind.COMMA)
+        return Kind.N if bare_noun else Kind.ING
+    return Kind.N
+
+
+def _read_past(token: Token, previous: Token | None, following: Token | None, state: _State) -> Kind:
+    kind = previous.kind if previous else Kind.STOP
+    if kind is Kind.AUX or kind is Kind.SUB:
+        return Kind.PARTICIPLE
+    if kind is Kind.SUBJECT or (state.narrative and kind in (Kind.CC, Kind.COMMA)):
+        return Kind.V
+    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL):
+        return Kind.FINITE
+    article = following is not None and following.kind in _ARTICLES
+    if kind in (Kind.STOP, Kind.CC, Kind.COMMA) and article:
+        return Kind.V
+    if kind in (Kind.N, Kind.PRON, Kind.NUM):
+        return Kind.FINITE if article else Kind.PARTICIPLE
+    return Kind.N if token.text in section("keep_adjectives") | {"left"} else Kind.ADJ
+
+
+def _read_third_person(
+    token: Token, previous: Token | None, following: Token | None, state: _State, lexicon: Lexicon
+) -> Kind:
+    kind = previous.kind if previous else Kind.STOP
+    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL, Kind.P, Kind.SUBJECT):
+        return Kind.FINITE
+    if kind is Kind.SUBJECT or previous is not None and previous.text == "robot":
+        state.narrative = True
+        return Kind.V
+    if state.narrative and kind in (Kind.CC, Kind.COMMA) and not lexicon.is_noun(token.text):
+        return Kind.V
+    article = following is not None and following.kind in _ARTICLES
+    if kind in (Kind.N, Kind.PRON) and not lexicon.is_noun(token.text) and token.strength >= 2:
+        return (
+            Kind.FINITE
+            if article or token.strength == 3 or previous and previous.kind is Kind.PRON
+            else Kind.N
+        )
+    return Kind.N
+
+
+def _read_base(
+    token: Token,
+    previous: Token | None,
+    following: Token | None,
+    state: _State,
+    tokens: list[Token],
+    at: int,
+) -> Kind:
+    kind = previous.kind if previous else Kind.STOP
+    verb = Kind.V
+    sure = token.strength
+    adjective = token.text in section("drop_adjectives")
+    noun = Kind.ADJ if adjective else Kind.N
+    article = following is not None and (following.kind in _ARTICLES or following.kind is Kind.NUM)
+    opener = following is not None and (
+        following.kind in _OPENERS or (following.kind is Kind.WORD and following.strength < 2)
+    )
+    if kind in (Kind.SUBJECT, Kind.NEG) or (kind is Kind.TO and previous and previous.form == "inf"):
+        return verb if sure else noun
+    if kind is Kind.AUX:
+        be = previous is not None and previous.text in section("be") | {"has", "have", "had"}
+        return noun if be else verb
+    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL):
+        return Kind.FINITE if sure >= 2 or kind is not Kind.N else Kind.N
+    if kind in (Kind.SUB, Kind.DET, Kind.REL) or (kind is Kind.ADJ and not _predicate(tokens, at)):
+        return noun
+    if kind in (Kind.FINITE, Kind.ING, Kind.PARTICIPLE, Kind.ADJ):
+        return verb if sure >= 2 and (kind is not Kind.ING or sure == 3) else noun
+    if kind in (Kind.LET,):
+        return verb if sure >= 2 else noun
+    if state.let and kind in (Kind.N, Kind.PRON, Kind.TO):
+        return verb if sure >= 1 and not (opener and sure == 1) else noun
+    if kind is Kind.V:
+        serial = previous is not None and previous.stem in _SERIAL and sure >= 2
+        return verb if serial else noun
+    if kind in _STARTS or previous is None:
+        return _at_start(token, following, article, tokens, at, noun)
+    if kind in (Kind.CC, Kind.COMMA):
+        return _after_conjunction(token, following, article, opener, noun)
+    if kind in (Kind.P, Kind.TO):
+        run_on = previous is not None and previous.text in section("particles")
+        return verb if sure == 3 and article and run_on else noun
+    return _run_on(token, previous, following, article, opener, noun)
+
+
+def _predicate(tokens: list[Token], at: int) -> bool:
+    """Tell whether the adjective before ``at`` ends a predicate ("is full")."""
+    for token in reversed(tokens[max(0, at - 4) : at]):
+        if token.kind is Kind.AUX:
+            return True
+        if token.kind not in (Kind.ADJ, Kind.ADV):
+            return False
+    return False
+
+
+def _at_start(
+    token: Token, following: Token | None, article: bool, tokens: list[Token], at: int, noun: Kind
+) -> Kind:
+    if following is not None and following.kind is Kind.AUX and following.text in section("be"):
+        return noun
+    if token.strength >= 2:
+        return Kind.V
+    if following is None or following.kind in (Kind.STOP, Kind.P, Kind.MOD) or article:
+        return Kind.V
+    if following.kind in (Kind.WORD, Kind.ADJ):
+        for later in tokens[at + 1 :]:
+            if later.kind in (Kind.STOP, Kind.COMMA, Kind.CC):
+                break
+            if later.strength >= 2 and later.form == "base" or later.kind is Kind.AUX:
+                return noun
+        return Kind.V
+    return noun
+
+
+def _after_conjunction(
+    token: Token, following: Token | None, article: bool, opener: bool, noun: Kind
+) -> Kind:
+    if token.strength == 3:
+        return Kind.V
+    if token.strength == 2:
+        ends = following is None or following.kind in _CONTINUES
+        return Kind.V if opener or ends else noun
+    pronoun = following is not None and following.kind is Kind.PRON
+    return Kind.V if article and (pronoun or token.strength == 1) else noun
+
+
+def _run_on(
+    token: Token,
+    previous: Token | None,
+    following: Token | None,
+    article: bool,
+    opener: bool,
+    noun: Kind,
+) -> Kind:
+    """A verb right after an object, with no sign between: "open the oven put the pan inside"."""
+    person = previous is not None and previous.text in _DATIVE
+    if article and not person:
+        return Kind.V
+    if token.strength == 3 and following is not None:
+        if following.kind in (Kind.P, Kind.NUM, Kind.ADJ, Kind.TO):
+            return Kind.V if not (previous is not None and previous.kind is Kind.PRON and person) else noun
+        if following.kind is Kind.WORD:
+            return Kind.V
+    if token.strength >= 2 and previous is not None and previous.kind is Kind.PRON and not person and opener:
+        return Kind.V
+    return noun

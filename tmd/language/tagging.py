@@ -1,0 +1,171 @@
+"""First tags: closed classes, phrases of several words, durations and measures, typos, verb readings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from tmd.language.clause import Span
+from tmd.language.lexicon import Lexicon, phrases, section
+from tmd.language.tokens import Kind, Token
+
+_PHRASES = (
+    ("multiword_prepositions", Kind.P, ""),
+    ("multiword_adverbs", Kind.ADV, ""),
+    ("purposes", Kind.PURP, ""),
+    ("conditions", Kind.SUB, ""),
+    ("ensure", Kind.ENSURE, ""),
+)
+_SPELLING = {"in_to": "into", "on_to": "onto"}
+_CLOSED = (
+    ("be", Kind.AUX),
+    ("modals", Kind.AUX),
+    ("negations", Kind.NEG),
+    ("determiners", Kind.DET),
+    ("pronouns", Kind.PRON),
+    ("conditions", Kind.SUB),
+    ("let_verbs", Kind.LET),
+)
+_CONTRACTED = ("'ll", "'d", "'ve")
+
+
+def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
+    """Make one token of a run."""
+    span = Span(min(t.span.start for t in tokens), max(t.span.end for t in tokens))
+    return Token(kind, joint.join(t.text for t in tokens), span, form=form)
+
+
+def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
+    """Give every token its first tag."""
+    tagged: list[Token] = []
+    position = 0
+    while position < len(tokens):
+        merged, used = _phrase(tokens, position)
+        if merged is None:
+            merged, used = _measure(tokens, position, tagged)
+        if merged is None:
+            merged, used = tokens[position], 1
+            if merged.kind is Kind.WORD:
+                _tag_word(merged, lexicon)
+        tagged.append(merged)
+        position += used
+    return tagged
+
+
+def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
+    best: tuple[Token | None, int] = (None, 0)
+    for name, kind, form in _PHRASES:
+        for words in phrases(name).get(tokens[at].text, ()):
+            run = tokens[at : at + len(words)]
+            if len(words) > max(1, best[1]) and tuple(t.text for t in run) == words:
+                token = fold(run, kind, form=form)
+                token.text = _SPELLING.get(token.text, token.text)
+                best = token, len(words)
+    return best
+
+
+def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token | None, int]:
+    """Fold "for about 3 minutes", "to 180 degrees", "two feet"; the numeral words are still undecided."""
+    end, words = at, [t.text for t in tokens[at : at + 8]]
+    for text in words:
+        if text in _BEFORE_MEASURE:
+            end += 1
+        else:
+            break
+    lead = end - at
+    number = 0
+    while lead + number < len(words) and _is_number(words[lead + number]):
+        number += 1
+    unit = lead + number
+    if unit >= len(words):
+        return None, 0
+    article = number == 0 and lead < len(words) and words[lead] in ("a", "an")
+    if article:
+        unit += 1
+    rest = words[unit : unit + 2]
+    of_next = len(rest) > 1 and rest[1] == "of"
+    if not rest or not (number or article) or (of_next and rest[0] not in ("way",)):
+        return None, 0
+    if rest[0] in ("more", "full") and rest[1:]:
+        unit, rest = unit + 1, rest[1:]
+    form = "duration" if rest[0] in section("units_time") else "setting"
+    if form == "duration" and article and not lead and rest[0] in ("bit", "times", "time"):
+        return None, 0
+    if form == "setting" and (article or not _is_unit(rest[0], words[unit:])):
+        return None, 0
+    used = unit + 1
+    if form == "setting":
+        while used < len(words) and words[used] in (
+            "celsius",
+            "celcius",
+            "fahrenheit",
+            "c",
+            "f",
+            "full",
+            "the",
+            "way",
+        ):
+            used += 1
+    return fold(tokens[at : at + used], Kind.MOD, " ", form), used
+
+
+_BEFORE_MEASURE = frozenset(
+    "for to at about around approximately roughly another at_least exactly of by no more than less within".split()
+)
+
+
+def _is_number(word: str) -> bool:
+    return word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th")) or word in section("numbers")
+
+
+def _is_unit(word: str, words: list[str]) -> bool:
+    if word == "of" or word in ("step", "steps"):
+        return False
+    return word in section("units") or word in ("quarters", "thirds")
+
+
+def _tag_word(token: Token, lexicon: Lexicon) -> None:
+    word = token.text
+    if word.endswith("'s") and word not in section("be") and word != "let's":
+        word = token.text = word[:-2]
+        token.form = "possessive"
+    word = token.text = word.rstrip("'")
+    if word.endswith(_CONTRACTED):
+        token.kind = Kind.SUBJECT
+        return
+    corrected = lexicon.correct(word.replace("-", "_")) if word.isalpha() else None
+    word = token.text = (corrected or word).replace("-", "_")
+    token.kind = _closed(word)
+    if token.kind is Kind.WORD:
+        reading = lexicon.verb(word)
+        if reading:
+            token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
+    elif token.kind is Kind.LET:
+        token.stem = "let" if word == "let" else word
+
+
+def _closed(word: str) -> Kind:
+    if word in ("and", "or", "plus", "but"):
+        return Kind.CC
+    if word == "to":
+        return Kind.TO
+    if _is_number(word):
+        return Kind.NUM
+    if word in section("quantifiers"):
+        return Kind.DET
+    for name, kind in _CLOSED:
+        if word in section(name):
+            return kind
+    if word in section("relatives"):
+        return Kind.REL
+    if word in section("drop_adjectives") and word not in section("verbs"):
+        return Kind.ADJ
+    if word in section("prepositions"):
+        return Kind.P
+    if word in section("adverbs") and word not in section("verbs"):
+        return Kind.ADV
+    return Kind.WORD
+
+
+def texts(tokens: Iterable[Token]) -> str:
+    """Return the words of tokens, for messages and folds."""
+    return " ".join(t.text for t in tokens)

@@ -1,0 +1,139 @@
+"""Text to tokens with character offsets, and the removal of repeated runs.
+
+Segment marks (``|``), line breaks and control characters are blanks. Numbers glued to units are cut
+("10minutes"); hyphens inside words are part of the word.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from tmd.language.clause import Span
+
+
+class Kind(StrEnum):
+    """What a token is. The first group is what the grammar sees."""
+
+    V = "V"
+    N = "N"
+    PRON = "PRON"
+    DET = "DET"
+    NUM = "NUM"
+    P = "P"
+    OF = "OF"
+    CONJ = "CONJ"
+    VCC = "VCC"
+    SEP = "SEP"
+    MOD = "MOD"
+    """A folded span that belongs to a clause: condition, purpose, duration, setting."""
+
+    WORD = "WORD"
+    """Not decided yet."""
+    ADJ = "ADJ"
+    ADV = "ADV"
+    AUX = "AUX"
+    CC = "CC"
+    COMMA = "COMMA"
+    STOP = "STOP"
+    TO = "TO"
+    ING = "ING"
+    PARTICIPLE = "PARTICIPLE"
+    FINITE = "FINITE"
+    """A verb with a subject of its own, inside a folded span or a statement."""
+    SUBJECT = "SUBJECT"
+    NEG = "NEG"
+    SUB = "SUB"
+    """Opens a condition."""
+    PURP = "PURP"
+    REL = "REL"
+    ENSURE = "ENSURE"
+    LET = "LET"
+    SKIP = "SKIP"
+    FILLER = "FILLER"
+
+
+@dataclass(slots=True)
+class Token:
+    """A word or a folded run of words.
+
+    Attributes:
+        kind: Its class so far.
+        text: Lower case; the words of a fold joined by blanks or underscores.
+        span: Where it stands.
+        stem: The verb's stem.
+        form: ``base``, ``s``, ``ed`` or ``ing`` for verbs; the role of a fold (``condition`` ...).
+        strength: How sure a word is a verb, 0 to 3.
+        parts: Further places that belong to it (the particle of a split verb).
+        note: Why it is skipped.
+    """
+
+    kind: Kind
+    text: str
+    span: Span
+    stem: str = ""
+    form: str = ""
+    strength: int = 0
+    parts: list[Span] = field(default_factory=list)
+    note: str = ""
+
+
+_TOKEN = re.compile(
+    r"(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
+    r"|(?P<word>[^\W\d_]+(?:['’\-_][^\W\d_]+)*['’]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,–—()\[\]/]|-)"
+    r"|(?P<cc>[&+])|(?P<unit>[%°])",
+    re.UNICODE | re.IGNORECASE,
+)
+
+_RUN = 3
+"""Repeated runs of at least this many words are slips."""
+_LONGEST_RUN = 120
+
+_LONG_WORD = 60
+
+
+def tokenise(text: str) -> list[Token]:
+    """Cut a text into tokens. Everything between them is blank or a sign without meaning here."""
+    tokens = []
+    for match in _TOKEN.finditer(text):
+        span, word = Span(*match.span()), match.group().lower().replace("’", "'")
+        kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
+            match.lastgroup or "", Kind.WORD
+        )
+        if len(word) > _LONG_WORD:
+            word = word[:_LONG_WORD]
+        tokens.append(Token(kind, word, span))
+    return tokens
+
+
+def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
+    """Remove the second copy of immediately repeated runs within a sentence, and doubled words.
+
+    Returns:
+        The tokens that stay and the tokens removed. Linear in the number of tokens.
+    """
+    kept: list[Token] = []
+    dropped: list[Token] = []
+    last_seen: dict[tuple[str, ...], int] = {}
+    position = 0
+    words = [t.text for t in tokens]
+    while position < len(tokens):
+        token = tokens[position]
+        if token.kind is Kind.STOP:
+            last_seen.clear()
+        key = tuple(words[position : position + _RUN])
+        before = last_seen.get(key)
+        if before is not None and len(key) == _RUN and position - before <= _LONGEST_RUN:
+            length = position - before
+            if length >= _RUN and words[before:position] == words[position : position + length]:
+                dropped.extend(tokens[position : position + length])
+                position += length
+                continue
+        last_seen[key] = position
+        if kept and token.kind is Kind.WORD and kept[-1].text == token.text and kept[-1].kind is Kind.WORD:
+            dropped.append(token)
+        else:
+            kept.append(token)
+        position += 1
+    return kept, dropped
