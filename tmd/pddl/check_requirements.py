@@ -59,9 +59,11 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
     return list(faults.values())
 
 
-def used_requirements(domain: Domain) -> tuple[str, ...]:
-    """The requirements that ``domain`` uses, each once, in the usual order."""
+def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:
+    """The requirements that ``domain`` (and ``problem``) use, each once, in the usual order."""
     used = {requirement for requirement, _, _ in _domain_uses(domain)}
+    if problem:
+        used |= {requirement for requirement, _, _ in _problem_uses(problem)}
     usual = (":typing", *_IMPLIED[":adl"][1:4], *_QUANTIFIED, ":conditional-effects", ":action-costs")
     return (":strips", *(name for name in usual if name in used))
 

@@ -9,12 +9,13 @@ from __future__ import annotations
 import os
 import re
 from collections.abc import Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tmd.errors import Location, OutputError, TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.syntax import read_text
+from tmd.pddl.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]+)\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
@@ -48,7 +49,7 @@ def parse_plan(text: str, file: str = "<text>") -> Plan:
     instructions: list[Instruction] = []
     locations: list[Location] = []
     cost: int | None = None
-    for number, line in enumerate(text.splitlines(), start=1):
+    for number, line in enumerate(split_lines(text), start=1):
         claimed = _COST.match(line.strip())
         if claimed:
             cost = int(claimed[1])
@@ -114,7 +115,8 @@ def write_plan(
         draft.write_text(format_plan(instructions, cost, unit=unit), encoding="utf-8")
         draft.replace(target)
     except OSError as error:
-        draft.unlink(missing_ok=True)
+        with suppress(OSError):
+            draft.unlink(missing_ok=True)
         raise OutputError(f"{target} cannot be written: {error.strerror or error}") from error
 
 
@@ -158,4 +160,5 @@ def parse_instruction(text: str, *, file: str = "<text>", line: int = 1, column:
 
 
 def _shown(text: str) -> str:
-    return text if len(text) <= 40 else f"{text[:37]}..."
+    line = "".join(c if c.isprintable() else " " for c in text)
+    return line if len(line) <= 40 else f"{line[:37]}..."

@@ -218,24 +218,27 @@ def first_broken(instruction: Instruction, state: State, problem: Problem) -> Br
 def first_false(
     formula: Formula, state: State, objects: Problem | Universe, binding: Binding | None = None
 ) -> Broken | None:
-    """The first conjunct of ``formula``, in reading order, that fails in ``state``."""
+    """The first part of ``formula``, in reading order, that fails in ``state``; a literal if possible."""
     known = universe(objects) if isinstance(objects, Problem) else objects
-    return _first_false(formula, state, known, binding or {})
+    return _first_false(formula, state, known, binding or {}, True)
 
 
-def _first_false(formula: Formula, state: State, objects: Universe, binding: Binding) -> Broken | None:
-    if isinstance(formula, And):
-        found = (_first_false(p, state, objects, binding) for p in formula.parts)
+def _first_false(
+    formula: Formula, state: State, objects: Universe, binding: Binding, wanted: bool
+) -> Broken | None:
+    """The first part for which ``formula`` is not ``wanted``."""
+    if isinstance(formula, Not):
+        return _first_false(formula.part, state, objects, binding, not wanted)
+    if isinstance(formula, And if wanted else Or):
+        found = (_first_false(p, state, objects, binding, wanted) for p in formula.parts)
         return next((b for b in found if b), None)
-    if isinstance(formula, Forall):
+    if isinstance(formula, Forall if wanted else Exists):
         inner = bindings(formula.parameters, objects, binding)
-        return next((b for b in (_first_false(formula.part, state, objects, x) for x in inner) if b), None)
-    if _holds(formula, state, objects, binding):
+        return next(
+            (b for b in (_first_false(formula.part, state, objects, x, wanted) for x in inner) if b), None
+        )
+    if _holds(formula, state, objects, binding) == wanted:
         return None
-    if isinstance(formula, Atom):
-        atom = instantiate(formula, binding)
-        return Broken(str(atom), atom)
-    if isinstance(formula, Not) and isinstance(formula.part, Atom):
-        atom = instantiate(formula.part, binding)
-        return Broken(f"(not {atom})", atom, positive=False)
-    return Broken(format_formula(formula, binding))
+    atom = instantiate(formula, binding) if isinstance(formula, Atom) else None
+    text = format_formula(formula, binding)
+    return Broken(text if wanted else f"(not {text})", atom, wanted)

@@ -17,6 +17,7 @@ from typing import TypeAlias
 from tmd.errors import Location, TmdError
 
 _TOKEN = re.compile(r"[()]|[^\s();]+")
+_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
 _PARTS_OF_SECTIONS = frozenset({":parameters", ":precondition", ":effect"})
 _LONGEST_LIST_IN_HINT = 8
 
@@ -123,13 +124,18 @@ def read_text(path: str | Path) -> str:
         ) from error
 
 
+def split_lines(text: str) -> tuple[str, ...]:
+    """The lines of ``text``, whatever ends them, without byte order mark."""
+    return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+
+
 def parse(text: str, file: str) -> Document:
     """Split ``text`` into groups.
 
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
-    lines = tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
+    lines = split_lines(text)
     source = Source(file, lines)
     comments: dict[int, str] = {}
     groups: list[Group] = []
@@ -137,6 +143,10 @@ def parse(text: str, file: str) -> Document:
     deepest: Group | None = None
     for number, line in enumerate(lines, start=1):
         code, mark, comment = line.partition(";")
+        control = _CONTROL.search(code)
+        if control:
+            place = Location(file, number, control.start() + 1)
+            raise source.error(f"control character 0x{ord(control[0]):02x}", place, "save it as plain text")
         if mark:
             comments[number] = comment.lstrip(";").strip()
         for match in _TOKEN.finditer(code):

@@ -1,0 +1,5 @@
+(define (problem three-blocks)
+  (:domain blocks)
+  (:objects a b c)
+  (:init (on c a) (on-table a) (on-table b) (clear c) (clear b) (hand-empty))
+  (:goal (and (on a b) (on b c))))

@@ -1,0 +1,8 @@
+(define (problem two-parcels)
+  (:domain parcels)
+  (:objects p1 p2 - parcel v1 - van north south - depot)
+  (:init (at p1 hub) (at p2 hub) (at v1 hub) (fragile p2)
+         (road hub north) (road north south) (road south hub)
+         (= (total-cost) 0))
+  (:goal (and (at p1 north) (at p2 south)))
+  (:metric minimize (total-cost)))

