@@ -191,12 +191,17 @@ class _Attachment:
             return
         name = preposition.text
         targets = _phrases(groups[0])
+        within = self.behind == "with" and len(targets) == 1 and targets[0].name in ("it", "them")
+        if within and name in ("in", "on", "inside"):
+            return
         self.draft.landmarks.extend(targets)
         self._of(targets)
         if self._hosted(name) and self.host:
             self.draft.relations.extend(Relation(name, s.name, t.name) for s in self.host for t in targets)
         else:
             self.pending.append((name, targets))
+        if preposition.form == "relative":
+            return
         if not (name == "with" and self.draft.verb.stem in section("with_verbs")):
             self.host, self.behind = targets, name
         else:

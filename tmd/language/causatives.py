@@ -103,7 +103,7 @@ def _state_verb(tokens: list[Token], at: int) -> tuple[str, int]:
             if after not in _INSIDE - {Kind.CC, Kind.ADV}:
                 return f"{token.stem}_{following.text}", at + 2
         return token.stem, at + 1
-    if token.stem and token.text in section("verbs") and token.kind in (Kind.ADJ, Kind.N):
+    if token.stem and (token.text in section("verbs") or token.form == "ed") and token.kind in (Kind.ADJ, Kind.N):
         return token.stem, at + 1
     return "make_sure", at + (token.kind is Kind.ADJ)
 

@@ -12,6 +12,8 @@ from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 
 STATEMENT = "a statement, not an instruction"
+RELATIVE = "relative"
+"""The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
 NEGATED = "says what not to do"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
@@ -78,6 +80,8 @@ class _Folder:
                     self._emit(token)
                     at += 1
                 return self._fold(at, end, Kind.SKIP, STATEMENT)
+        if token.text == "no" and at + 1 < len(self.tokens) and self.tokens[at + 1].text == "need":
+            return self._negation(at)
         handler = {
             Kind.SUB: self._condition,
             Kind.PURP: self._purpose,
@@ -192,6 +196,13 @@ class _Folder:
             token.kind = Kind.P
             self._emit(token)
             return at + 1
+        awaited = self._awaited()
+        if awaited is not None:
+            end = self.boundary(at + 1)
+            event = fold([*self.out[awaited:], *self.tokens[at:end]], Kind.MOD, " ", "condition")
+            del self.out[awaited:]
+            self._emit(event)
+            return end
         lead = self._lead_before()
         if lead is not None:
             self._filler(token)
@@ -205,6 +216,17 @@ class _Folder:
             self._filler(token)
             return at + 1
         return self._fold(at, self._purpose_end(at), Kind.MOD, "purpose")
+
+    def _awaited(self) -> int | None:
+        """Return where "for the kettle" of "wait for the kettle to boil" begins in ``out``."""
+        if self.verb is None or self.verb.stem != "wait":
+            return None
+        for back in range(len(self.out) - 1, max(-1, len(self.out) - 10), -1):
+            if self.out[back] is self.verb:
+                return None
+            if self.out[back].text == "for":
+                return back
+        return None
 
     def _lead_before(self) -> Token | None:
         """Turn "want you", "remember", "need" right before an infinitive into filler."""
@@ -226,6 +248,7 @@ class _Folder:
             place = self._peek(copula, frozenset({Kind.ADV, Kind.PARTICIPLE, Kind.ING}))
             if self._kind(place) is Kind.P:
                 self._filler(*self.tokens[at:place])
+                self.tokens[place].form = RELATIVE
                 return place
         if self.out and self.out[-1].kind is Kind.P:
             self.out[-1].kind = Kind.FILLER

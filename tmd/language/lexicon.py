@@ -75,6 +75,11 @@ def _wordnet_verbs() -> tuple[Mapping[str, str], dict[str, str], frozenset[str]]
 
 
 @cache
+def _spellings() -> Mapping[str, str]:
+    return dict(entry.split("=") for entry in _sections()["spellings"])
+
+
+@cache
 def _english() -> frozenset[str]:
     return frozenset(data_text("wordnet_words.txt.gz").split())
 
@@ -135,6 +140,8 @@ class Lexicon:
 
         Strength 3 is a verb of the own list, 2 one that is a noun as well, 1 more often a noun.
         """
+        if word in _spellings():
+            return _spellings()[word], "base", 3
         found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
         if found is None:
             return None
@@ -165,6 +172,7 @@ class Lexicon:
         """Tell whether a word is in any list, WordNet's included."""
         return (
             word in _closed_words()
+            or singular(word) in _closed_words()
             or self.is_noun(word)
             or self.verb(word) is not None
             or word in _english()

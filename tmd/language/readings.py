@@ -136,6 +136,10 @@ def _read_auxiliary(
     token: Token, previous: Token | None, following: Token | None, state: _State, lexicon: Lexicon
 ) -> None:
     """Auxiliaries at the start of a sentence before a noun phrase are verbs ("have a look")."""
+    nominal = previous is not None and previous.kind in (Kind.N, Kind.DET, Kind.ADJ)
+    if token.text == "can" and nominal and not (following and following.strength and following.form == "base"):
+        token.kind = Kind.N
+        return
     if token.text in ("need", "needs", "do") and (previous is None or previous.kind is Kind.STOP):
         if following is not None and following.kind in (Kind.DET, Kind.PRON) and following.text != "you":
             token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
@@ -268,7 +272,9 @@ def _read_base(
     verb = Kind.V
     sure = token.strength
     adjective = token.text in section("drop_adjectives")
-    noun = Kind.ADJ if adjective else Kind.N
+    nominal_next = following is not None and following.kind in (Kind.WORD, Kind.ADJ, Kind.NUM)
+    ends = kind in (Kind.N, Kind.PRON) and token.text not in section("nouns") | section("noun_verbs")
+    noun = Kind.ADJ if adjective and (nominal_next or kind is Kind.AUX or ends) else Kind.N
     article = following is not None and (following.kind in _ARTICLES or following.kind is Kind.NUM)
     opener = following is not None and (
         following.kind in _OPENERS or (following.kind is Kind.WORD and following.strength < 2)

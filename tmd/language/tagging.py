@@ -83,7 +83,9 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
         unit += 1
     rest = words[unit : unit + 2]
     of_next = len(rest) > 1 and rest[1] == "of"
-    if not rest or not (number or article) or (of_next and rest[0] not in ("way",)):
+    if number and words[unit : unit + 3] == ["of", "the", "way"]:
+        return fold(tokens[at : at + unit + 3], Kind.MOD, " ", "setting"), unit + 3
+    if not rest or not (number or article) or of_next:
         return None, 0
     if rest[0] in ("more", "full") and rest[1:]:
         unit, rest = unit + 1, rest[1:]
@@ -135,7 +137,7 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
     corrected = lexicon.correct(word.replace("-", "_")) if word.isalpha() else None
     word = token.text = (corrected or word).replace("-", "_")
     token.kind = _closed(word)
-    if token.kind is Kind.WORD:
+    if token.kind in (Kind.WORD, Kind.ADJ):
         reading = lexicon.verb(word)
         if reading:
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
@@ -157,7 +159,7 @@ def _closed(word: str) -> Kind:
             return kind
     if word in section("relatives"):
         return Kind.REL
-    if word in section("drop_adjectives") and word not in section("verbs"):
+    if word in section("drop_adjectives") and word not in section("verbs") | section("noun_verbs"):
         return Kind.ADJ
     if word in section("prepositions"):
         return Kind.P
