@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from tmd.language.clause import Span
 from tmd.language.lexicon import Lexicon, section
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 
+ALONE = "alone"
+"""The form of a verb that lost its object to a slip: it shares none."""
 _PURE = frozenset({"up", "down", "out", "away", "back", "together", "apart", "aside", "around"})
 """Particles that stay particles even when a noun follows."""
 _NP = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON})
 _HEADS = frozenset({Kind.N, Kind.PRON})
+_SCALES = frozenset({"heat", "flame", "fire", "power", "speed", "volume", "temperature", "setting"})
+_ON_OFF = frozenset({"turn", "switch", "shut", "power"})
 _LINKS = frozenset({Kind.COMMA, Kind.CC})
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
 
@@ -42,7 +47,7 @@ def _partitives(tokens: list[Token]) -> list[Token]:
         )
         if quantity and of.kind is Kind.P and of.text == "of":
             of.kind = Kind.FILLER
-            token.kind = Kind.NUM if token.kind is Kind.NUM else Kind.DET
+            token.kind = Kind.DET
     return tokens
 
 
@@ -74,6 +79,8 @@ def _settings(tokens: list[Token]) -> list[Token]:
         if setting is None or setting.text not in section("settings"):
             continue
         after = _after(tokens, setting)
+        if after is not None and after.text in _SCALES:
+            setting.kind = Kind.ADJ
         if after is None or after.kind not in (Kind.N, Kind.PARTICIPLE) and after.text != "of":
             setting.kind, setting.form = Kind.MOD, "setting"
             if token.text != "on":
@@ -130,6 +137,11 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             return False
         if token.kind not in (Kind.P, Kind.ADV):
             continue
+        if token.text == "of" and place == at + 1 and verb.stem in _ON_OFF:
+            token.text = "off"
+        if token.text == "up_to" and lexicon.particle(verb.stem, "up") is not None:
+            _split_up_to(verb, token)
+            return True
         match = lexicon.particle(verb.stem, token.text)
         if match is not None and not (preposition and token.text not in _PURE and not match):
             if _is_particle(tokens, at, place, match):
@@ -139,6 +151,14 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     return False
 
 
+def _split_up_to(verb: Token, token: Token) -> None:
+    """Give "up" of "hook it up to the set" to the verb."""
+    start, end = token.span
+    verb.stem, token.text = f"{verb.stem}_up", "to"
+    verb.parts.append(Span(start, start + 2))
+    token.span = Span(end - 2, end)
+
+
 def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool:
     text = tokens[place].text
     following = _following(tokens, place)
@@ -146,7 +166,21 @@ def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool
     if not noun or text in _PURE:
         return True
     adjacent = all(t.kind in (Kind.ADV, Kind.FILLER) for t in tokens[at + 1 : place])
-    return adjacent and strict
+    return adjacent and (strict or _takes_particle(tokens, place))
+
+
+def _takes_particle(tokens: list[Token], place: int) -> bool:
+    """Tell "put on some music" from "put on the table" by the head of the noun phrase."""
+    name = f"put_{tokens[place].text}_objects"
+    if name not in ("put_on_objects", "put_in_objects"):
+        return False
+    head = ""
+    for token in tokens[place + 1 :]:
+        if token.kind not in (Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON):
+            break
+        if token.kind in (Kind.N, Kind.PRON):
+            head = token.text
+    return head in section(name)
 
 
 def _drop_dangling(tokens: list[Token]) -> list[Token]:
@@ -155,6 +189,8 @@ def _drop_dangling(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         following = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
         if token.kind in (Kind.DET, Kind.NUM) and following not in _NP:
+            if kept and kept[-1].kind is Kind.V:
+                kept[-1].form = ALONE
             continue
         if token.kind is Kind.P and token.text == "of":
             if not kept or kept[-1].kind not in _HEADS or following not in _NP:
@@ -164,6 +200,11 @@ def _drop_dangling(tokens: list[Token]) -> list[Token]:
                 token.kind = Kind.OF
         kept.append(token)
     return kept
+
+
+def _shares(verb: Token) -> bool:
+    """Tell whether a verb takes the object of the next one: "wash and dry the pan"."""
+    return verb.form != ALONE and verb.stem not in section("intransitive")
 
 
 def _links(tokens: list[Token]) -> list[Token]:
@@ -184,7 +225,7 @@ def _links(tokens: list[Token]) -> list[Token]:
         before = result[-1].kind if result else Kind.SEP
         after = tokens[end].kind if end < len(tokens) else Kind.SEP
         if after is Kind.V:
-            token.kind = Kind.VCC if before is Kind.V else Kind.SEP
+            token.kind = Kind.VCC if before is Kind.V and _shares(result[-1]) else Kind.SEP
             result.append(token)
         elif before in _HEADS and after in _NP:
             token.kind = Kind.CONJ

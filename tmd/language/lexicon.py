@@ -130,7 +130,8 @@ class Lexicon:
     @cached_property
     def _phrasal(self) -> Mapping[str, bool]:
         """Verb with particle -> whether the particle is one even before a noun."""
-        table = dict.fromkeys(_wordnet_verbs()[2], False)
+        moving = section("intransitive") | section("chain_verbs")
+        table = {name: False for name in _wordnet_verbs()[2] if name.partition("_")[0] not in moving}
         table.update((entry.rstrip("!"), entry.endswith("!")) for entry in _sections()["phrasal"])
         table.update((name, True) for name in self.phrasal)
         return table

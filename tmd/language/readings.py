@@ -46,8 +46,13 @@ def decide(tokens: list[Token], lexicon: Lexicon) -> None:
             _open_subordinate(token, previous, following, state)
         elif token.kind is Kind.LET:
             state.let = True
+            if state.sub and state.nominal and previous is not None and previous.kind in (Kind.N, Kind.PRON):
+                token.kind, state.let = Kind.FINITE, False
+        elif token.kind is Kind.CC and token.text == "plus" and previous and previous.kind is Kind.DET:
+            token.kind = Kind.N
         elif token.kind is Kind.TO:
-            token.form = "inf" if _infinitive(following, _next(tokens, at, 2)) else ""
+            causative = state.let and following is not None and following.strength > 0
+            token.form = "inf" if causative or _infinitive(following, _next(tokens, at, 2)) else ""
         elif token.kind is Kind.DET:
             _read_determiner(token, previous, following, state)
         elif token.kind is Kind.PRON:
@@ -89,7 +94,7 @@ def _open_subordinate(token: Token, previous: Token | None, following: Token | N
 
 
 def _infinitive(following: Token | None, after: Token | None) -> bool:
-    if following is None or following.form not in ("base", "") or following.kind is not Kind.WORD:
+    if following is None or following.form not in ("base", "") or following.kind not in (Kind.WORD, Kind.LET):
         return following is not None and following.text in ("be", "have", "do")
     if following.strength == 3:
         return True
@@ -197,6 +202,7 @@ def _read_unknown(token: Token, previous: Token | None, following: Token | None,
 
 def _read_ing(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:
     noun_next = following is not None and following.kind is Kind.WORD and following.strength < 2
+    noun_next = noun_next or (following is not None and following.text == "can")
     if token.text in section("drop_adjectives") and noun_next:
         return Kind.ADJ
     if previous is not None and previous.kind in (Kind.AUX, Kind.SUB):
@@ -302,7 +308,7 @@ def _read_base(
     if kind in (Kind.CC, Kind.COMMA):
         return _after_conjunction(token, following, article, opener, noun)
     if kind in (Kind.P, Kind.TO):
-        run_on = previous is not None and previous.text in section("particles")
+        run_on = previous is not None and previous.text in section("particles") | {"inside", "outside"}
         return verb if sure == 3 and article and run_on else noun
     return _run_on(token, previous, following, article, opener, noun)
 
@@ -320,7 +326,8 @@ def _predicate(tokens: list[Token], at: int) -> bool:
 def _at_start(
     token: Token, following: Token | None, article: bool, tokens: list[Token], at: int, noun: Kind
 ) -> Kind:
-    if following is not None and following.kind is Kind.AUX and following.text in section("be"):
+    copula = following is not None and following.kind is Kind.AUX and following.text in section("be")
+    if copula and token.strength < 3:
         return noun
     if token.strength >= 2:
         return Kind.V

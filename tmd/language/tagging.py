@@ -23,6 +23,7 @@ _CLOSED = (
     ("determiners", Kind.DET),
     ("pronouns", Kind.PRON),
     ("conditions", Kind.SUB),
+    ("ensure", Kind.ENSURE),
     ("let_verbs", Kind.LET),
 )
 _CONTRACTED = ("'ll", "'d", "'ve")
@@ -81,6 +82,9 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
     article = number == 0 and lead < len(words) and words[lead] in ("a", "an")
     if article:
         unit += 1
+    parted = number and words[unit - 1] in ("half", "quarter", "quarters", "third", "thirds")
+    if parted and words[unit : unit + 1] == ["full"]:
+        return fold(tokens[at : at + unit + 1], Kind.MOD, " ", "setting"), unit + 1
     rest = words[unit : unit + 2]
     of_next = len(rest) > 1 and rest[1] == "of"
     if number and words[unit : unit + 3] == ["of", "the", "way"]:
@@ -142,7 +146,7 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
         if reading:
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:
-        token.stem = "let" if word == "let" else word
+        token.stem, token.form, token.strength = word, "base", 3
 
 
 def _closed(word: str) -> Kind:

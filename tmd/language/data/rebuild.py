@@ -3,8 +3,8 @@
 Run ``python tmd/language/data/rebuild.py [DICT] [OUT]``; DICT is ``/usr/share/wordnet`` on Debian (package
 ``wordnet-base``), OUT this folder. The output is the same bytes for the same input. What is written:
 
-* ``wordnet_verbs.txt``: single-word verbs that occur in WordNet's tagged texts, each with how much it is also
-  a noun and its irregular forms; and verbs with a particle.
+* ``wordnet_verbs.txt``: single-word verbs, each with how much it is also a noun (``nv`` for all that do not
+  occur in WordNet's tagged texts) and its irregular forms; and the tagged verbs with a particle.
 * ``wordnet_words.txt.gz``: single words of any class: what counts as an English word.
 * ``wordnet_nouns.txt.gz``: artifacts, food and substances with all their hypernyms.
 """
@@ -55,12 +55,14 @@ def verb_lines(dict_dir: Path) -> list[str]:
     lines = []
     for lemma, tagged, _ in index_lines(dict_dir, "verb"):
         words = lemma.split("_")
-        if len(words) == 2 and words[1] in PARTICLES and words[0].isalpha():
+        if tagged and len(words) == 2 and words[1] in PARTICLES and words[0].isalpha():
             lines.append(lemma)
-        if not tagged or not lemma.isalpha() or len(lemma) < 2:
+        if not lemma.isalpha() or len(lemma) < 3:
             continue
         as_verb, as_noun = counts.get((lemma, "v"), 0), counts.get((lemma, "n"), 0)
         flag = "v" if lemma not in nouns else "vn" if as_verb > as_noun else "nv"
+        if not tagged:
+            flag = "nv"
         lines.append(" ".join([lemma, flag, *sorted(forms.get(lemma, ()))]))
     return sorted(lines)
 
