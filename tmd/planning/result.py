@@ -1,0 +1,54 @@
+"""What a planner may answer: a plan, a proof that there is none, or the limit at which it stopped.
+
+"No plan" is never ``None``: callers must be able to tell an impossible goal from a search that ended early,
+because the first removes a candidate for good and the second only for this limit.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits, Cube
+
+
+@dataclass(frozen=True, slots=True)
+class Filled:
+    """A plan was found.
+
+    Attributes:
+        plan: The missing instructions; empty where the goal holds already.
+        state: The state after them.
+        cost: The sum of their costs. It is the least possible one for every optimal back-end.
+    """
+
+    plan: tuple[Instruction, ...]
+    state: Bits
+    cost: int
+
+
+@dataclass(frozen=True, slots=True)
+class Unreachable:
+    """It is proven that no plan exists; ``reason`` names what cannot be reached."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class GaveUp:
+    """The search ended at ``limit``; nothing is proven."""
+
+    limit: str
+
+
+Answer: TypeAlias = Filled | Unreachable | GaveUp
+
+
+class Planner(Protocol):
+    """Anything that fills gaps: the in-process search and every engine of unified-planning."""
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """The missing instructions from ``state`` to any cube of ``goal``."""
+        ...

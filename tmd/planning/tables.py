@@ -1,0 +1,226 @@
+"""A task as flat lists of integers: the form in which the search kernel reads it.
+
+States are split into words of :data:`WORD` bits, so that every word is a non-negative 64-bit integer and the
+same arithmetic is right in plain Python and in compiled code.
+
+The relaxation works on *facts*. Fact ``2 * i`` says that atom ``i`` holds, fact ``2 * i + 1`` that it does not.
+Behind them come *clause* facts (one of several literals holds: what a forbidden cube demands). A *relaxed
+operator* is an operator with one distinct effect condition; it makes facts true and never false.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from itertools import accumulate
+from typing import NamedTuple
+
+from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
+
+WORD = 62
+"""Bits of a state in one word; two fewer than 64, so that words are never negative."""
+
+Ints = list[int]
+
+
+class Tables(NamedTuple):
+    """A task in flat form. ``*_start`` lists are offsets into the list of the same name.
+
+    Attributes:
+        words: Words of a state.
+        atoms: Fluent atoms.
+        operators: Operators; index ``operators`` stands for the free operators of the relaxation.
+        facts: Literals and clause facts.
+        cost: Cost of each operator in search units, and 0 for the free ones.
+        row_start: The relaxed operators of each operator; those of the free one come last.
+    """
+
+    words: int
+    atoms: int
+    operators: int
+    facts: int
+    cost: Ints
+    positive: Ints
+    negative: Ints
+    add: Ints
+    delete: Ints
+    forbidden_start: Ints
+    forbidden_positive: Ints
+    forbidden_negative: Ints
+    when_start: Ints
+    when_positive: Ints
+    when_negative: Ints
+    when_add: Ints
+    when_delete: Ints
+    row_start: Ints
+    action: Ints
+    need_start: Ints
+    need: Ints
+    guard_start: Ints
+    guard: Ints
+    make_start: Ints
+    make: Ints
+    maker_start: Ints
+    maker: Ints
+
+
+def words_of(bits: Bits, words: int) -> Ints:
+    """``bits`` as ``words`` words, lowest first."""
+    mask = (1 << WORD) - 1
+    return [bits >> (WORD * i) & mask for i in range(words)]
+
+
+def bits_of(words: Sequence[int]) -> Bits:
+    """The inverse of :func:`words_of`."""
+    bits = 0
+    for word in reversed(words):
+        bits = bits << WORD | int(word)
+    return bits
+
+
+def ones(bits: Bits) -> Ints:
+    """The numbers of the bits that are set, lowest first."""
+    found = []
+    while bits:
+        low = bits & -bits
+        found.append(low.bit_length() - 1)
+        bits ^= low
+    return found
+
+
+def literals(cube: Cube) -> Ints:
+    """The facts that a cube asks for, sorted."""
+    return sorted([2 * i for i in ones(cube.positive)] + [2 * i + 1 for i in ones(cube.negative)])
+
+
+def effect_facts(add: Bits, delete: Bits) -> Ints:
+    """The facts that an effect makes true; add wins over delete."""
+    return literals(Cube(add, delete & ~add))
+
+
+def search_costs(operators: Iterable[Operator]) -> tuple[Ints, int]:
+    """Costs as the search sees them, and the factor between them and the true costs.
+
+    The search wants every step to cost something. Where some operator is free, costs are scaled and every step
+    gets one unit more, so that among plans of least cost those with the fewest steps are taken.
+    """
+    costs = [operator.cost for operator in operators]
+    if all(costs):
+        return costs, 1
+    factor = 1 << 10
+    return [cost * factor + 1 for cost in costs], factor
+
+
+class _Row(NamedTuple):
+    """A relaxed operator: where all of ``need`` is true, ``make`` becomes true."""
+
+    action: int
+    need: Ints
+    guard: Ints
+    make: Ints
+
+
+class _Relaxation:
+    """Collects relaxed operators and clause facts."""
+
+    def __init__(self, atoms: int, free: int) -> None:
+        self.facts = 2 * atoms
+        self.free = free
+        self.clauses: dict[tuple[int, ...], int] = {}
+        self.rows: list[_Row] = []
+        self.free_rows: list[_Row] = []
+
+    def clause(self, cube: Cube) -> int:
+        """The fact that says that ``cube`` does not hold."""
+        parts = tuple(fact ^ 1 for fact in literals(cube))
+        if parts not in self.clauses:
+            self.clauses[parts] = self.facts
+            self.free_rows.extend(_Row(self.free, [part], [], [self.facts]) for part in parts)
+            self.facts += 1
+        return self.clauses[parts]
+
+    def operator(self, number: int, operator: Operator) -> None:
+        """Split an operator by its effect conditions."""
+        base = literals(operator.precondition) + [self.clause(cube) for cube in operator.forbidden]
+        if operator.add or operator.delete:
+            self.rows.append(_Row(number, base, [], effect_facts(operator.add, operator.delete)))
+        for condition, makes in _merged(operator.conditional).items():
+            guard = literals(condition)
+            self.rows.append(_Row(number, sorted({*base, *guard}), guard, makes))
+
+
+def _merged(effects: Iterable[ConditionalEffect]) -> dict[Cube, Ints]:
+    """The facts that each distinct condition makes true."""
+    merged: dict[Cube, set[int]] = {}
+    for effect in effects:
+        merged.setdefault(effect.condition, set()).update(effect_facts(effect.add, effect.delete))
+    return {condition: sorted(makes) for condition, makes in merged.items()}
+
+
+def offsets(lengths: Iterable[int]) -> Ints:
+    """Where each of several runs of the given lengths begins, and where the last one ends."""
+    return [0, *accumulate(lengths)]
+
+
+def rows(lists: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
+    """Offsets and entries of a list of lists."""
+    start, entries = [0], []
+    for one in lists:
+        entries.extend(one)
+        start.append(len(entries))
+    return start, entries
+
+
+def build(task: Task) -> Tables:
+    """The tables of ``task``."""
+    operators = task.operators
+    count, atoms = len(operators), len(task.atoms)
+    words = max(1, -(-atoms // WORD))
+    relaxation = _Relaxation(atoms, count)
+    for number, operator in enumerate(operators):
+        relaxation.operator(number, operator)
+    relaxed = relaxation.rows + relaxation.free_rows
+    groups: list[Ints] = [[] for _ in range(count + 1)]
+    makers: list[Ints] = [[] for _ in range(relaxation.facts)]
+    for number, row in enumerate(relaxed):
+        groups[row.action].append(number)
+        for fact in row.make:
+            makers[fact].append(number)
+
+    def flat(sets: Iterable[Bits]) -> Ints:
+        return [word for bits in sets for word in words_of(bits, words)]
+
+    forbidden = [cube for operator in operators for cube in operator.forbidden]
+    effects = [effect for operator in operators for effect in operator.conditional]
+    need_start, need = rows(row.need for row in relaxed)
+    guard_start, guard = rows(row.guard for row in relaxed)
+    make_start, make = rows(row.make for row in relaxed)
+    maker_start, maker = rows(makers)
+    return Tables(
+        words=words,
+        atoms=atoms,
+        operators=count,
+        facts=relaxation.facts,
+        cost=[*search_costs(operators)[0], 0],
+        positive=flat(operator.precondition.positive for operator in operators),
+        negative=flat(operator.precondition.negative for operator in operators),
+        add=flat(operator.add for operator in operators),
+        delete=flat(operator.delete for operator in operators),
+        forbidden_start=offsets(len(operator.forbidden) for operator in operators),
+        forbidden_positive=flat(cube.positive for cube in forbidden),
+        forbidden_negative=flat(cube.negative for cube in forbidden),
+        when_start=offsets(len(operator.conditional) for operator in operators),
+        when_positive=flat(effect.condition.positive for effect in effects),
+        when_negative=flat(effect.condition.negative for effect in effects),
+        when_add=flat(effect.add for effect in effects),
+        when_delete=flat(effect.delete for effect in effects),
+        row_start=offsets(len(group) for group in groups),
+        action=[row.action for row in relaxed],
+        need_start=need_start,
+        need=need,
+        guard_start=guard_start,
+        guard=guard,
+        make_start=make_start,
+        make=make,
+        maker_start=maker_start,
+        maker=maker,
+    )
