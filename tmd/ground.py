@@ -17,7 +17,7 @@ from tmd.energy.infer import Inference
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.energy.weights import Weights, named_weights
 from tmd.language.clause import Parsed
-from tmd.language.parser import parse
+from tmd.language import parse
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.veil.library import Library

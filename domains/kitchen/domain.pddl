@@ -114,6 +114,7 @@
     (filled ?x - thing)                    ; there is something in x
     (heating ?x - thing)                   ; x is exposed to heat
     (hot ?x - thing)                       ; x and what it contains are hot
+    (occupied ?x - thing)                  ; something stands on x, which has room for one thing only
     (loaded ?x - thing)                    ; what x needs to work is in its slot
     ; --- edges of the object graphs; they never change
     (part_of ?x - thing ?y - thing)        ; x is a part of y
@@ -133,6 +134,11 @@
     (idle ?s - setting)                    ; at this setting nothing works
     (heats ?x - thing ?rel - relation)     ; x, when working, heats what is there
     (serves_hot ?x - outlet)               ; what x gives is hot
+    (single ?x - thing)                    ; x has room for one thing only
+    (bare_heat ?x - thing)                 ; only what is heatproof may stand on x
+    (heatproof ?x - thing)                 ; x may stand on a burner
+    (no_metal ?x - thing)                  ; metal must not be put into x
+    (metal ?x - thing)                     ; x is of metal
     (momentary ?x - thing)                 ; x gives one portion and stops by itself
     (needs_shut ?x - thing)                ; x works only with its door closed
     (needs_load ?x - thing)                ; x works only when loaded
@@ -181,6 +187,7 @@
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
       (when (not (one_hand_used pr2)) (one_hand_used pr2))
       (forall (?y - thing ?rel - relation) (not (at ?x ?y ?rel)))
+      (forall (?y - fixture ?rel - relation) (when (and (single ?y) (at ?x ?y ?rel)) (not (occupied ?y))))
       (not (heating ?x))))
 
   ; Open the gripper: x lands where the robot stands.
@@ -192,31 +199,37 @@
       (when (both_hands_used pr2) (one_hand_used pr2))
       (when (both_hands_used pr2) (not (both_hands_used pr2)))
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
-      (forall (?y - fixture) (when (standing_at pr2 ?y) (at ?x ?y on)))
-      (forall (?y - fixture) (when (and (standing_at pr2 ?y) (heats ?y on) (active ?y)) (heating ?x)))))
+      (forall (?y - fixture) (when (standing_at pr2 ?y) (at ?x ?y on)))))
 
-  ; Put x down so that it is on, in or next to y. To reach inside, the door must be open. A burner that is lit
-  ; begins to heat x, a tap that runs fills it.
+  ; Put x down so that it is on, in or next to y. To reach inside, the door must be open; some places have room for
+  ; one thing, a burner takes only what is heatproof, a microwave no metal. A burner that is lit begins to heat x,
+  ; a tap that runs fills it with cold water.
   (:action keep
     :parameters (?x - item ?y - fixture ?rel - relation)
     :precondition (and (holding pr2 ?x) (near pr2 ?y) (allows ?y ?rel)
-                       (or (not (= ?rel in)) (not (shut ?y))))
+                       (or (not (= ?rel in)) (not (shut ?y)))
+                       (or (= ?rel next_to) (not (single ?y)) (not (occupied ?y)))
+                       (or (= ?rel next_to) (not (bare_heat ?y)) (heatproof ?x))
+                       (or (= ?rel next_to) (not (no_metal ?y)) (not (metal ?x))))
     :effect (and
       (not (holding pr2 ?x))
       (when (both_hands_used pr2) (one_hand_used pr2))
       (when (both_hands_used pr2) (not (both_hands_used pr2)))
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
       (at ?x ?y ?rel)
+      (when (and (single ?y) (not (= ?rel next_to))) (occupied ?y))
       (when (and (heats ?y ?rel) (active ?y)) (heating ?x))
       (forall (?o - outlet ?s - liquid)
         (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (contains ?x ?s)))
       (forall (?o - outlet ?s - liquid)
-        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (filled ?x)))))
+        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (filled ?x)))
+      (forall (?o - outlet ?s - liquid)
+        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (not (hot ?x))))))
 
-  ; Open the door, drawer or lid x. What it hid can be seen; what must not run with x open stops.
+  ; Open the door, drawer or lid x; it takes a free hand, as do closing, pressing and turning. What it hid can be seen; what must not run with x open stops.
   (:action open
     :parameters (?x - thing)
-    :precondition (and (near pr2 ?x) (openable ?x) (not (opened ?x)))
+    :precondition (and (near pr2 ?x) (openable ?x) (not (opened ?x)) (not (both_hands_used pr2)))
     :effect (and
       (opened ?x)
       (forall (?y - thing) (when (guards ?x ?y) (not (shut ?y))))
@@ -228,7 +241,7 @@
   ; Close the door, drawer or lid x. What is behind it is out of sight.
   (:action close
     :parameters (?x - thing)
-    :precondition (and (near pr2 ?x) (opened ?x))
+    :precondition (and (near pr2 ?x) (opened ?x) (not (both_hands_used pr2)))
     :effect (and
       (not (opened ?x))
       (forall (?y - thing) (when (guards ?x ?y) (shut ?y)))
@@ -237,7 +250,7 @@
   ; Press the button x. What it controls starts, or stops if it was working; a door it unlatches springs open.
   (:action press
     :parameters (?x - part)
-    :precondition (and (near pr2 ?x) (pressable ?x))
+    :precondition (and (near pr2 ?x) (pressable ?x) (not (both_hands_used pr2)))
     :effect (and
       ; switching on, and what follows from it
       (forall (?y - fixture)
@@ -266,6 +279,10 @@
         (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
                    (or (not (needs_load ?y)) (loaded ?y)) (serves_hot ?o))
               (hot ?z)))
+      (forall (?o - outlet ?y - fixture ?s - liquid ?z - vessel ?rel - relation)
+        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
+                   (or (not (needs_load ?y)) (loaded ?y)) (not (serves_hot ?o)))
+              (not (hot ?z))))
       ; a door that springs open
       (forall (?d - part) (when (unlatches ?x ?d) (opened ?d)))
       (forall (?d - part ?y - fixture)
@@ -280,7 +297,7 @@
   ; Turn the knob x to the setting s. What it controls works at every setting but the idle one.
   (:action turn
     :parameters (?x - part ?s - setting)
-    :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)))
+    :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)) (not (both_hands_used pr2)))
     :effect (and
       (set_to ?x ?s)
       (forall (?t - setting) (when (not (= ?s ?t)) (not (set_to ?x ?t))))
@@ -295,7 +312,10 @@
               (contains ?z ?l)))
       (forall (?o - outlet ?y - fixture ?l - liquid ?z - vessel ?rel - relation)
         (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (allows ?y ?rel) (not (idle ?s)) (at ?z ?y ?rel))
-              (filled ?z)))))
+              (filled ?z)))
+      (forall (?o - outlet ?y - fixture ?l - liquid ?z - vessel ?rel - relation)
+        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (allows ?y ?rel) (not (idle ?s)) (at ?z ?y ?rel))
+              (not (hot ?z))))))
 
   ; Take a scoop of what is in y with the utensil x.
   (:action scoopfrom

@@ -31,7 +31,8 @@ class Corpus:
     @cached_property
     def lexicon(self) -> Lexicon:
         """The built-in words with those of the domain."""
-        return Lexicon.load(self.folder.lexicon_path)
+        path = self.folder.lexicon_path
+        return Lexicon.load(path) if path is not None else Lexicon()
 
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""

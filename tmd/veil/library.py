@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 
 from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
-from tmd.language.parser import parse
+from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.template import Template, generalise

@@ -15,7 +15,7 @@ import yaml
 from pydantic import BaseModel, ValidationError
 
 from tmd.errors import Location, TmdError
-from tmd.pddl.syntax import read_text
+from tmd.pddl.syntax import nearest, read_text
 
 MAX_BYTES = 10_000_000
 """Larger files are refused: no environment or class file comes near."""
@@ -67,14 +67,12 @@ class YamlSource:
         """
         if self._root is None:
             raise TmdError(f"{self.path}: the file is empty")
-        data = yaml.load(self.text, Loader=_Loader)
         try:
-            return model.model_validate(data)
+            return model.model_validate(yaml.load(self.text, Loader=_Loader))
+        except yaml.MarkedYAMLError as error:
+            raise self._from_yaml(error) from None
         except ValidationError as error:
-            first = error.errors()[0]
-            path = tuple(part for part in first["loc"] if isinstance(part, str | int))
-            where = ".".join(map(str, path)) or "the file"
-            raise self.error(path, f"{where}: {first['msg']}") from None
+            raise self._from_model(error) from None
 
     def error(self, path: Sequence[str | int], message: str, hint: str | None = None) -> TmdError:
         """An error at the node that ``path`` (keys and indices from the root) leads to."""
@@ -93,6 +91,17 @@ class YamlSource:
             mark = node.start_mark if node is not None else None
         line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
         return Location(str(self.path), line, column)
+
+    def _from_model(self, error: ValidationError) -> TmdError:
+        """The first fault; an unknown key goes before the key that is missed because of it."""
+        faults = error.errors(include_url=False)
+        first = next((f for f in faults if f["type"] == "extra_forbidden"), faults[0])
+        path = tuple(part for part in first["loc"] if isinstance(part, str | int))
+        where = ".".join(map(str, path)) or "the file"
+        if first["type"] != "extra_forbidden":
+            return self.error(path, f"{where}: {first['msg']}")
+        missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
+        return self.error(path, f"unknown key '{where}'", nearest(str(path[-1]), missing, what="missing"))
 
     def _line(self, number: int) -> str | None:
         return self._lines[number - 1] if 0 < number <= len(self._lines) else None
