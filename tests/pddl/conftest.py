@@ -6,18 +6,42 @@ import importlib.util
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from dataclasses import replace as dataclass_replace
+from itertools import product
 from pathlib import Path
+from random import Random
 
 import pytest
 
-from tmd.pddl.model import Problem
+from tmd.pddl.hierarchy import TypeHierarchy
+from tmd.pddl.model import (
+    TRUE,
+    ActionSchema,
+    And,
+    Atom,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Not,
+    Or,
+    Predicate,
+    Problem,
+    TypeDeclaration,
+    TypedName,
+)
 from tmd.pddl.portable import portable
 from tmd.pddl.reader import read_domain, read_problem
 from tmd.pddl.writer import format_domain, format_problem
 
 ROOT = Path(__file__).resolve().parents[2]
+SEEDS = 150
 OWN = Path(__file__).parent / "cases"
 
 
@@ -36,6 +60,8 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     cases = {name: (domain, problem) for name, domain, problem in _cases()}
     if "paths" in metafunc.fixturenames:
         metafunc.parametrize("paths", list(cases.values()), ids=list(cases))
+    if "seed" in metafunc.fixturenames:
+        metafunc.parametrize("seed", range(getattr(metafunc.function, "seeds", SEEDS)))
     if "plan_path" in metafunc.fixturenames:
         plans = sorted(OWN.glob("*/plans/*.plan"))
         metafunc.parametrize("plan_path", plans, ids=[f"{p.parents[1].name}-{p.stem}" for p in plans])
@@ -92,7 +118,7 @@ class Val:
 
     def parse(self, written: Written) -> str:
         """The last line of what VAL's parser says."""
-        command: list[Path] = [self.directory / "Parser", written.domain_file, written.problem_file]
+        command: list[str | Path] = [self.directory / "Parser", written.domain_file, written.problem_file]
         done = subprocess.run(command, cwd=written.directory, capture_output=True, text=True, timeout=60)
         return done.stdout.strip().splitlines()[-1]
 
@@ -100,7 +126,13 @@ class Val:
         """Whether VAL finds the plan valid, the step that it says fails, and the value it computes."""
         file = written.directory / "val.plan"
         file.write_text(plan, encoding="utf-8")
-        command = [self.directory / "Validate", "-v", written.domain_file, written.problem_file, file]
+        command: list[str | Path] = [
+            self.directory / "Validate",
+            "-v",
+            written.domain_file,
+            written.problem_file,
+            file,
+        ]
         done = subprocess.run(command, cwd=written.directory, capture_output=True, text=True, timeout=60)
         failing = re.search(r"unsatisfied precondition at time (\d+)", done.stdout)
         value = re.search(r"^Final value: (\S+)", done.stdout, re.MULTILINE)
@@ -249,3 +281,95 @@ def translate() -> Callable[[Written], Sas]:
 def fixed_costs() -> Callable[[Problem], bool]:
     """Whether all costs of a problem are numbers: functions of parameters are not read everywhere."""
     return lambda problem: all(not f.parameters for f in problem.domain.functions)
+
+
+class RandomProblems:
+    """Small random ADL problems: every kind of condition and effect, over few objects."""
+
+    PREDICATES = (
+        Predicate("p0"),
+        Predicate("p1", (TypedName("?a", ("t1",)),)),
+        Predicate("p2", (TypedName("?a", ("t1",)), TypedName("?b", ("t1", "t2")))),
+        Predicate("p3", (TypedName("?a"),)),
+        Predicate("s1", (TypedName("?a", ("t1",)),)),
+        Predicate("s2", (TypedName("?a", ("t1",)), TypedName("?b"))),
+    )
+    TYPES = (TypeDeclaration("t1"), TypeDeclaration("t2"), TypeDeclaration("t3", "t1"))
+    CONSTANTS = (TypedName("c0", ("t3",)),)
+
+    def __init__(self, seed: int) -> None:
+        self.rng = Random(seed)
+        self.fresh = 0
+        self.hierarchy = TypeHierarchy(self.TYPES)
+
+    def problem(self) -> Problem:
+        rng = self.rng
+        objects = tuple(TypedName(f"o{n}", (rng.choice(["t1", "t2", "t3"]),)) for n in range(3))
+        actions = tuple(self.action(n) for n in range(rng.randint(2, 4)))
+        draft = Domain("random", (), self.TYPES, self.CONSTANTS, self.PREDICATES, (), actions)
+        domain = dataclass_replace(draft, requirements=(":adl",))
+        named = {o.name: o.types for o in (*self.CONSTANTS, *objects)}
+        init = [a for a in self.ground_atoms(named) if rng.random() < 0.35]
+        goal = self.formula({}, 2)
+        return Problem("random", domain, objects, frozenset(init), goal)
+
+    def ground_atoms(self, named: dict[str, tuple[str, ...]]) -> Iterator[GroundAtom]:
+        for predicate in self.PREDICATES:
+            fitting = [
+                [n for n, types in named.items() if self.hierarchy.accepts(p.types, types)]
+                for p in predicate.parameters
+            ]
+            yield from (GroundAtom(predicate.name, args) for args in product(*fitting))
+
+    def action(self, number: int) -> ActionSchema:
+        parameters = tuple(self.parameter() for _ in range(self.rng.randint(0, 2)))
+        scope = {p.name: p.types for p in parameters}
+        precondition = And(tuple(self.formula(scope, 2) for _ in range(self.rng.randint(0, 3))))
+        effects = tuple(self.effect(scope) for _ in range(self.rng.randint(1, 5)))
+        return ActionSchema(f"a{number}", parameters, precondition, effects)
+
+    def parameter(self) -> TypedName:
+        self.fresh += 1
+        return TypedName(f"?v{self.fresh}", self.rng.choice([("t1",), ("t2",), ("t3",), ("object",), ("t1", "t2")]))
+
+    def effect(self, scope: dict[str, tuple[str, ...]]) -> Effect:
+        parameters = tuple(self.parameter() for _ in range(self.rng.choice([0, 0, 0, 1, 2])))
+        inner = scope | {p.name: p.types for p in parameters}
+        condition = self.formula(inner, 2) if self.rng.random() < 0.5 else TRUE
+        fluent = [p for p in self.PREDICATES if not p.name.startswith("s")]
+        return Effect(self.atom(inner, fluent), self.rng.random() < 0.6, condition, parameters)
+
+    def atom(self, scope: dict[str, tuple[str, ...]], predicates: Sequence[Predicate]) -> Atom:
+        terms = scope | {c.name: c.types for c in self.CONSTANTS}
+        while True:
+            predicate = self.rng.choice(predicates)
+            fitting = [
+                [t for t, types in terms.items() if self.hierarchy.accepts(p.types, types)]
+                for p in predicate.parameters
+            ]
+            if all(fitting):
+                return Atom(predicate.name, tuple(self.rng.choice(f) for f in fitting))
+
+    def formula(self, scope: dict[str, tuple[str, ...]], depth: int) -> Formula:
+        kind = self.rng.choice(["atom", "not", "and", "or", "imply", "forall", "exists", "="] if depth else ["atom"])
+        if kind == "atom":
+            return self.atom(scope, self.PREDICATES)
+        if kind == "not":
+            return Not(self.formula(scope, depth - 1))
+        if kind in ("and", "or"):
+            parts = tuple(self.formula(scope, depth - 1) for _ in range(self.rng.randint(1, 3)))
+            return And(parts) if kind == "and" else Or(parts)
+        if kind == "imply":
+            return Imply(self.formula(scope, depth - 1), self.formula(scope, depth - 1))
+        if kind == "=":
+            terms = [*scope, "c0"]
+            return Equals(self.rng.choice(terms), self.rng.choice(terms))
+        parameter = self.parameter()
+        inner = self.formula(scope | {parameter.name: parameter.types}, depth - 1)
+        return Forall((parameter,), inner) if kind == "forall" else Exists((parameter,), inner)
+
+
+@pytest.fixture
+def random_problem(seed: int) -> Problem:
+    """A random problem for each seed."""
+    return RandomProblems(seed).problem()

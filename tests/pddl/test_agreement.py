@@ -106,9 +106,7 @@ def test_pddl_package_reads_and_writes_it(
     from pddl.formatter import domain_to_string, problem_to_string
 
     if not fixed_costs(problem):
-        pytest.skip(
-            "the pddl package refuses cost functions with parameters unless :numeric-fluents is declared"
-        )
+        pytest.skip("the pddl package refuses cost functions with parameters unless :numeric-fluents is declared")
     if "(forall" in format_formula(problem.goal) or "(exists" in format_formula(problem.goal):
         pytest.skip("the pddl package 0.5.1 refuses quantified goals whatever is declared")
     written = write(problem)

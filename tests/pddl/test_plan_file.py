@@ -92,7 +92,5 @@ def test_faults_of_instructions(text: str, column: int, message: str) -> None:
 
 
 def test_spaces_and_case_do_not_matter() -> None:
-    assert parse_instruction(" Keep ( Mug1 ,counter1,  ON ) ") == Instruction(
-        "keep", ("mug1", "counter1", "on")
-    )
+    assert parse_instruction(" Keep ( Mug1 ,counter1,  ON ) ") == Instruction("keep", ("mug1", "counter1", "on"))
     assert parse_plan("\ufeff  (GRASP  mug1 ) ; now\r\n").instructions == (Instruction("grasp", ("mug1",)),)

@@ -17,9 +17,10 @@ module                  holds
 ``regress``             the inverse of Φ, on the ground form
 ``task``                the ground form that searching uses: states and conditions as bit sets
 ``grounding``           from a problem to its task; its steps are ``instantiate`` and ``prune``
+``ground_action``       actions over numbered atoms, while grounding
 ``normal_form``         ground conditions as clauses or cubes
 ``join``                bindings that satisfy a conjunction
-``reachability``        which atoms may hold and which rules may fire, deleting ignored
+``reachability``        which literals may ever hold and which rules may ever fire
 ``validator``           whether a plan works, and the first reason why it does not
 ======================  ==========================================================================
 """

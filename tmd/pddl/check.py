@@ -140,9 +140,7 @@ class _Check:
             for name in parameter.types:
                 self.type_known(name, parameter.location)
             if parameter.name in inner:
-                self.fault(
-                    f'variable "{parameter.name}" is declared twice', parameter.location, "rename one of them"
-                )
+                self.fault(f'variable "{parameter.name}" is declared twice', parameter.location, "rename one of them")
             inner[parameter.name] = parameter.types
         return inner
 
@@ -155,9 +153,7 @@ class _Check:
             self.atom(action.cost, scope, self.functions, "function")
         if action.cost is not None and TOTAL_COST not in self.functions:
             place = action.cost.location if isinstance(action.cost, Atom) else action.location
-            self.fault(
-                f'unknown function "{TOTAL_COST}"', place, f"declare (:functions ({TOTAL_COST}) - number)"
-            )
+            self.fault(f'unknown function "{TOTAL_COST}"', place, f"declare (:functions ({TOTAL_COST}) - number)")
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -195,8 +191,7 @@ class _Check:
         shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
         if len(atom.terms) != len(signature.parameters):
             self.fault(
-                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), '
-                f"found {len(atom.terms)}",
+                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), found {len(atom.terms)}',
                 atom.location,
                 f"declared as {shown}",
             )
@@ -217,9 +212,7 @@ class _Check:
         """The types of ``term``; ``None`` where it is not declared (which is a fault)."""
         if term.startswith("?"):
             if term not in scope:
-                self.fault(
-                    f'free variable "{term}"', location, nearest(term, list(scope), what="variables here")
-                )
+                self.fault(f'free variable "{term}"', location, nearest(term, list(scope), what="variables here"))
             return scope.get(term)
         if term not in self.known_objects:
             hint = nearest(term, list(self.known_objects), what="objects")
@@ -235,9 +228,7 @@ class _Check:
         for declared in problem.objects:
             self.one_type(declared, "object")
             if constants.get(declared.name, declared.types) != declared.types:
-                self.fault(
-                    f'"{declared.name}" is a constant of another type', declared.location, "rename the object"
-                )
+                self.fault(f'"{declared.name}" is a constant of another type', declared.location, "rename the object")
 
     def values(self, problem: Problem) -> None:
         """The values of cost functions, and that there is a cost to minimise."""
@@ -245,9 +236,7 @@ class _Check:
             place = problem.init_locations.get(function)
             self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
         if problem.minimize_cost and TOTAL_COST not in self.functions:
-            self.fault(
-                f'the metric needs the function "{TOTAL_COST}"', problem.location, "declare it in the domain"
-            )
+            self.fault(f'the metric needs the function "{TOTAL_COST}"', problem.location, "declare it in the domain")
 
 
 def _either(types: Sequence[str]) -> str:

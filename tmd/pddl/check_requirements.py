@@ -48,15 +48,16 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
     declared = set(domain.requirements) | set(problem.requirements if problem else ())
     for name in tuple(declared):
         declared.update(_IMPLIED.get(name, ()))
-    faults: dict[str, TmdError] = {}
-    for requirement, feature, place in _problem_uses(problem) if problem else _domain_uses(domain):
-        if requirement not in declared and requirement not in faults:
-            faults[requirement] = TmdError(
-                f"{feature} needs {requirement}",
-                location=place,
-                hint=f"add {requirement} to (:requirements ...)",
-            )
-    return list(faults.values())
+    first: dict[str, _Use] = {}
+    for use in _problem_uses(problem) if problem else _domain_uses(domain):
+        before = first.get(use[0])
+        if before is None or (use[2] and before[2] and use[2] < before[2]):
+            first[use[0]] = use
+    return [
+        TmdError(f"{feature} needs {name}", location=place, hint=f"add {name} to (:requirements ...)")
+        for name, feature, place in first.values()
+        if name not in declared
+    ]
 
 
 def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:

@@ -1,19 +1,20 @@
 """From a problem to its ground task: every operator that may ever apply, as bit sets.
 
 In three steps. Actions are instantiated while relaxed reachability collects the atoms that may hold
-(:mod:`tmd.pddl.instantiate`). Then what can never apply, and what never changes, is pruned until nothing more
-falls away (:mod:`tmd.pddl.prune`). At last the atoms that are left are numbered.
+(:mod:`tmd.pddl.instantiate`). Then what can never apply, and what never changes, is pruned
+(:mod:`tmd.pddl.prune`). At last the atoms that are left are numbered.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from tmd.pddl.ground_action import Conditional, GroundAction
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.instantiate import Instances, instantiate_actions
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State
 from tmd.pddl.normal_form import FALSE, TRUE, Literals, Tree, disjunctive, expand
-from tmd.pddl.prune import GroundAction, Pruned, prune
+from tmd.pddl.prune import Pruned, prune
 from tmd.pddl.semantics import Binding, bind
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 
@@ -21,9 +22,7 @@ _NEVER = Cube(0, 0)
 """A forbidden cube that holds in every state."""
 
 
-def ground(
-    problem: Problem, initial_states: Sequence[State] = (), forced: Sequence[Instruction] = ()
-) -> Task:
+def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Sequence[Instruction] = ()) -> Task:
     """The ground task of ``problem``.
 
     The task is exact for every state that its operators reach from the problem's initial state, from any of
@@ -43,7 +42,7 @@ def ground(
     for instruction in forced:
         bind(problem, instruction)
     instances = instantiate_actions(problem, (problem.init, *initial_states), frozenset(forced))
-    pruned = prune(instances)
+    pruned = prune(instances.actions, instances.reachability)
     return _number(problem, instances, pruned)
 
 
@@ -106,15 +105,18 @@ def _operator(action: GroundAction, bit: dict[int, int]) -> Operator:
     precondition = _cube(literal for unit in units for literal in unit)
     if precondition.positive & precondition.negative:
         precondition, forbidden = Cube(), [_NEVER]
+    nothing = Conditional(frozenset(), frozenset(), frozenset())
+    always = next((e for e in action.effects if not e.condition), nothing)
     conditional = [
         ConditionalEffect(_cube(_renumber(condition, bit)), _bits(add, bit), _bits(delete, bit))
-        for condition, add, delete in action.conditional
+        for condition, add, delete in action.effects
+        if condition
     ]
     return Operator(
         action.instruction,
         precondition,
-        _bits(action.add, bit),
-        _bits(action.delete, bit),
+        _bits(always.add, bit),
+        _bits(always.delete, bit),
         tuple(sorted(conditional)),
         tuple(sorted(forbidden)),
         action.cost,

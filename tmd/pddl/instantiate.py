@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tmd.errors import TmdError
+from tmd.pddl.ground_action import GroundAction, GroundEffect, grouped
 from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.join import Check, Join, Query, Relation, Row, plan_join
 from tmd.pddl.model import (
@@ -29,8 +30,8 @@ from tmd.pddl.model import (
     Problem,
     State,
 )
-from tmd.pddl.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
-from tmd.pddl.reachability import Reachability, Rule
+from tmd.pddl.normal_form import FALSE, TRUE, Tree, conjunctive, disjunctive, expand
+from tmd.pddl.reachability import Reachability
 from tmd.pddl.read_formula import free_variables
 from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
 
@@ -38,55 +39,19 @@ _MOST_ACTIONS = 500_000
 
 
 @dataclass(frozen=True, slots=True)
-class GroundEffect:
-    """One literal, and the cube under which it comes about (empty: always)."""
-
-    condition: Literals
-    atom: int
-    positive: bool
-
-
-@dataclass(frozen=True, slots=True)
-class GroundInstance:
-    """An instantiated action: its clauses must all hold; ``forced`` ones count even if they cannot."""
-
-    instruction: Instruction
-    clauses: tuple[Literals, ...]
-    effects: tuple[GroundEffect, ...]
-    cost: int
-    forced: bool
-
-    def rule(self, number: int) -> Rule:
-        """What this instance means for reachability."""
-        inner = []
-        heads = []
-        for place, effect in enumerate(self.effects):
-            if effect.positive and not effect.condition:
-                heads.append(effect.atom)
-            elif effect.condition:
-                clauses = [frozenset((literal,)) for literal in effect.condition]
-                inner.append(Rule((number, place), clauses, (effect.atom,) if effect.positive else ()))
-        return Rule((number, -1), () if self.forced else self.clauses, heads, tuple(inner))
-
-
-@dataclass(frozen=True, slots=True)
 class Instances:
-    """All instances that may apply, over the numbered ``atoms``.
+    """All actions that may apply, over the numbered ``atoms``, and what they reach.
 
-    ``everywhere`` holds in every initial state, ``somewhere`` in one at least; ``static`` are the atoms of
-    predicates that no action changes.
+    ``static`` are the atoms of predicates that no action changes.
     """
 
     atoms: Sequence[GroundAtom]
     static: State
-    everywhere: frozenset[int]
-    somewhere: tuple[int, ...]
-    instances: Sequence[GroundInstance]
+    actions: Sequence[GroundAction]
+    reachability: Reachability
 
 
-def instantiate_actions(
-    problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]
-) -> Instances:
+def instantiate_actions(problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> Instances:
     """Every instance that relaxed reachability from the union of ``initial_states`` admits."""
     return _Instantiation(problem, initial_states, forced).run()
 
@@ -137,15 +102,13 @@ class _ActionPlan:
 class _Instantiation:
     """The state of one run."""
 
-    def __init__(
-        self, problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]
-    ) -> None:
+    def __init__(self, problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> None:
         self.problem = problem
         self.objects: Universe = universe(problem)
         self.forced = forced
         self.numbers: dict[GroundAtom, int] = {}
         self.atoms: list[GroundAtom] = []
-        self.instances: dict[Instruction, GroundInstance] = {}
+        self.actions: dict[Instruction, GroundAction] = {}
         self.refused: set[Instruction] = set()
         somewhere = frozenset[GroundAtom]().union(*initial_states)
         everywhere = frozenset(problem.init).intersection(*initial_states)
@@ -157,9 +120,9 @@ class _Instantiation:
         for atom in sorted(self.static):
             self.relations[atom.predicate].add(atom.args)
         fluent = sorted(a for a in somewhere if a.predicate in changing)
-        self.somewhere = tuple(self.number(a) for a in fluent)
-        self.everywhere = frozenset(self.number(a) for a in fluent if a in everywhere)
-        self.reachability = Reachability(self.somewhere)
+        start = [2 * self.number(a) for a in fluent]
+        always = frozenset(self.number(a) for a in fluent if a in everywhere)
+        self.reachability = Reachability(start, lambda atom: atom not in always)
         self.plans = [self.plan(action) for action in problem.domain.actions]
 
     def number(self, atom: GroundAtom) -> int:
@@ -184,15 +147,15 @@ class _Instantiation:
             self.instantiate(plan, [p.name for p in plan.action.parameters], [instruction.args])
         while new := self.reachability.run():
             self.extend(new)
-        return Instances(
-            self.atoms, self.static, self.everywhere, self.somewhere, tuple(self.instances.values())
-        )
+        return Instances(self.atoms, self.static, tuple(self.actions.values()), self.reachability)
 
     def extend(self, new: Iterable[int]) -> None:
-        """Instantiate what the atoms ``new`` make possible."""
+        """Instantiate what the literals ``new`` make possible; negated ones wait in the rules themselves."""
         rows: dict[str, list[Row]] = {}
-        for number in new:
-            atom = self.atoms[number]
+        for literal in new:
+            if literal & 1:
+                continue
+            atom = self.atoms[literal >> 1]
             self.relations[atom.predicate].add(atom.args)
             rows.setdefault(atom.predicate, []).append(atom.args)
         for plan in self.plans:
@@ -268,22 +231,20 @@ class _Instantiation:
         places = [order.index(p.name) for p in action.parameters]
         for row in rows:
             instruction = Instruction(action.name, tuple(row[p] for p in places))
-            if instruction in self.instances or instruction in self.refused:
+            if instruction in self.actions or instruction in self.refused:
                 continue
             binding = dict(zip(order, row, strict=True))
-            instance = self.instance(plan, instruction, binding)
-            if instance is None:
+            ground = self.ground(plan, instruction, binding)
+            if ground is None:
                 self.refused.add(instruction)
                 continue
-            if len(self.instances) >= _MOST_ACTIONS:
+            if len(self.actions) >= _MOST_ACTIONS:
                 raise TmdError(f"grounding gives more than {_MOST_ACTIONS} actions")
-            self.reachability.add(instance.rule(len(self.instances)))
-            self.instances[instruction] = instance
+            self.reachability.add(ground.rule(len(self.actions)))
+            self.actions[instruction] = ground
 
-    def instance(
-        self, plan: _ActionPlan, instruction: Instruction, binding: Binding
-    ) -> GroundInstance | None:
-        """The instance, or ``None`` where its precondition contradicts itself or what never changes."""
+    def ground(self, plan: _ActionPlan, instruction: Instruction, binding: Binding) -> GroundAction | None:
+        """The ground action, or ``None`` where its precondition contradicts itself or what never changes."""
         forced = instruction in self.forced
         what = str(instruction)
         precondition = plan.action.precondition if forced else plan.rest
@@ -293,24 +254,20 @@ class _Instantiation:
             units = {literal for clause in clauses if len(clause) == 1 for literal in clause}
             if frozenset() in clauses or any(literal ^ 1 in units for literal in units):
                 return None
-        effects = [ground for effect in plan.effects for ground in self.effects(effect, binding, what)]
+        effects = grouped(found for effect in plan.effects for found in self.effects(effect, binding, what))
         cost = action_cost(self.problem, plan.action, binding)
-        return GroundInstance(
-            instruction, tuple(dict.fromkeys(clauses)), tuple(dict.fromkeys(effects)), cost, forced
-        )
+        return GroundAction(instruction, tuple(dict.fromkeys(clauses)), effects, cost, forced)
 
     def effects(self, plan: _EffectPlan, outer: Binding, what: str) -> Iterable[GroundEffect]:
         rows: Iterable[Binding] = (outer,)
         if plan.join is not None:
-            join = plan.join
-            rows = (
-                dict(zip(join.order, row, strict=True))
-                for row in join.run([tuple(outer[v] for v in join.order[: len(outer)])])
-            )
+            order = plan.join.order
+            found = plan.join.run([tuple(outer[v] for v in order[: len(outer)])])
+            rows = (dict(zip(order, row, strict=True)) for row in found)
         for binding in rows:
             tree = expand(plan.rest, binding, self.objects, self.lookup)
             if tree == FALSE:
                 continue
-            atom = self.number(instantiate(plan.effect.atom, binding))
+            literal = 2 * self.number(instantiate(plan.effect.atom, binding)) + (not plan.effect.positive)
             for cube in disjunctive(tree, what):
-                yield GroundEffect(cube, atom, plan.effect.positive)
+                yield GroundEffect(cube, literal)

@@ -15,7 +15,7 @@ from tmd.pddl.semantics import Binding
 
 Row: TypeAlias = tuple[str, ...]
 
-_MOST_ROWS = 2_000_000
+_MOST_ROWS = 500_000
 _UNKNOWN = 1_000_000
 """The size a relation is taken to have that is still to grow."""
 
@@ -182,6 +182,4 @@ def _match(atom: Atom, query: Query, order: list[str]) -> _Match:
             key.append(term)
     order.extend(new)
     allowed = tuple(frozenset(query.variables[v]) for v in new)
-    return _Match(
-        query.relations[atom.predicate], tuple(places), tuple(key), tuple(new.values()), tuple(same), allowed
-    )
+    return _Match(query.relations[atom.predicate], tuple(places), tuple(key), tuple(new.values()), tuple(same), allowed)

@@ -25,12 +25,10 @@ Lookup: TypeAlias = Callable[[GroundAtom], Tree]
 
 Literals: TypeAlias = frozenset[int]
 
-_MOST = 20_000
+_MOST = 3_000
 
 
-def expand(
-    formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True
-) -> Tree:
+def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True) -> Tree:
     """``formula`` (or its negation) over literals: quantifiers spread out, constants gone."""
     match formula:
         case Atom():
@@ -57,14 +55,10 @@ def expand(
             )
             return _combine("or" if positive else "and", sides)
         case Forall(parameters, part):
-            inner = (
-                expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding)
-            )
+            inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
             return _combine("and" if positive else "or", inner)
         case Exists(parameters, part):
-            inner = (
-                expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding)
-            )
+            inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
             return _combine("or" if positive else "and", inner)
 
 

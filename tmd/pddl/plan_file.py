@@ -63,9 +63,7 @@ def parse_plan(text: str, file: str = "<text>") -> Plan:
 
 def _parse_line(code: str, place: Location, line: str) -> Instruction:
     if _STAMP.match(code):
-        raise TmdError(
-            "temporal plans are not supported", location=place, source=line, hint="remove the time"
-        )
+        raise TmdError("temporal plans are not supported", location=place, source=line, hint="remove the time")
     if not (code.startswith("(") and code.endswith(")")) or code.count("(") != 1 or code.count(")") != 1:
         raise TmdError(
             "a plan has one (name argument ...) a line",

@@ -148,8 +148,7 @@ class _Rewriting:
 
     def action(self, action: ActionSchema) -> ActionSchema:
         effects = tuple(
-            replace(e, parameters=self.names(e.parameters), condition=self.formula(e.condition))
-            for e in action.effects
+            replace(e, parameters=self.names(e.parameters), condition=self.formula(e.condition)) for e in action.effects
         )
         return replace(
             action,

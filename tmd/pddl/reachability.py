@@ -1,23 +1,23 @@
-"""Relaxed reachability over ground rules: which atoms may ever hold, and which rules may ever fire.
+"""Relaxed reachability over ground rules: which literals may ever hold, and which rules may ever fire.
 
-Deleting is ignored and a negated atom counts as reachable, so what is not reached here never holds.
+An atom and its negation are two facts that do not exclude each other. What is not reached here never holds.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from tmd.pddl.normal_form import Literals
 
 Tag: TypeAlias = tuple[int, int]
-"""Which rule: the operator's number, and its conditional effect's or -1 for the operator itself."""
+"""Which rule: the action's number, and the number of its effect or -1 for the action itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """When every clause can hold, the atoms ``heads`` may, and the rules ``then`` come into being."""
+    """When every clause can hold, so can the literals ``heads``, and the rules ``then`` come into being."""
 
     tag: Tag
     clauses: Sequence[Literals]
@@ -29,24 +29,28 @@ class Reachability:
     """A fixpoint that can be extended by more rules while it runs.
 
     Args:
-        atoms: What holds at the start.
-        always: Atoms that are known never to cease to hold, so their negation counts as false.
+        literals: What holds at the start.
+        starts_false: Whether an atom is false in some initial state.
     """
 
-    def __init__(self, atoms: Iterable[int], always: frozenset[int] = frozenset()) -> None:
+    def __init__(self, literals: Iterable[int], starts_false: Callable[[int], bool]) -> None:
         self.reached: dict[int, None] = {}
         self.fired: set[Tag] = set()
-        self._always = always
+        self._starts_false = starts_false
         self._queue: list[int] = []
         self._watchers: dict[int, list[list[int]]] = {}
         self._rules: list[Rule] = []
         self._missing: list[int] = []
         self._new: list[int] = []
-        self._reach(atoms)
+        self._reach(literals)
+
+    def holds(self, literal: int) -> bool:
+        """Whether ``literal`` can hold, as far as is known now."""
+        return literal in self.reached or bool(literal & 1 and self._starts_false(literal >> 1))
 
     def add(self, rule: Rule) -> None:
         """Let ``rule`` take part; call :meth:`run` afterwards."""
-        waiting = [c for c in rule.clauses if not any(self._open(literal) for literal in c)]
+        waiting = [c for c in rule.clauses if not any(self.holds(literal) for literal in c)]
         if not waiting:
             self._fire(rule)
             return
@@ -56,11 +60,10 @@ class Reachability:
         for clause in waiting:
             watcher = [number, 0]
             for literal in clause:
-                if not literal & 1:
-                    self._watchers.setdefault(literal >> 1, []).append(watcher)
+                self._watchers.setdefault(literal, []).append(watcher)
 
     def run(self) -> list[int]:
-        """Follow all rules to the end; the atoms reached since the last call, in order."""
+        """Follow all rules to the end; the literals reached since the last call, in order."""
         while self._queue:
             for watcher in self._watchers.pop(self._queue.pop(), ()):
                 number, done = watcher
@@ -73,24 +76,15 @@ class Reachability:
         new, self._new = self._new, []
         return new
 
-    def _open(self, literal: int) -> bool:
-        """Whether ``literal`` can hold, as far as is known now."""
-        if literal & 1:
-            return literal >> 1 not in self._always
-        return literal >> 1 in self.reached
-
-    def _reach(self, atoms: Iterable[int]) -> None:
-        for atom in atoms:
-            if atom not in self.reached:
-                self.reached[atom] = None
-                self._queue.append(atom)
-                self._new.append(atom)
+    def _reach(self, literals: Iterable[int]) -> None:
+        for literal in literals:
+            if literal not in self.reached:
+                self.reached[literal] = None
+                self._queue.append(literal)
+                self._new.append(literal)
 
     def _fire(self, rule: Rule) -> None:
-        pending = [rule]
-        while pending:
-            now = pending.pop()
-            self.fired.add(now.tag)
-            self._reach(now.heads)
-            for inner in now.then:
-                self.add(inner)
+        self.fired.add(rule.tag)
+        self._reach(rule.heads)
+        for inner in rule.then:
+            self.add(inner)

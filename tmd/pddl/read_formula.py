@@ -73,9 +73,7 @@ def free_variables(formula: Formula) -> frozenset[str]:
     return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
 
 
-def unsupported(
-    source: Source, what: str, name: str, location: Location, hint: str | None = None
-) -> TmdError:
+def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
     """The error for a construct of PDDL that is outside the supported part."""
     return source.error(f'{what} are not supported: "{name}"', location, hint)
 
@@ -121,9 +119,7 @@ def read_number(node: Node, source: Source) -> int | None:
     raise source.error(f'cost "{node.text}" is not a whole number from 0 up', node.location)
 
 
-def read_typed_list(
-    nodes: Sequence[Node], source: Source, *, variables: bool, what: str
-) -> tuple[TypedName, ...]:
+def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, what: str) -> tuple[TypedName, ...]:
     """``a b - t c - (either t u)``: names (or variables) with their types."""
     found: list[TypedName] = []
     waiting: list[Word] = []
@@ -165,9 +161,7 @@ def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str,
 def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
     """The parameter list of an action or quantifier."""
     if isinstance(node, Word):
-        raise source.error(
-            f'expected a list of parameters, found "{node.text}"', node.location, "write (?x - type)"
-        )
+        raise source.error(f'expected a list of parameters, found "{node.text}"', node.location, "write (?x - type)")
     return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
@@ -178,9 +172,7 @@ def read_condition(node: Node, source: Source) -> Formula:
         TmdError: It is not a formula, or it holds something that is not supported.
     """
     if isinstance(node, Word):
-        raise source.error(
-            f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})"
-        )
+        raise source.error(f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})")
     if not node.parts:
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
@@ -217,9 +209,7 @@ def read_atom(node: Group, source: Source) -> Atom:
 
 def _expect(node: Group, count: int, form: str, source: Source) -> None:
     if len(node.parts) != count + 1:
-        raise source.error(
-            f'"{node.head}" takes {count} part(s), found {len(node.parts) - 1}', node.location, form
-        )
+        raise source.error(f'"{node.head}" takes {count} part(s), found {len(node.parts) - 1}', node.location, form)
 
 
 @dataclass(slots=True)

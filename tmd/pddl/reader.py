@@ -162,9 +162,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     """The name and sections of ``(define (kind name) section ...)``."""
     source = document.source
     if not document.groups:
-        raise source.error(
-            f"there is no {kind} here", Location(source.file, 1, 1), f"write (define ({kind} name) ...)"
-        )
+        raise source.error(f"there is no {kind} here", Location(source.file, 1, 1), f"write (define ({kind} name) ...)")
     first = document.groups[0]
     if document.deepest is not None and document.deepest.depth > _DEEPEST:
         raise source.error(f"nested more than {_DEEPEST} levels deep", document.deepest.location)
@@ -262,9 +260,7 @@ def _read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
     found = []
     for typed in read_typed_list(group.parts[1:], source, variables=False, what="a type"):
         if len(typed.types) > 1:
-            raise unsupported(
-                source, "types with several parents", typed.name, typed.location or group.location
-            )
+            raise unsupported(source, "types with several parents", typed.name, typed.location or group.location)
         if typed.name != OBJECT:
             found.append(TypeDeclaration(typed.name, typed.types[0], typed.location))
         elif typed.types[0] != OBJECT:
@@ -280,9 +276,7 @@ def _read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
         if isinstance(node, Word):
             raise document.source.error(f'expected (predicate ...), found "{node.text}"', node.location)
         last = node.end.line != next_line
-        found.append(
-            _read_signature(node, document, comment=document.comments.get(node.end.line, "") if last else "")
-        )
+        found.append(_read_signature(node, document, comment=document.comments.get(node.end.line, "") if last else ""))
     return tuple(found)
 
 
@@ -306,9 +300,7 @@ def _read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
         if nodes and isinstance(nodes[0], Word) and nodes[0].text == "-":
             value = nodes[1] if len(nodes) > 1 else nodes[0]
             if isinstance(value, Group) or value.text != "number":
-                raise unsupported(
-                    document.source, "object fluents", node.head, node.location, "a function is a number"
-                )
+                raise unsupported(document.source, "object fluents", node.head, node.location, "a function is a number")
             del nodes[:2]
     return tuple(found)
 
@@ -321,9 +313,7 @@ def _read_action(group: Group, source: Source) -> ActionSchema:
     nodes = iter(group.parts[2:])
     for keyword in nodes:
         if isinstance(keyword, Group):
-            raise source.error(
-                "expected :parameters, :precondition or :effect, found a parenthesis", keyword.location
-            )
+            raise source.error("expected :parameters, :precondition or :effect, found a parenthesis", keyword.location)
         known = (":parameters", ":precondition", ":effect")
         if keyword.text not in known:
             raise source.error(
@@ -376,9 +366,7 @@ class _Init:
     def read(self, group: Group) -> None:
         for node in _spread(group.parts[1:]):
             if isinstance(node, Word):
-                raise self.source.error(
-                    f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})"
-                )
+                raise self.source.error(f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})")
             self._read_entry(node)
         for atom in self.denied:
             if atom in self.atoms:
@@ -387,9 +375,7 @@ class _Init:
     def _read_entry(self, node: Group) -> None:
         if node.head == "=":
             self._read_value(node)
-        elif (
-            node.head == "at" and len(node.parts) == 3 and read_number(node.parts[1], self.source) is not None
-        ):
+        elif node.head == "at" and len(node.parts) == 3 and read_number(node.parts[1], self.source) is not None:
             raise unsupported(self.source, "timed initial literals", "at", node.location)
         elif node.head == "not":
             inner = _only_part(node, self.source)
@@ -397,9 +383,7 @@ class _Init:
                 raise self.source.error("expected (not (predicate ...))", inner.location)
             self.denied[self._ground(inner)] = None
         elif node.head in ("or", "oneof", "forall", "exists", "imply", "when"):
-            raise self.source.error(
-                f'"{node.head}" cannot stand in :init', node.location, "list the atoms that hold"
-            )
+            raise self.source.error(f'"{node.head}" cannot stand in :init', node.location, "list the atoms that hold")
         else:
             self.atoms[self._ground(node)] = None
 
@@ -407,9 +391,7 @@ class _Init:
         atom = read_atom(node, self.source)
         for term in atom.terms:
             if term.startswith("?"):
-                raise self.source.error(
-                    f'variable "{term}" in :init', node.location, "write the name of an object"
-                )
+                raise self.source.error(f'variable "{term}" in :init', node.location, "write the name of an object")
         ground = GroundAtom(atom.predicate, atom.terms)
         self.locations.setdefault(ground, node.location)
         return ground
@@ -419,9 +401,7 @@ class _Init:
             raise self.source.error("expected (= (function object ...) number)", node.location)
         number = read_number(node.parts[2], self.source)
         if number is None:
-            raise unsupported(
-                self.source, "object fluents", node.parts[1].head, node.location, "give a number"
-            )
+            raise unsupported(self.source, "object fluents", node.parts[1].head, node.location, "give a number")
         function = self._ground(node.parts[1])
         if function == GroundAtom(TOTAL_COST):
             if number:

@@ -25,18 +25,14 @@ def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
     clauses: list[Sequence[Cube]] = [_opposite(f) for f in operator.forbidden]
     if operator.conditional:
         kept_positive, kept_negative, more = _conditional_clauses(positive, negative, operator)
-        before = Cube(
-            operator.precondition.positive | kept_positive, operator.precondition.negative | kept_negative
-        )
+        before = Cube(operator.precondition.positive | kept_positive, operator.precondition.negative | kept_negative)
         clauses += more
     elif positive & ~operator.add & operator.delete:
         return ()
     return _conjoin(before, clauses)
 
 
-def _conditional_clauses(
-    positive: Bits, negative: Bits, operator: Operator
-) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
+def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
     """Literals that must hold before, and disjunctions of which one must, where effects have conditions."""
     clauses: list[Sequence[Cube]] = []
     wanted = positive & ~operator.add

@@ -84,9 +84,7 @@ def bindings(parameters: tuple[TypedName, ...], objects: Universe, outer: Bindin
         yield {**outer, **dict(zip(names, choice, strict=True))}
 
 
-def holds(
-    formula: Formula, state: State, objects: Problem | Universe, binding: Binding | None = None
-) -> bool:
+def holds(formula: Formula, state: State, objects: Problem | Universe, binding: Binding | None = None) -> bool:
     """Whether ``formula`` holds in ``state``; quantifiers range over ``objects``."""
     known = universe(objects) if isinstance(objects, Problem) else objects
     return _holds(formula, state, known, binding or {})
@@ -122,9 +120,7 @@ def schema_of(problem: Problem, instruction: Instruction) -> ActionSchema:
         if action.name == instruction.name:
             return action
     names = [a.name for a in problem.domain.actions]
-    raise TmdError(
-        f'unknown action "{instruction.name}"', hint=nearest(instruction.name, names, what="actions")
-    )
+    raise TmdError(f'unknown action "{instruction.name}"', hint=nearest(instruction.name, names, what="actions"))
 
 
 def bind(problem: Problem, instruction: Instruction) -> dict[str, str]:
@@ -223,9 +219,7 @@ def first_false(
     return _first_false(formula, state, known, binding or {}, True)
 
 
-def _first_false(
-    formula: Formula, state: State, objects: Universe, binding: Binding, wanted: bool
-) -> Broken | None:
+def _first_false(formula: Formula, state: State, objects: Universe, binding: Binding, wanted: bool) -> Broken | None:
     """The first part for which ``formula`` is not ``wanted``."""
     if isinstance(formula, Not):
         return _first_false(formula.part, state, objects, binding, not wanted)
@@ -234,9 +228,7 @@ def _first_false(
         return next((b for b in found if b), None)
     if isinstance(formula, Forall if wanted else Exists):
         inner = bindings(formula.parameters, objects, binding)
-        return next(
-            (b for b in (_first_false(formula.part, state, objects, x, wanted) for x in inner) if b), None
-        )
+        return next((b for b in (_first_false(formula.part, state, objects, x, wanted) for x in inner) if b), None)
     if _holds(formula, state, objects, binding) == wanted:
         return None
     atom = instantiate(formula, binding) if isinstance(formula, Atom) else None

@@ -1,0 +1,131 @@
+"""What conditions and instructions mean, case by case."""
+
+from __future__ import annotations
+
+import pytest
+
+from tmd.errors import TmdError
+from tmd.pddl import semantics
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.writer import format_formula
+
+DOMAIN = """
+(define (domain d) (:requirements :adl)
+  (:types a - object b - a)
+  (:predicates (p ?x - a) (q ?x - a) (r ?x ?y - a) (n))
+  (:action swap :parameters (?x ?y - a) :precondition (and (p ?x) (or (q ?x) (not (n))))
+    :effect (and (when (p ?x) (and (not (p ?x)) (q ?x))) (when (q ?x) (and (not (q ?x)) (p ?x)))
+                 (forall (?z - b) (when (r ?x ?z) (r ?z ?y)))))
+  (:action both :parameters () :effect (and (not (n)) (n) (when (n) (not (n)))))
+  (:action nested :parameters (?x - a)
+    :effect (when (p ?x) (and (when (q ?x) (n)) (forall (?z - a) (when (r ?x ?z) (q ?z)))))))
+"""
+PROBLEM = "(define (problem x) (:domain d) (:objects u - a v w - b) (:init (p u) (r u v)) (:goal {}))"
+
+
+def _problem(goal: str = "(and)") -> Problem:
+    return parse_problem(PROBLEM.format(goal), parse_domain(DOMAIN))
+
+
+def _state(*atoms: str) -> State:
+    return frozenset(GroundAtom(w[0], tuple(w[1:])) for w in (a.split() for a in atoms))
+
+
+@pytest.mark.parametrize(
+    ("goal", "expected", "broken"),
+    [
+        ("(and)", True, None),
+        ("(or)", False, "(or)"),
+        ("(p u)", True, None),
+        ("(p v)", False, "(p v)"),
+        ("(not (p u))", False, "(not (p u))"),
+        ("(and (p u) (q u) (q v))", False, "(q u)"),
+        ("(or (q u) (p u))", True, None),
+        ("(or (q u) (q v))", False, "(or (q u) (q v))"),
+        ("(not (or (q u) (p u)))", False, "(not (p u))"),
+        ("(not (and (p u) (r u v)))", False, "(not (and (p u) (r u v)))"),
+        ("(imply (q u) (p v))", True, None),
+        ("(imply (p u) (p v))", False, "(imply (p u) (p v))"),
+        ("(= u u)", True, None),
+        ("(= u v)", False, "(= u v)"),
+        ("(not (= u u))", False, "(not (= u u))"),
+        ("(forall (?x - b) (not (p ?x)))", True, None),
+        ("(forall (?x - a) (p ?x))", False, "(p v)"),
+        ("(not (exists (?x ?y - a) (r ?x ?y)))", False, "(not (r u v))"),
+        ("(exists (?x - b) (exists (?y - a) (r ?y ?x)))", True, None),
+        ("(exists (?x - b) (p ?x))", False, "(exists (?x - b) (p ?x))"),
+        ("(forall (?x - a) (exists (?y - a) (= ?x ?y)))", True, None),
+        ("(not (not (p u)))", True, None),
+    ],
+)
+def test_holds(goal: str, expected: bool, broken: str | None) -> None:
+    problem = _problem(goal)
+    assert semantics.holds(problem.goal, problem.init, problem) == expected
+    found = semantics.first_false(problem.goal, problem.init, problem)
+    assert (found.text if found else None) == broken
+    if found and found.atom:
+        assert (found.atom in problem.init) != found.positive
+
+
+def test_conditions_read_the_old_state() -> None:
+    swap = Instruction("swap", ("u", "w"))
+    problem = _problem()
+    assert semantics.apply(swap, _state("p u", "r u v"), problem) == _state("q u", "r u v", "r v w")
+    assert semantics.apply(swap, _state("q u"), problem) == _state("p u")
+    assert semantics.apply(swap, _state("p u", "q u"), problem) == _state("p u", "q u"), "adding wins"
+    chain = semantics.apply(swap, _state("r u v", "r v w"), problem)
+    assert chain == _state("r u v", "r v w"), "the new (r v w) is not read again"
+
+
+def test_adding_wins_over_deleting() -> None:
+    both = Instruction("both")
+    assert semantics.apply(both, _state("n"), _problem()) == _state("n")
+    assert semantics.apply(both, _state(), _problem()) == _state("n")
+
+
+def test_the_outer_condition_of_a_nested_when_counts() -> None:
+    nested = Instruction("nested", ("u",))
+    problem = _problem()
+    assert semantics.apply(nested, _state("q u", "r u v"), problem) == _state("q u", "r u v")
+    assert semantics.apply(nested, _state("p u", "q u", "r u v"), problem) == _state("p u", "q u", "r u v", "n", "q v")
+
+
+def test_forced_execution_does_not_read_the_precondition() -> None:
+    swap = Instruction("swap", ("v", "w"))
+    problem = _problem()
+    assert not semantics.applicable(swap, problem.init, problem)
+    broken = semantics.first_broken(swap, problem.init, problem)
+    assert broken and (broken.text, broken.atom, broken.positive) == ("(p v)", GroundAtom("p", ("v",)), True)
+    assert semantics.apply(swap, problem.init, problem) == problem.init
+
+
+@pytest.mark.parametrize(
+    ("instruction", "message", "hint"),
+    [
+        (Instruction("swop", ("u", "v")), 'unknown action "swop"', 'did you mean "swap"?'),
+        (Instruction("swap", ("u",)), '"swap" takes 2 argument(s), found 1', "declared as swap(?x, ?y)"),
+        (Instruction("swap", ("u", "uu")), 'unknown object "uu"', 'did you mean "u"?'),
+    ],
+)
+def test_bad_instructions(instruction: Instruction, message: str, hint: str) -> None:
+    problem = _problem()
+    for function in (semantics.apply, semantics.applicable, semantics.first_broken):
+        with pytest.raises(TmdError) as caught:
+            function(instruction, problem.init, problem)
+        assert message in caught.value.message
+        assert caught.value.hint == hint
+
+
+def test_wrong_type() -> None:
+    problem = parse_problem(
+        "(define (problem x) (:domain d) (:objects u - a k - object) (:init) (:goal (and)))",
+        parse_domain(DOMAIN),
+    )
+    with pytest.raises(TmdError, match=r'"k" in swap.* is of type "object", .y needs a'):
+        semantics.bind(problem, Instruction("swap", ("u", "k")))
+
+
+def test_bound_text_leaves_quantified_variables_alone() -> None:
+    problem = _problem("(exists (?x - b) (p ?x))")
+    assert format_formula(problem.goal, {"?x": "u"}) == "(exists (?x - b) (p ?x))"
