@@ -58,8 +58,7 @@ def own_items(file: str = "own.yaml") -> list[Item]:
     """Read the invented items."""
     raw = yaml.safe_load((GOLD / file).read_text(encoding="utf-8"))
     return [
-        Item(f"own {n}", r["split"], r["text"], tuple(read_clause(c) for c in r["clauses"]))
-        for n, r in enumerate(raw)
+        Item(f"own {n}", r["split"], r["text"], tuple(read_clause(c) for c in r["clauses"])) for n, r in enumerate(raw)
     ]
 
 
@@ -103,15 +102,11 @@ def right(item: Item) -> tuple[int, int]:
     best = [[0] * (len(found) + 1) for _ in range(len(gold) + 1)]
     for g in range(len(gold)):
         for f in range(len(found)):
-            best[g + 1][f + 1] = (
-                best[g][f] + 1 if gold[g] == found[f] else max(best[g][f + 1], best[g + 1][f])
-            )
+            best[g + 1][f + 1] = best[g][f] + 1 if gold[g] == found[f] else max(best[g][f + 1], best[g + 1][f])
     return best[-1][-1], max(0, len(found) - len(gold))
 
 
 def score(items: Sequence[Item]) -> Score:
     """Return the exact-clause accuracy: superfluous clauses count as wrong ones."""
     counts = [right(item) for item in items]
-    return Score(
-        sum(c for c, _ in counts), sum(len(i.clauses) for i in items) + sum(extra for _, extra in counts)
-    )
+    return Score(sum(c for c, _ in counts), sum(len(i.clauses) for i in items) + sum(extra for _, extra in counts))

@@ -16,10 +16,9 @@ from tmd.language.lexicon import section
 from tmd.language.morphology import singular
 from tmd.language.tokens import Kind, Token
 
-_PLACING = frozenset(
-    "put place set lay keep pour drop put_back put_down set_down return store hang insert".split()
-)
+_PLACING = frozenset("put place set lay keep pour drop put_back put_down set_down return store hang insert".split())
 _ORIGIN = frozenset({"from", "out_of", "off"})
+_NEVER_HOSTS = frozenset({"with", "for", "using", "of", "containing"})
 _MULTIPLE = "; "
 
 
@@ -64,9 +63,7 @@ class Draft:
 
     def mentions(self) -> list[Phrase]:
         """Every phrase in order of mention, each name once."""
-        ordered = sorted(
-            (p for top in self.direct + self.landmarks for p in top.all()), key=lambda p: p.place
-        )
+        ordered = sorted((p for top in self.direct + self.landmarks for p in top.all()), key=lambda p: p.place)
         return list({p.name: p for p in reversed(ordered)}.values())[::-1]
 
     def clause(self, text: str) -> Clause:
@@ -163,6 +160,8 @@ class _Attachment:
         """The nouns the next preposition of place stands beside."""
         self.behind = ""
         """The preposition they stand behind, if any."""
+        self.instrument = False
+        """A "with" has been read."""
         self.pending: list[tuple[str, list[Phrase]]] = []
         """Relations whose source is the direct object, which may still come."""
 
@@ -202,16 +201,16 @@ class _Attachment:
             self.pending.append((name, targets))
         if preposition.form == "relative":
             return
-        if not (name == "with" and self.draft.verb.stem in section("with_verbs")):
-            self.host, self.behind = targets, name
-        else:
-            self.host, self.behind = [], name
+        self.instrument = self.instrument or name == "with"
+        self.behind = name
+        if name not in _NEVER_HOSTS:
+            self.host = targets
 
     def _hosted(self, name: str) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
         if name == "with":
-            return stem not in section("with_verbs")
+            return stem not in section("with_verbs") or self.instrument
         if name not in section("static") and name != "of":
             return False
         return not (self.behind in _ORIGIN and stem in _PLACING)

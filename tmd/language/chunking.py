@@ -73,26 +73,19 @@ def _numbered(tokens: list[Token]) -> list[Token]:
 def _settings(tokens: list[Token]) -> list[Token]:
     """Fold "on high", "to full": a setting without a noun says how."""
     for at, token in enumerate(tokens[:-1]):
+        if token.text in section("settings") and tokens[at + 1].text in _SCALES:
+            token.kind = Kind.ADJ
         if token.kind is not Kind.P or token.text not in ("on", "to", "at", "in"):
             continue
-        setting = next((t for t in tokens[at + 1 :][:3] if t.kind is not Kind.ADV), None)
-        if setting is None or setting.text not in section("settings"):
+        setting = tokens[at + 1]
+        if setting.text not in section("settings"):
             continue
-        after = _after(tokens, setting)
-        if after is not None and after.text in _SCALES:
-            setting.kind = Kind.ADJ
-        if after is None or after.kind not in (Kind.N, Kind.PARTICIPLE) and after.text != "of":
+        after = tokens[at + 2] if at + 2 < len(tokens) else None
+        if after is None or (after.kind not in (Kind.N, Kind.PARTICIPLE) and after.text != "of"):
             setting.kind, setting.form = Kind.MOD, "setting"
             if token.text != "on":
                 token.kind = Kind.FILLER
     return tokens
-
-
-def _after(tokens: list[Token], target: Token) -> Token | None:
-    for at, token in enumerate(tokens):
-        if token is target:
-            return tokens[at + 1] if at + 1 < len(tokens) else None
-    return None
 
 
 def _particles(tokens: list[Token], lexicon: Lexicon) -> None:
@@ -139,7 +132,7 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             continue
         if token.text == "of" and place == at + 1 and verb.stem in _ON_OFF:
             token.text = "off"
-        if token.text == "up_to" and lexicon.particle(verb.stem, "up") is not None:
+        if token.text == "up_to" and not preposition and lexicon.particle(verb.stem, "up") is not None:
             _split_up_to(verb, token)
             return True
         match = lexicon.particle(verb.stem, token.text)
@@ -202,6 +195,16 @@ def _drop_dangling(tokens: list[Token]) -> list[Token]:
     return kept
 
 
+def _opens_clause(tokens: list[Token], at: int) -> bool:
+    """Tell whether a prepositional phrase belongs to the verb after it: "and, using a spoon, scoop some"."""
+    for place, token in enumerate(tokens[at + 1 : at + 9], at + 1):
+        if token.kind is Kind.COMMA:
+            return place + 1 < len(tokens) and tokens[place + 1].kind is Kind.V
+        if token.kind not in _NP and token.kind is not Kind.OF:
+            return False
+    return False
+
+
 def _shares(verb: Token) -> bool:
     """Tell whether a verb takes the object of the next one: "wash and dry the pan"."""
     return verb.form != ALONE and verb.stem not in section("intransitive")
@@ -211,11 +214,14 @@ def _links(tokens: list[Token]) -> list[Token]:
     """Decide for each comma and conjunction: between nouns, between verbs, between clauses, or nothing."""
     result: list[Token] = []
     at = 0
+    fronted = True  # no verb yet since the last separator
     while at < len(tokens):
         token = tokens[at]
         if token.kind is Kind.STOP:
             token.kind = Kind.SEP
         if token.kind not in _LINKS:
+            if token.kind in (Kind.V, Kind.SEP):
+                fronted = token.kind is Kind.SEP
             result.append(token)
             at += 1
             continue
@@ -224,8 +230,11 @@ def _links(tokens: list[Token]) -> list[Token]:
             end += 1
         before = result[-1].kind if result else Kind.SEP
         after = tokens[end].kind if end < len(tokens) else Kind.SEP
-        if after is Kind.V:
+        if after is Kind.V and not fronted:
             token.kind = Kind.VCC if before is Kind.V and _shares(result[-1]) else Kind.SEP
+            result.append(token)
+        elif after is Kind.P and _opens_clause(tokens, end):
+            token.kind, fronted = Kind.SEP, True
             result.append(token)
         elif before in _HEADS and after in _NP:
             token.kind = Kind.CONJ

@@ -28,7 +28,7 @@ def is_filler(word: str) -> bool:
     words and verbs that only introduce another ("need to").
     """
     word = word.lower().replace("’", "'")
-    if word in _JOINTS or word.endswith(("'ll", "'d", "'ve")):
+    if word in _JOINTS or (word.endswith("ly") and len(word) > 5) or word.endswith(("'ll", "'d", "'ve")):
         return True
     return any(word in section(name) for name in _FILLERS) or word in _inside_phrases()
 
@@ -73,9 +73,7 @@ def skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tu
         noted = token.kind is Kind.SKIP or bool(token.note)
         if inside and not noted:
             continue
-        if not noted and (
-            token.kind in (Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC) or _all_filler(token)
-        ):
+        if not noted and (token.kind in (Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC) or _all_filler(token)):
             continue
         reason = token.note or NO_VERB
         if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span):
@@ -86,9 +84,7 @@ def skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tu
 
 
 def _all_filler(token: Token) -> bool:
-    return token.kind is not Kind.MOD and all(
-        is_filler(word) for word in token.text.replace("_", " ").split()
-    )
+    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.replace("_", " ").split())
 
 
 def _adjacent(text: str, before: Span, after: Span) -> bool:

@@ -14,10 +14,11 @@ from tmd.language.tokens import Kind, Token
 STATEMENT = "a statement, not an instruction"
 RELATIVE = "relative"
 """The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
+ADDRESS = "addresses somebody"
 NEGATED = "says what not to do"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
-_NOTICING = frozenset("need see find notice have know want like wish hear smell hope think get".split())
+_NOTICING = frozenset("need see find notice have know want like wish hear smell hope think".split())
 _AFTER_SUBJECT = frozenset({Kind.AUX, Kind.ADV, Kind.SUBJECT})
 
 
@@ -80,6 +81,8 @@ class _Folder:
                     self._emit(token)
                     at += 1
                 return self._fold(at, end, Kind.SKIP, STATEMENT)
+        if self.start and token.kind is Kind.N and self._kind(at + 1) is Kind.COMMA and self._calls(at + 1):
+            return self._fold(at, at + 1, Kind.SKIP, ADDRESS)
         if token.text == "no" and at + 1 < len(self.tokens) and self.tokens[at + 1].text == "need":
             return self._negation(at)
         handler = {
@@ -107,6 +110,13 @@ class _Folder:
         self._emit(token)
         return at + 1
 
+    def _calls(self, at: int) -> bool:
+        """Tell whether an instruction follows the comma after a single name: "Dave, take"."""
+        follows = self._kind(self._peek(at))
+        return follows in (Kind.V, Kind.SUBJECT, Kind.AUX, Kind.NEG, Kind.ENSURE, Kind.LET) and (
+            not self.out or self.out[-1].kind is Kind.STOP or all(t.kind is Kind.ADV for t in self.out[-3:])
+        )
+
     def boundary(self, at: int) -> int:
         """Return where the subordinate clause that opens at ``at`` ends."""
         finite = False
@@ -122,12 +132,7 @@ class _Folder:
             follows = self._kind(self._peek(end))
             if token.kind is Kind.CC and follows in (Kind.V, Kind.SUBJECT, Kind.NEG, Kind.ENSURE, Kind.ADV):
                 break
-            if (
-                token.kind in (Kind.SUBJECT, Kind.PRON)
-                and token.text == "you"
-                and finite
-                and follows is Kind.AUX
-            ):
+            if token.kind in (Kind.SUBJECT, Kind.PRON) and token.text == "you" and finite and follows is Kind.AUX:
                 break
             if token.kind in (Kind.FINITE, Kind.AUX, Kind.ING, Kind.PARTICIPLE, Kind.ADJ):
                 finite = True

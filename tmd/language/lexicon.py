@@ -150,7 +150,7 @@ class Lexicon:
         if stem in self.verbs:
             return stem, form, 3
         noun = singular(word) in self._own_nouns or stem in self._own_nouns
-        if stem in section("noun_verbs"):
+        if stem in section("noun_verbs") or word in section("keep_adjectives") and stem not in section("verbs"):
             return stem, form, 1
         if stem in section("verbs"):
             return stem, form, 2 if noun else 3

@@ -15,17 +15,13 @@ from tmd.language.clause import Clause
 from tmd.language.lexicon import section
 
 SINGULAR = frozenset({"it", "this", "that", "itself", "one"})
-PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones", "everything"}) - {
-    "everything"
-}
+PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones", "everything"}) - {"everything"}
 OPEN = frozenset({"some", "all", "each", "any", "half", "most", ""})
 """Pronouns without number; the empty name is an elided object."""
 
 _REACH = 5
 _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
-_MOVING = frozenset(
-    "put place take move bring grab get carry keep set pick_up put_back put_down set_down".split()
-)
+_MOVING = frozenset("put place take move bring grab get carry keep set pick_up put_back put_down set_down".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -134,9 +130,7 @@ def _scene(draft: Draft, clause: Clause) -> _Scene:
     for landmark in draft.landmarks:
         for part in landmark.all():
             names = _meant(part, clause)
-            mentions.extend(
-                _Mention(name, part.plural, _LANDMARK + _PART * (part is not landmark)) for name in names
-            )
+            mentions.extend(_Mention(name, part.plural, _LANDMARK + _PART * (part is not landmark)) for name in names)
     named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
     return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
 

@@ -207,21 +207,11 @@ def _read_ing(token: Token, previous: Token | None, following: Token | None, lex
         return Kind.ADJ
     if previous is not None and previous.kind in (Kind.AUX, Kind.SUB):
         return Kind.ING
-    if (
-        previous is not None
-        and previous.kind is Kind.P
-        and previous.text in ("by", "without", "after", "before")
-    ):
+    if previous is not None and previous.kind is Kind.P and previous.text in ("by", "without", "after", "before"):
         return Kind.ING
-    if (
-        previous is not None
-        and previous.kind is Kind.V
-        and previous.stem in section("lead_verbs") | {"keep", "stop"}
-    ):
+    if previous is not None and previous.kind is Kind.V and previous.stem in section("lead_verbs") | {"keep", "stop"}:
         return Kind.ING
-    if lexicon.is_noun(token.text) or (
-        previous is not None and previous.kind in (Kind.DET, Kind.ADJ, Kind.P)
-    ):
+    if lexicon.is_noun(token.text) or (previous is not None and previous.kind in (Kind.DET, Kind.ADJ, Kind.P)):
         return Kind.N
     if previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.N, Kind.PRON, Kind.MOD):
         bare_noun = noun_next and (previous is None or previous.kind is not Kind.COMMA)
@@ -258,11 +248,7 @@ def _read_third_person(
         return Kind.V
     article = following is not None and following.kind in _ARTICLES
     if kind in (Kind.N, Kind.PRON) and not lexicon.is_noun(token.text) and token.strength >= 2:
-        return (
-            Kind.FINITE
-            if article or token.strength == 3 or previous and previous.kind is Kind.PRON
-            else Kind.N
-        )
+        return Kind.FINITE if article or token.strength == 3 or previous and previous.kind is Kind.PRON else Kind.N
     return Kind.N
 
 
@@ -281,7 +267,8 @@ def _read_base(
     nominal_next = following is not None and following.kind in (Kind.WORD, Kind.ADJ, Kind.NUM)
     ends = kind in (Kind.N, Kind.PRON) and token.text not in section("nouns") | section("noun_verbs")
     noun = Kind.ADJ if adjective and (nominal_next or kind is Kind.AUX or ends) else Kind.N
-    article = following is not None and (following.kind in _ARTICLES or following.kind is Kind.NUM)
+    counted = following is not None and following.kind is Kind.NUM and sure > 1
+    article = following is not None and (following.kind in _ARTICLES or counted)
     opener = following is not None and (
         following.kind in _OPENERS or (following.kind is Kind.WORD and following.strength < 2)
     )
@@ -299,7 +286,8 @@ def _read_base(
     if kind in (Kind.LET,):
         return verb if sure >= 2 else noun
     if state.let and kind in (Kind.N, Kind.PRON, Kind.TO):
-        return verb if sure >= 1 and not (opener and sure == 1) else noun
+        person = previous is not None and previous.text in _DATIVE
+        return verb if person or (sure and not (opener and sure == 1)) else noun
     if kind is Kind.V:
         serial = previous is not None and previous.stem in _SERIAL and sure >= 2
         return verb if serial else noun
@@ -323,9 +311,7 @@ def _predicate(tokens: list[Token], at: int) -> bool:
     return False
 
 
-def _at_start(
-    token: Token, following: Token | None, article: bool, tokens: list[Token], at: int, noun: Kind
-) -> Kind:
+def _at_start(token: Token, following: Token | None, article: bool, tokens: list[Token], at: int, noun: Kind) -> Kind:
     copula = following is not None and following.kind is Kind.AUX and following.text in section("be")
     if copula and token.strength < 3:
         return noun
@@ -343,9 +329,7 @@ def _at_start(
     return noun
 
 
-def _after_conjunction(
-    token: Token, following: Token | None, article: bool, opener: bool, noun: Kind
-) -> Kind:
+def _after_conjunction(token: Token, following: Token | None, article: bool, opener: bool, noun: Kind) -> Kind:
     if token.strength == 3:
         return Kind.V
     if token.strength == 2:
@@ -368,7 +352,7 @@ def _run_on(
     if article and not person:
         return Kind.V
     if token.strength == 3 and following is not None:
-        if following.kind in (Kind.P, Kind.NUM, Kind.ADJ, Kind.TO):
+        if following.kind in (Kind.P, Kind.NUM, Kind.ADJ):
             return Kind.V if not (previous is not None and previous.kind is Kind.PRON and person) else noun
         if following.kind is Kind.WORD:
             return Kind.V

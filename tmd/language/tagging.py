@@ -141,6 +141,8 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
     corrected = lexicon.correct(word.replace("-", "_")) if word.isalpha() else None
     word = token.text = (corrected or word).replace("-", "_")
     token.kind = _closed(word)
+    if token.kind is Kind.WORD and word.endswith("ly") and len(word) > 5 and not lexicon.is_noun(word):
+        token.kind = Kind.ADV
     if token.kind in (Kind.WORD, Kind.ADJ):
         reading = lexicon.verb(word)
         if reading:

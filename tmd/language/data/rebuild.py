@@ -16,7 +16,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-PARTICLES = frozenset("away back down in off on out over together up".split())
+PARTICLES = frozenset("away back down out up".split())
 NOUN_FILES = {6: "artifact", 13: "food", 27: "substance"}
 """Lexicographer files of WordNet whose synsets are kept."""
 
@@ -85,9 +85,7 @@ def noun_lines(dict_dir: Path) -> list[str]:
         fields = line.split(" | ")[0].split()
         pointers = fields[4 + 2 * int(fields[3], 16) + 1 :]
         lexfile[fields[0]] = int(fields[1])
-        parents[fields[0]] = [
-            pointers[i + 1] for i in range(0, len(pointers) - 3, 4) if pointers[i] in ("@", "@i")
-        ]
+        parents[fields[0]] = [pointers[i + 1] for i in range(0, len(pointers) - 3, 4) if pointers[i] in ("@", "@i")]
     kept = {offset for offset, number in lexfile.items() if number in NOUN_FILES}
     order: dict[str, int] = {}
 
@@ -104,9 +102,7 @@ def noun_lines(dict_dir: Path) -> list[str]:
         for sense, offset in enumerate(offsets, 1):
             if offset in kept:
                 lemmas[offset].append(f"{lemma}.{sense}")
-    return [
-        f"{','.join(str(order[p]) for p in parents[offset])}\t{' '.join(lemmas[offset])}" for offset in order
-    ]
+    return [f"{','.join(str(order[p]) for p in parents[offset])}\t{' '.join(lemmas[offset])}" for offset in order]
 
 
 def write_gz(path: Path, lines: list[str]) -> None:
@@ -125,6 +121,4 @@ def rebuild(dict_dir: Path, out: Path) -> None:
 if __name__ == "__main__":
     here = Path(__file__).resolve().parent
     arguments = [Path(a) for a in sys.argv[1:]]
-    rebuild(
-        arguments[0] if arguments else Path("/usr/share/wordnet"), arguments[1] if arguments[1:] else here
-    )
+    rebuild(arguments[0] if arguments else Path("/usr/share/wordnet"), arguments[1] if arguments[1:] else here)
