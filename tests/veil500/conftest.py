@@ -122,10 +122,7 @@ LIVING_ROOM = {
     "cd_1": (3, -12, 18),
     "garbageBag_1": (60, -20, 40),
     **{f"Tv_1{k}Button": None for k in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")},
-    **{
-        f"Tv_1Remote_1{k}Button": None
-        for k in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown", "Mute")
-    },
+    **{f"Tv_1Remote_1{k}Button": None for k in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown", "Mute")},
 }
 STATES = {
     "Mug_1": {"Filled": "True", "Water": "1"},
@@ -169,8 +166,7 @@ def environment_xml(objects: dict[str, tuple[int, int, int] | None]) -> str:
             for s, v in STATES.get(name, {}).items()
         )
         lines.append(
-            f"<object><name>{name}</name><position>{where}</position>"
-            f"<rotation>(0, 90, 0)</rotation>{states}</object>"
+            f"<object><name>{name}</name><position>{where}</position><rotation>(0, 90, 0)</rotation>{states}</object>"
         )
     return "\n".join([*lines, "</environment>", ""])
 

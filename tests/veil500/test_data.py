@@ -72,9 +72,7 @@ def _edit(path: Path, old: str, new: str) -> None:
         ("Environments/kitchen/kitchen2.xml", "<environment>", "<world>", "not well-formed"),
     ],
 )
-def test_faults_are_named_with_their_place(
-    small_directory: Path, file: str, old: str, new: str, message: str
-) -> None:
+def test_faults_are_named_with_their_place(small_directory: Path, file: str, old: str, new: str, message: str) -> None:
     _edit(small_directory / file, old, new)
     with pytest.raises(DataError, match=message) as caught:
         load(small_directory)

@@ -25,9 +25,7 @@ def test_class_of(name: str, kind: str) -> None:
     assert class_of(name) == kind
 
 
-@pytest.mark.parametrize(
-    ("value", "truth"), [("True", True), ("2", True), ("0", False), ("Low", False), ("", False)]
-)
+@pytest.mark.parametrize(("value", "truth"), [("True", True), ("2", True), ("0", False), ("Low", False), ("", False)])
 def test_is_true(value: str, truth: bool) -> None:
     assert is_true(value) is truth
 

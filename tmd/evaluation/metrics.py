@@ -16,7 +16,7 @@ the share of executable predictions beside END.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, fields
 from itertools import pairwise
@@ -190,12 +190,15 @@ class Scorer:
     Args:
         problem: The environment.
         mentions: Which objects an instruction names, for EED's cover.
+        absent: Types of things that do not exist and still choose a rule by their name (VEIL-500 has some).
     """
 
-    def __init__(self, problem: Problem, mentions: Mentions = arguments) -> None:
+    def __init__(
+        self, problem: Problem, mentions: Mentions = arguments, absent: Mapping[str, str] | None = None
+    ) -> None:
         self.problem = problem
         self.mentions = mentions
-        self.simulator = Simulator(problem)
+        self.simulator = Simulator(problem, absent=absent)
         self._task: Task | None = None
         self._covers: dict[tuple[Instruction, ...], Bits | None] = {}
 
@@ -216,9 +219,7 @@ class Scorer:
         else:
             a, b = [s & seen for s in p.states], [s & seen for s in r.states]
             similar = eed(a, b), eed_trim(a, b)
-        return Scores(
-            ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable
-        )
+        return Scores(ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable)
 
     def _visible(self, task: Task, recorded: Sequence[Instruction]) -> Bits | None:
         if task is not self._task:

@@ -4,7 +4,7 @@ The data are not part of this project; give the directory of your copy to :func:
 ``docs/veil500.md``.
 """
 
-from tmd.world.veil500.compile import compile_environment, veil_domain
+from tmd.world.veil500.compile import absent_types, compile_environment, veil_domain
 from tmd.world.veil500.data import Group, Point, VeilData, load
 from tmd.world.veil500.environment import VeilEnvironment, VeilObject
 from tmd.world.veil500.forms import from_veil, mentioned, to_veil
@@ -21,6 +21,7 @@ __all__ = [
     "VeilData",
     "VeilEnvironment",
     "VeilObject",
+    "absent_types",
     "check",
     "compile_environment",
     "executability",

@@ -12,6 +12,7 @@ from tmd.errors import TmdError
 from tmd.pddl.model import Domain, GroundAtom, Problem, TypedName
 from tmd.pddl.reader import read_domain
 from tmd.world.veil500.environment import VeilEnvironment, VeilObject
+from tmd.world.veil500.forms import pddl_name
 from tmd.world.veil500.relations import RelationRule, initial_relations
 from tmd.world.veil500.rules import DISPATCH, NamedFact, rule_facts, sane_facts
 
@@ -82,6 +83,14 @@ def compile_environment(
     if semantics == "sane":
         init.update(_shut_away(placed, frozenset(init)))
     return Problem(f"{environment.world}{environment.number}", domain, objects, frozenset(init))
+
+
+def absent_types(environment: VeilEnvironment) -> dict[str, str]:
+    """PDDL name and type of things that the environment lacks and that the rules still know by name.
+
+    ``add IceCreamScoop Plate_1`` fills the plate by force even where there is no spoon.
+    """
+    return {pddl_name(n): kind for n, kind in DISPATCH.items() if n not in environment.by_name}
 
 
 def _type(thing: VeilObject, semantics: Semantics) -> str:

@@ -2,18 +2,18 @@
 
 This is how the data set's own scoring runs predicted sequences, and it works for any PDDL domain. An
 instruction that names no action, or has a wrong number or type of arguments, is not executable and does
-nothing. An object that does not exist counts as one of which nothing holds: the instruction is not
-executable, but what it does to the objects that exist, it does.
+nothing. An object that does not exist is a thing of which nothing is known, of the most general type: the
+instruction is not executable, but what it does to the objects that exist, it does.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.pddl.grounding import ground, ground_condition
 from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import Instruction, Or, Problem, State, TypedName
+from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
@@ -57,10 +57,22 @@ class Simulator:
 
     Only the instructions that are really run are ground, so this is quick where the full task is large.
     Naming them beforehand saves grounding again later; results do not depend on it.
+
+    Args:
+        problem: The environment.
+        instructions: What will be run.
+        absent: Types of things that do not exist and still choose a rule by their name.
     """
 
-    def __init__(self, problem: Problem, instructions: Iterable[Instruction] = ()) -> None:
+    def __init__(
+        self,
+        problem: Problem,
+        instructions: Iterable[Instruction] = (),
+        absent: Mapping[str, str] | None = None,
+    ) -> None:
         self.problem = problem
+        self._absent = dict(absent or {})
+        self._roots = _general_types(problem)
         self._known: set[Instruction] = set(instructions)
         self._operators: dict[Instruction, Operator | None] = {}
         self._preconditions: dict[Instruction, tuple[Cube, ...]] = {}
@@ -132,13 +144,25 @@ class Simulator:
         if schema is None or len(schema.parameters) != len(instruction.args):
             return None
         known = universe(self.problem)
-        args = tuple(
-            arg if arg in known.types_of else _GHOST + "-".join(parameter.types)
-            for arg, parameter in zip(instruction.args, schema.parameters, strict=True)
-        )
-        pairs = zip(args, schema.parameters, strict=True)
-        fits = all(arg.startswith(_GHOST) or known.is_a(arg, parameter.types) for arg, parameter in pairs)
-        return Instruction(instruction.name, args) if fits else None
+        args = []
+        for arg, parameter in zip(instruction.args, schema.parameters, strict=True):
+            if arg in known.types_of:
+                fits = known.is_a(arg, parameter.types)
+            elif arg in self._absent:
+                fits = known.hierarchy.accepts(parameter.types, (self._absent[arg],))
+            else:
+                fits = self._roots.issuperset(parameter.types)
+            if not fits:
+                return None
+            args.append(arg if arg in known.types_of else _GHOST + "-".join(parameter.types))
+        return Instruction(instruction.name, tuple(args))
+
+
+def _general_types(problem: Problem) -> frozenset[str]:
+    """The types right below the root that the problem has objects of; a relation word is no such thing."""
+    known = universe(problem)
+    declared = (known.hierarchy.ancestors(o.types[0])[-2:] for o in problem.objects)
+    return frozenset({OBJECT, *(types[0] for types in declared)})
 
 
 def rollout(problem: Problem, instructions: Sequence[Instruction]) -> Rollout:
