@@ -63,6 +63,7 @@ class Inference:
         beam: How many environments each α keeps; ``None`` keeps all, which is exact.
         trim: How many leading instructions may be trimmed; ``None`` is any number.
         top: How many plans are wanted; each α keeps as many ways to each environment.
+        pair_nouns: The extension of :mod:`tmd.veil.instantiate`; without it the rules are the paper's own.
     """
 
     def __init__(
@@ -75,6 +76,7 @@ class Inference:
         beam: int | None = 5,
         trim: int | None = None,
         top: int = 1,
+        pair_nouns: bool = True,
     ) -> None:
         self.world = world
         self.library = library
@@ -83,6 +85,7 @@ class Inference:
         self.beam = beam
         self.trim = trim
         self.top = top
+        self.pair_nouns = pair_nouns
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
         self._refused: dict[tuple[int, str, str], Refusal] = {}
 
@@ -103,30 +106,53 @@ class Inference:
             unseen = Choice(None, (), {})
             return {s: [Path(p.energy, s, (*p.choices, unseen)) for p in ways] for s, ways in alpha.items()}
         found: dict[Bits, list[Path]] = {}
-        for state, ways in alpha.items():
-            for choice, end in self._choices(number, clause, state):
-                for path in ways:
-                    found.setdefault(end, []).append(
-                        Path(path.energy + choice.energy, end, (*path.choices, choice))
-                    )
+        for bound, state, candidate in self._queue(number, clause, alpha):
+            if self._settled(found, bound):
+                break
+            reached = self._reach(number, candidate, state)
+            if reached is not None:
+                choice, end = reached
+                found.setdefault(end, []).extend(
+                    Path(path.energy + choice.energy, end, (*path.choices, choice)) for path in alpha[state]
+                )
         kept = {end: _cheapest(paths, self.top) for end, paths in found.items()}
         ends = sorted(kept, key=lambda end: _order(kept[end][0]))[: self.beam]
         return {end: kept[end] for end in ends}
 
-    def _choices(self, number: int, clause: Clause, state: Bits) -> list[tuple[Choice, Bits]]:
-        """Every executable choice for the clause in ``state``, with the state it ends in."""
-        found = []
-        for candidate in self._candidates(number, clause, state):
-            operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
-            answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
-            match answer:
-                case Filled():
-                    found.append(self._choice(number, candidate, answer, operators))
-                case Unreachable(reason):
-                    self._refuse(number, candidate.source, reason)
-                case GaveUp(limit):
-                    self._refuse(number, candidate.source, f"the planner gave up at {limit}")
-        return found
+    def _queue(
+        self, number: int, clause: Clause, alpha: dict[Bits, list[Path]]
+    ) -> list[tuple[float, Bits, _Candidate]]:
+        """Every candidate in every state, by what it costs at least; the planner can only add to that."""
+        queue = [
+            (ways[0].energy + sum(candidate.factors.values()), state, candidate)
+            for state, ways in alpha.items()
+            for candidate in self._candidates(number, clause, state)
+        ]
+        return sorted(queue, key=lambda item: item[0])
+
+    def _settled(self, found: dict[Bits, list[Path]], bound: float) -> bool:
+        """Whether no candidate that costs ``bound`` or more can enter the beam or the best plans any more.
+
+        Without a beam every candidate counts; so it does where latent steps are rewarded, since then ``bound``
+        is none.
+        """
+        if self.beam is None or self.weights["latent_dscpl"] < 0:
+            return False
+        cheaper = [sum(path.energy < bound for path in paths) for paths in found.values()]
+        return sum(map(bool, cheaper)) >= self.beam and sum(cheaper) >= self.top
+
+    def _reach(self, number: int, candidate: _Candidate, state: Bits) -> tuple[Choice, Bits] | None:
+        """Ask the planner for what the candidate needs; ``None`` where it cannot be executed."""
+        operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
+        answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
+        match answer:
+            case Filled():
+                return self._choice(number, candidate, answer, operators)
+            case Unreachable(reason):
+                self._refuse(number, candidate.source, reason)
+            case GaveUp(limit):
+                self._refuse(number, candidate.source, f"the planner gave up at {limit}")
+        return None
 
     def _choice(
         self, number: int, candidate: _Candidate, filled: Filled, operators: Sequence[Operator]
@@ -143,13 +169,11 @@ class Inference:
         """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
         best: dict[Sequence_, tuple[float, _Candidate]] = {}
         for template in self.library.propose(clause):
-            instantiation = instantiate(template, clause, self.world, state)
+            instantiation = instantiate(template, clause, self.world, state, pair_nouns=self.pair_nouns)
             if instantiation is None:
                 self._refuse(number, template.source, "there is no object for one of its variables")
                 continue
-            unknown = next(
-                (i for i in instantiation.instructions if i not in self.world.task.by_instruction), None
-            )
+            unknown = next((i for i in instantiation.instructions if i not in self.world.task.by_instruction), None)
             if unknown is not None:
                 self._refuse(number, template.source, f"{unknown} can never be done here")
                 continue

@@ -44,9 +44,7 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
             raise TmdError("a line of weights is a name and a number", location=place, source=line)
         name, value = words
         if name not in NAMES:
-            raise TmdError(
-                f"there is no factor '{name}'", location=place, source=line, hint=nearest(name, NAMES)
-            )
+            raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=nearest(name, NAMES))
         if name in values:
             raise TmdError(f"'{name}' has a weight already", location=place, source=line)
         try:

@@ -7,6 +7,9 @@ The three rules, in their order:
 2. A noun that both clauses share is mapped as it was.
 3. Every variable left stands for the object that shares the most states with the one it stood for.
 
+Between 2 and 3 an extension of the paper may be asked for (``pair_nouns``): nouns that only one of the clauses has
+are paired in order of mention, so that what was shown for *take the ramen* serves *take the syrup* as well.
+
 A variable is only ever mapped to an object that is there and of a type its instructions accept. Rule 3 leaves
 many ties (four burners that are all off); they go, in this order, to the object that is joined to the objects
 already chosen by the same edges as before (the knob of *that* burner), to one of the same class, to one of the
@@ -43,12 +46,14 @@ class Instantiation:
     profiles: Mapping[str, Profile]
 
 
-def instantiate(template: Template, clause: Clause, world: World, state: Bits) -> Instantiation | None:
+def instantiate(
+    template: Template, clause: Clause, world: World, state: Bits, *, pair_nouns: bool = False
+) -> Instantiation | None:
     """Map the variables of ``template`` for ``clause`` in ``state``; ``None`` where one has no object at all."""
     grounding: dict[str, str] = {}
-    for variable, name in _by_language(template, clause, world, state):
-        if variable not in grounding and name not in grounding.values():
-            grounding[variable] = name
+    _settle(grounding, _by_language(template, clause, world, state))
+    if pair_nouns:
+        _settle(grounding, _by_order(template, clause, grounding, world, state))
     profiles = {name: world.profiles.of(name, state) for name in grounding.values()}
     for variable in template.grounding:
         if variable not in grounding:
@@ -70,9 +75,7 @@ def replace(instructions: Sequence[Instruction], grounding: Mapping[str, str]) -
     return tuple(Instruction(i.name, tuple(grounding.get(a, a) for a in i.args)) for i in instructions)
 
 
-def _by_language(
-    template: Template, clause: Clause, world: World, state: Bits
-) -> Iterator[tuple[str, str]]:
+def _by_language(template: Template, clause: Clause, world: World, state: Bits) -> Iterator[tuple[str, str]]:
     """Rules 1 and 2: pairs of variable and object, in order of authority."""
     for ours in _resolved_relations(clause):
         for theirs in _resolved_relations(template.clause):
@@ -82,6 +85,32 @@ def _by_language(
     for noun in clause.resolved():
         if noun in template.mentions:
             yield from _pair(template, noun, noun, world, state)
+
+
+def _settle(grounding: dict[str, str], pairs: Iterator[tuple[str, str]]) -> None:
+    """Take up each pair whose variable is free and whose object is not taken."""
+    for variable, name in pairs:
+        if variable not in grounding and name not in grounding.values():
+            grounding[variable] = name
+
+
+def _by_order(
+    template: Template, clause: Clause, grounding: Mapping[str, str], world: World, state: Bits
+) -> Iterator[tuple[str, str]]:
+    """The extension: nouns of one clause only, paired in order of mention where the types allow it."""
+    ours = [noun for noun in clause.resolved() if noun not in template.mentions]
+    theirs = [
+        noun
+        for noun, variable in template.mentions.items()
+        if variable not in grounding and noun not in clause.resolved()
+    ]
+    for noun in ours:
+        for other in theirs:
+            pairs = list(_pair(template, other, noun, world, state))
+            if pairs:
+                yield from pairs
+                theirs.remove(other)
+                break
 
 
 def _pair(
@@ -127,9 +156,7 @@ def _by_states(
     return best[1] if best else None
 
 
-def _joined_alike(
-    template: Template, variable: str, name: str, grounding: Mapping[str, str], world: World
-) -> int:
+def _joined_alike(template: Template, variable: str, name: str, grounding: Mapping[str, str], world: World) -> int:
     """How many edges to objects already chosen are as they were in the template."""
     count = 0
     for other, chosen in grounding.items():

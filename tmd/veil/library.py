@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
+from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
-from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.template import Template, generalise
@@ -43,9 +43,7 @@ class Library:
         return sum(map(len, self._by_verb.values()))
 
 
-def learn(
-    demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
-) -> Library:
+def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon) -> Library:
     """Build the library of a corpus.
 
     Args:
@@ -81,9 +79,7 @@ def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[Clause
     """For each segment the first clause that lies in it more than in any other; ``None`` where there is none."""
     found: list[Clause | None] = [None] * len(segments)
     for clause in clauses:
-        overlaps = [
-            min(clause.span.end, segment.end) - max(clause.span.start, segment.start) for segment in segments
-        ]
+        overlaps = [min(clause.span.end, segment.end) - max(clause.span.start, segment.start) for segment in segments]
         if overlaps and max(overlaps) > 0:
             best = overlaps.index(max(overlaps))
             found[best] = found[best] or clause

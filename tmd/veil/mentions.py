@@ -33,15 +33,10 @@ class Mentions:
         self.lexicon = lexicon
         problem = profiles.task.problem
         kinds = hierarchy(problem.domain)
-        self.types: Mapping[str, tuple[str, ...]] = {
-            o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()
-        }
-        wholes = {
-            atom.args[0]: atom.args[1] for atom in profiles.task.static if atom.predicate == PART_OF
-        }
+        self.types: Mapping[str, tuple[str, ...]] = {o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()}
+        wholes = {atom.args[0]: atom.args[1] for atom in profiles.task.static if atom.predicate == PART_OF}
         self._candidates = tuple(
-            Candidate(name, types[0], types[1:], _words(name, wholes.get(name)))
-            for name, types in self.types.items()
+            Candidate(name, types[0], types[1:], _words(name, wholes.get(name))) for name, types in self.types.items()
         )
         self._known: dict[str, tuple[Match, ...]] = {}
 

@@ -100,9 +100,7 @@ def _meant(clause: Clause, names: Mapping[str, str], mentions: Mentions, state: 
     return found
 
 
-def _wanted(
-    instructions: Sequence[Instruction], variable: str, profiles: Profiles
-) -> tuple[tuple[str, ...], ...]:
+def _wanted(instructions: Sequence[Instruction], variable: str, profiles: Profiles) -> tuple[tuple[str, ...], ...]:
     """The types of every parameter that ``variable`` stands for in ``instructions``, each once."""
     schemas = {action.name: action for action in profiles.task.problem.domain.actions}
     found: dict[tuple[str, ...], None] = {}

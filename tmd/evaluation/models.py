@@ -1,0 +1,169 @@
+"""What is compared. A model learns from examples and predicts an instruction sequence for another one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from statistics import median
+from typing import Protocol, Self
+
+import numpy as np
+
+from tmd.energy.factors import delta_env, delta_nl
+from tmd.energy.infer import Inference
+from tmd.energy.weights import named_weights
+from tmd.errors import TmdError
+from tmd.evaluation.dataset import Dataset, Example
+from tmd.language import parse
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.syntax import nearest
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Planner
+from tmd.veil.instantiate import Instantiation, instantiate
+from tmd.veil.library import Library, learn, run
+from tmd.veil.world import World
+
+
+class Model(Protocol):
+    """One row of the table."""
+
+    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+        """Learn from ``examples``."""
+        ...
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+        """The instructions for the example's text in its environment; its own sequence is not looked at."""
+        ...
+
+
+class Empty:
+    """Predicts nothing: the floor that every metric has."""
+
+    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+        """Nothing is learned."""
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+        """Nothing."""
+        return ()
+
+
+class Chance:
+    """Random instructions of a predefined length (section VII): how large the output space is.
+
+    The length is the median of the training sequences of the same world; each instruction is drawn evenly from
+    all those that may ever apply in the environment.
+    """
+
+    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+        """Learn the length."""
+        worlds = sorted({example.world for example in examples})
+        self.lengths_ = {world: int(median(len(e.gold) for e in examples if e.world == world)) for world in worlds}
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+        """A random sequence."""
+        operators = data.world(example.environment).task.operators
+        draws = random.integers(len(operators), size=self.lengths_.get(example.world, 0))
+        return tuple(operators[int(draw)].instruction for draw in draws)
+
+
+class NearestEnvironment:
+    """Nearest Environment Instantiation (section VII).
+
+    For each clause the template of its verb whose environment is nearest (Δ_env), instantiated by section V-A
+    and taken as it is: nothing checks whether it can be executed. Among equally near templates the one whose
+    clause is most alike (Δ_nl) is taken, then the first of the corpus.
+    """
+
+    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+        """Build the library of each world."""
+        self.libraries_ = libraries(examples, data)
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+        """The nearest template of each clause, one after the other."""
+        world = data.world(example.environment)
+        library = self.libraries_.get(example.world) or Library(data.lexicon)
+        state = world.task.init
+        done: list[Instruction] = []
+        for clause in parse(example.demonstration.text, data.lexicon).clauses:
+            chosen = self._nearest(clause, library, world, state)
+            if chosen is not None:
+                done += chosen.instructions
+                state = run(world, state, chosen.instructions)
+        return tuple(done)
+
+    def _nearest(self, clause: Clause, library: Library, world: World, state: int) -> Instantiation | None:
+        candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
+        return min(
+            (c for c in candidates if c is not None),
+            key=lambda c: (delta_env(c), delta_nl(c.template.clause, clause)),
+            default=None,
+        )
+
+
+class HandSet:
+    """Algorithm 1 with weights set by hand: trimmed templates, gaps filled by the planner, nothing unexecutable.
+
+    Args:
+        weights: The name of the weights.
+        beam: As for :class:`~tmd.energy.infer.Inference`.
+        trim: As there.
+    """
+
+    def __init__(self, weights: str = "hand_set", beam: int = 3, trim: int | None = None) -> None:
+        self.weights = weights
+        self.beam = beam
+        self.trim = trim
+
+    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+        """Build the library of each world."""
+        self.libraries_ = libraries(examples, data)
+        self._fillers: dict[str, Planner] = {}
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+        """The plan of least energy."""
+        world = data.world(example.environment)
+        if example.environment not in self._fillers:
+            self._fillers[example.environment] = make(IN_PROCESS, world.task)
+        inference = Inference(
+            world,
+            self.libraries_.get(example.world) or Library(data.lexicon),
+            named_weights(self.weights),
+            self._fillers[example.environment],
+            beam=self.beam,
+            trim=self.trim,
+        )
+        clauses = parse(example.demonstration.text, data.lexicon).clauses
+        plans = inference.infer(clauses, world.task.init).plans
+        return plans[0].instructions if plans else ()
+
+
+def libraries(examples: Sequence[Example], data: Dataset) -> dict[str, Library]:
+    """A library for each kind of world."""
+    return {
+        world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
+        for world in sorted({example.world for example in examples})
+    }
+
+
+MODELS: Mapping[str, Callable[[], Model]] = {
+    "empty": Empty,
+    "chance": Chance,
+    "nearest": NearestEnvironment,
+    "hand_set": HandSet,
+}
+"""The rows by name, in the order of the table."""
+
+
+def make_model(name: str) -> Model:
+    """A new model.
+
+    Raises:
+        TmdError: There is none of that name.
+    """
+    if name not in MODELS:
+        raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(MODELS), what="models"))
+    return MODELS[name]()
