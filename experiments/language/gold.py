@@ -80,7 +80,8 @@ def _veil(texts: Sequence[str], lines: Sequence[str]) -> Iterator[Item]:
 
 def _clause(raw: dict[str, Any], tokens: list[str]) -> Clause:
     def words(indexes: list[int]) -> str:
-        return "_".join(tokens[i] for i in indexes if tokens[i].isalnum())
+        parts = (tokens[i].partition("'")[0] for i in indexes)
+        return "_".join(part for part in parts if part.isalnum())
 
     objects = tuple(singular(words(o)) for o in raw["objects"])
     relations = []
