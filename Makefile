@@ -1,0 +1,68 @@
+# Everything one does with this repository. `make` alone lists the targets.
+
+PYTHON ?= python3
+TASK ?= ramen
+DATA ?= bundled
+VEIL500 ?= $(VEIL500_DIR)
+OUT ?= runs/$(TASK)-$(DATA)
+
+VENV := .venv
+BIN := $(VENV)/bin
+# The copy of pyproject.toml that .venv/ was made from: compared by content, so a fresh checkout of the same
+# file, whatever its date, asks nothing of the network.
+STAMP := $(VENV)/.made-from-pyproject.toml
+
+.DEFAULT_GOAL := help
+.PHONY: help setup experiment test check style format lint types docs bench clean
+
+help: ## List the targets.
+	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
+	@echo
+	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
+	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
+
+setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
+	@$(BIN)/python -c '' 2>/dev/null && cmp -s pyproject.toml $(STAMP) || $(MAKE) --no-print-directory $(STAMP)
+
+.PHONY: $(STAMP)
+$(STAMP):
+	@command -v $(PYTHON) >/dev/null || { echo "error: there is no $(PYTHON); name an interpreter, 3.11 or newer: make PYTHON=python3.12" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: tmd needs Python 3.11 or newer, and $(PYTHON) is older; name another: make PYTHON=python3.12" >&2; exit 1; }
+	@$(BIN)/python -c '' 2>/dev/null || $(PYTHON) -m venv --clear $(VENV)
+	@echo "installing into $(VENV)/ …"
+	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[fast,dev]'
+	@cp pyproject.toml $@
+
+experiment: setup ## Run the main job: train, predict, score, print the table.
+	@$(BIN)/tmd experiment --task '$(TASK)' --data '$(DATA)' --out '$(OUT)' \
+		$(if $(VEIL500),--veil500 '$(VEIL500)') $(if $(MODELS),--models '$(MODELS)') \
+		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)')
+
+test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
+	@$(BIN)/python -m pytest -n auto
+
+check: test style docs ## What CI runs: tests, format, lint, types, docs.
+
+style: setup ## Check format, lint and types, and change nothing.
+	@$(BIN)/ruff format --check .
+	@$(MAKE) --no-print-directory lint types
+
+format: setup ## Lay out the code, and mend what lint can mend.
+	@$(BIN)/ruff format .
+	@$(BIN)/ruff check --fix .
+
+lint: setup ## Lint.
+	@$(BIN)/ruff check .
+
+types: setup ## Check types.
+	@$(BIN)/mypy
+
+docs: setup ## Run the examples in the pages, and check their links.
+	@$(BIN)/python -m pytest tests/test_docs.py
+
+bench: setup ## Run the benchmarks.
+	@set -e; for script in experiments/bench/*.py; do echo "== $$script"; $(BIN)/python "$$script"; done
+
+clean: ## Remove caches and build products; .venv/ and runs/ stay.
+	@rm -rf build dist .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	@find . -name __pycache__ -type d -not -path './$(VENV)/*' -prune -exec rm -rf {} +

@@ -1,0 +1,5 @@
+"""``python -m tmd``: the same as ``tmd``."""
+
+from tmd.cli import main
+
+main()

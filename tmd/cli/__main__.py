@@ -1,0 +1,5 @@
+"""``python -m tmd.cli``: the same as ``tmd``."""
+
+from tmd.cli import main
+
+main()

@@ -1,0 +1,31 @@
+"""A goal written on the command line."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from tmd.errors import Location
+from tmd.pddl.check import check_problem
+from tmd.pddl.model import Problem
+from tmd.pddl.read_formula import read_condition
+from tmd.pddl.syntax import parse
+
+_PLACE = "--goal"
+
+
+def with_goal(problem: Problem, text: str) -> Problem:
+    """``problem`` with the goal that ``text`` states, such as ``(contains mug1 coffee)``.
+
+    Raises:
+        TmdError: It is no condition, or speaks of what the problem does not have.
+    """
+    document = parse(text, _PLACE)
+    source = document.source
+    if len(document.groups) != 1:
+        place = Location(_PLACE, 1, 1)
+        raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
+    aimed = replace(problem, goal=read_condition(document.groups[0], source))
+    for fault in check_problem(aimed):
+        fault.source = source.line(fault.location)
+        raise fault
+    return aimed

@@ -1,0 +1,100 @@
+"""``tmd ground``: a text, in an environment, to ranked plans that PDDL vouches for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.output import emit, emit_json
+from tmd.cli.roots import Roots
+from tmd.cli.said import said, text_options
+from tmd.errors import ExitCode, TmdError
+
+if TYPE_CHECKING:
+    from tmd.energy.weights import Weights
+
+MAX_WORDS = 1_000
+"""Longer texts are refused: grounding takes time for every clause."""
+
+
+@click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
+@click.option(
+    "--environment",
+    required=True,
+    metavar="FILE|NAME",
+    help="An environment (YAML), a PDDL problem, or the name of a bundled environment.",
+)
+@text_options
+@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show.")
+@click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE.")
+@click.option("--weights", metavar="NAME|FILE", default="hand_set", show_default=True, help="The factors' weights.")
+@click.option(
+    "--beam",
+    type=click.IntRange(0),
+    default=5,
+    show_default=True,
+    help="How many states to follow from clause to clause; 0 follows all.",
+)
+@click.option(
+    "--trim", type=click.IntRange(0), help="How many leading instructions of a template may be dropped; any by default."
+)
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.pass_obj
+def command(
+    roots: Roots,
+    environment: str,
+    text: str | None,
+    text_file: str | None,
+    domain_name: str | None,
+    top: int,
+    planner: str | None,
+    weights: str,
+    beam: int,
+    trim: int | None,
+    as_json: bool,
+) -> ExitCode:
+    """Ground what was said in an environment.
+
+    The templates come from the bundled demonstrations of the domain. Ends with 12 where no plan was found.
+    """
+    from tmd.cli.remarks import remarks
+    from tmd.cli.scene import frequent_verbs, load_scene, unknown_nouns
+    from tmd.cli.show_plans import grounded_json, grounded_text
+    from tmd.ground import ground
+    from tmd.planning.backends import IN_PROCESS
+    from tmd.veil.library import learn
+
+    spoken = _short_enough(said(text, text_file))
+    factors = _weights(weights)
+    corpus, world = load_scene(roots, environment, domain_name)
+    library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
+    grounded = ground(
+        spoken, world, library, factors, planner=planner or IN_PROCESS, beam=beam or None, trim=trim, top=top
+    )
+    unknown = unknown_nouns(grounded.parsed.clauses, world)
+    if as_json:
+        emit_json(grounded_json(grounded, corpus.folder.name, world.name, unknown))
+    else:
+        emit(grounded_text(grounded))
+    for line in remarks(grounded, unknown, frequent_verbs(library)):
+        emit(line, error=True)
+    return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED
+
+
+def _short_enough(text: str) -> str:
+    count = len(text.split())
+    if count > MAX_WORDS:
+        raise TmdError(
+            f"the text has {count:,} words; at most {MAX_WORDS:,} are grounded at once", hint="ground it in parts"
+        )
+    return text
+
+
+def _weights(given: str) -> Weights:
+    from tmd.energy.weights import named_weights, read_weights
+
+    path = Path(given)
+    return read_weights(path) if path.suffix or path.is_file() else named_weights(given)

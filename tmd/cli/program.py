@@ -1,0 +1,94 @@
+"""The ``tmd`` command: its global options, its sub-commands, and how every run of it ends."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from importlib import import_module
+from pathlib import Path
+
+import click
+
+from tmd import __version__
+from tmd.cli.faults import Fault, fault_of
+from tmd.cli.output import emit, emit_json
+from tmd.cli.roots import Roots
+from tmd.errors import ExitCode
+
+COMMANDS = ("ground", "parse", "validate", "plan", "compile", "data", "experiment")
+"""The sub-commands, in the order in which a newcomer meets them; each is the module of its name."""
+
+
+class _Commands(click.Group):
+    """A group that imports a sub-command when it is asked for."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return list(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in COMMANDS:
+            return None
+        command = import_module(f"tmd.cli.{cmd_name}").command
+        assert isinstance(command, click.Command)
+        return command
+
+
+@click.group(cls=_Commands, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.option("--domains", type=click.Path(path_type=Path), metavar="DIR", help="The directory of all domains.")
+@click.option("--problems", type=click.Path(path_type=Path), metavar="DIR", help="The directory of all problems.")
+@click.option("--debug", is_flag=True, help="Show where an internal error happened.")
+@click.version_option(__version__, prog_name="tmd", message="%(prog)s %(version)s")
+@click.pass_context
+def program(ctx: click.Context, domains: Path | None, problems: Path | None, debug: bool) -> None:
+    """Turn what a person says into plans that a robot may safely execute.
+
+    The directories are looked for in this order: the option, ./domains and ./problems, the packaged copy.
+    """
+    ctx.obj = Roots(domains, problems)
+
+
+def run(arguments: Sequence[str]) -> ExitCode:
+    """Run ``tmd`` and say how it ended; whatever goes wrong is told in one line, never as a traceback."""
+    try:
+        code = _invoke(list(arguments) or ["--help"])
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        _silence()
+        return ExitCode.OK
+    except (Exception, KeyboardInterrupt) as error:
+        if "--debug" in arguments:
+            traceback.print_exc()
+        return _tell(fault_of(error), as_json="--json" in arguments)
+
+
+def _invoke(arguments: list[str]) -> ExitCode:
+    """Not :meth:`click.Command.main`, which has exit codes of its own."""
+    try:
+        with program.make_context("tmd", arguments) as context:
+            return ExitCode(program.invoke(context) or ExitCode.OK)
+    except click.exceptions.Exit as ended:
+        return ExitCode(ended.exit_code)
+
+
+def _tell(fault: Fault, *, as_json: bool) -> ExitCode:
+    """Tell people on standard error and, where they asked for JSON, programs on standard output."""
+    code = fault.code
+    try:
+        if as_json:
+            emit_json(fault.json())
+        sys.stdout.flush()
+    except OSError:
+        _silence()
+    try:
+        emit(fault.text(), error=True)
+    except OSError:
+        return code
+    return code
+
+
+def _silence() -> None:
+    """Let nothing more reach standard output: the interpreter flushes it once more when it ends."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,0 +1,69 @@
+"""What to tell people about a text that was grounded in part, or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+from tmd.ground import Grounded
+
+_VERBS = 8
+"""How many verbs are named instead of an unknown one."""
+_SHOWN = 3
+"""How many different reasons are told."""
+
+
+def remarks(grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str]) -> list[str]:
+    """Lines for standard error: what was said and could not be used, and why there is no plan if there is none.
+
+    Args:
+        grounded: What came out.
+        unknown: Nouns that name nothing here.
+        verbs: The verbs that there are demonstrations of, the most frequent first.
+    """
+    lines = [
+        f"warning: no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen
+    ]
+    lines += [
+        f"warning: nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
+        for noun in unknown
+    ]
+    if not any(verdict.valid for verdict in grounded.verdicts):
+        lines.append(f"no plan: {_why(grounded)}")
+    return [f"{line}\n" for line in lines]
+
+
+def _why(grounded: Grounded) -> str:
+    parsed = grounded.parsed
+    if not parsed.clauses:
+        reasons = dict.fromkeys(piece.reason for piece in parsed.skipped)
+        said = f" ({'; '.join(list(reasons)[:_SHOWN])})" if reasons else ""
+        return f"the text has no instruction{said}; say what is to be done: take the cup"
+    if {clause.verb for clause in parsed.clauses} <= set(grounded.unseen):
+        return "no demonstration has any of its verbs; use other words, or add demonstrations"
+    clause = max((refusal.clause for refusal in grounded.refusals), default=0)
+    text = " ".join(parsed.clauses[clause].text.split())
+    return f'clause {clause + 1}, "{text}", cannot be done here: {_reasons(grounded, clause)}'
+
+
+def _reasons(grounded: Grounded, clause: int) -> str:
+    """Why the templates for a clause were refused: the most frequent reasons first."""
+    counts: dict[str, int] = {}
+    for refusal in grounded.refusals:
+        if refusal.clause == clause:
+            counts[refusal.reason] = counts.get(refusal.reason, 0) + 1
+    told = sorted(counts, key=lambda reason: (-counts[reason], reason))
+    more = f"; and {len(told) - _SHOWN} other reasons" if len(told) > _SHOWN else ""
+    return "; ".join(told[:_SHOWN]) + more
+
+
+def _other(verb: str, verbs: Sequence[str]) -> str:
+    """A verb to use instead."""
+    if not verbs:
+        return "the domain has no demonstrations"
+    close = get_close_matches(verb, verbs, n=1)
+    return f"did you mean '{_plain(close[0])}'?" if close else f"say {', '.join(map(_plain, verbs[:_VERBS]))} …"
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")

@@ -1,0 +1,60 @@
+"""The world that the command line names: an environment file, a PDDL problem, or a bundled environment."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+from tmd.cli.roots import Roots
+from tmd.errors import TmdError
+from tmd.language.clause import Clause
+from tmd.pddl.reader import read_problem
+from tmd.veil.corpus import Corpus
+from tmd.veil.library import Library
+from tmd.veil.world import World, make_world
+from tmd.world.compile import compile_problem
+from tmd.world.environment import load_environment
+
+
+def load_scene(roots: Roots, environment: str, domain: str | None) -> tuple[Corpus, World]:
+    """The environment, ready for grounding, and the corpus of its domain.
+
+    Args:
+        roots: Where domains and problems are.
+        environment: A file, or the name of a bundled environment.
+        domain: The domain, where the environment's own ``domain:`` is not to be asked.
+
+    Raises:
+        TmdError: One of them is missing or wrong.
+    """
+    path = roots.environment(environment, domain)
+    if path.suffix == ".pddl":
+        return _pddl(roots, path, domain)
+    read = load_environment(path)
+    corpus = roots.corpus(roots.folder(domain or read.domain))
+    return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
+
+
+def _pddl(roots: Roots, path: Path, domain: str | None) -> tuple[Corpus, World]:
+    if domain is None:
+        raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
+    corpus = roots.corpus(roots.folder(domain))
+    problem = read_problem(path, corpus.folder.domain)
+    return corpus, make_world(problem.name, problem, corpus.lexicon)
+
+
+def unknown_nouns(clauses: Iterable[Clause], world: World) -> list[str]:
+    """The nouns of ``clauses`` that name neither an object of ``world`` nor a substance of its domain."""
+    mentions, substances = world.mentions, world.profiles.constants
+    unknown: dict[str, None] = {}
+    for clause in clauses:
+        for noun in clause.resolved():
+            readings = {noun, noun.rpartition("_")[2], *mentions.lexicon.nouns.get(noun, ())}
+            if not mentions.of(noun, world.task.init) and not readings & set(substances):
+                unknown[noun] = None
+    return list(unknown)
+
+
+def frequent_verbs(library: Library) -> list[str]:
+    """The verbs that there are templates for, the most frequent first."""
+    return sorted(library.verbs(), key=lambda verb: (-len(library.propose(Clause(verb))), verb))

@@ -1,0 +1,75 @@
+"""A grounded text as JSON and as lines for people."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from tmd.cli.output import rounded
+from tmd.cli.show_clauses import parsed_json, parsed_text
+from tmd.energy.plans import RankedPlan
+from tmd.ground import Grounded
+from tmd.pddl.validator import Verdict
+
+
+def grounded_json(grounded: Grounded, domain: str, environment: str, unknown: Sequence[str]) -> dict[str, object]:
+    """Everything that is known of the plans; clauses are counted from 0."""
+    parsed = grounded.parsed
+    pairs = zip(grounded.plans, grounded.verdicts, strict=True)
+    return {
+        "text": parsed.text,
+        "domain": domain,
+        "environment": environment,
+        **parsed_json(parsed),
+        "unseen_verbs": list(grounded.unseen),
+        "unknown_nouns": list(unknown),
+        "plans": [_plan_json(plan, verdict) for plan, verdict in pairs],
+        "refusals": [
+            {"clause": refusal.clause, "source": refusal.source, "reason": refusal.reason}
+            for refusal in grounded.refusals
+        ],
+    }
+
+
+def _plan_json(plan: RankedPlan, verdict: Verdict) -> dict[str, object]:
+    return {
+        "steps": [
+            {
+                "action": step.instruction.name,
+                "args": list(step.instruction.args),
+                "clause": step.clause,
+                "latent": step.latent,
+            }
+            for step in plan.steps
+        ],
+        "energy": rounded(plan.energy),
+        "factors": _rounded(plan.factors),
+        "valid": verdict.valid,
+        "cost": verdict.cost,
+        "why_not_first": plan.why or None,
+    }
+
+
+def _rounded(factors: Mapping[str, float]) -> dict[str, float]:
+    return {name: rounded(value) for name, value in factors.items()}
+
+
+def grounded_text(grounded: Grounded) -> str:
+    """Clauses, what was skipped, then each plan with its energy by factor and why it is not first."""
+    parts = [parsed_text(grounded.parsed)]
+    pairs = enumerate(zip(grounded.plans, grounded.verdicts, strict=True), start=1)
+    parts += [_plan_text(number, plan, verdict) for number, (plan, verdict) in pairs]
+    return "\n".join(parts)
+
+
+def _plan_text(number: int, plan: RankedPlan, verdict: Verdict) -> str:
+    valid = "valid" if verdict.valid else f"invalid: {verdict.reason}"
+    lines = [f"plan {number}: energy {plan.energy:.4f}, {len(plan.steps)} steps, {valid}"]
+    if plan.why:
+        lines.append(f"  not first: {plan.why}")
+    width = max((len(str(step.instruction)) for step in plan.steps), default=0)
+    for place, step in enumerate(plan.steps, start=1):
+        origin = f"clause {step.clause + 1}{', left unsaid' if step.latent else ''}"
+        lines.append(f"  {place:>3}. {step.instruction!s:<{width}}  {origin}")
+    factors = ", ".join(f"{name} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
+    lines.append(f"  energy by factor: {factors or 'nothing'}")
+    return "\n".join(lines) + "\n"
