@@ -39,6 +39,9 @@ from tmd.pddl.model import (
 from tmd.pddl.portable import portable
 from tmd.pddl.reader import read_domain, read_problem
 from tmd.pddl.writer import format_domain, format_problem
+from tmd.world.compile import compile_problem
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]
 SEEDS = 150
@@ -54,6 +57,8 @@ def _cases() -> Iterator[tuple[str, Path, Path]]:
         for problem in sorted((ROOT / "problems" / domain.parent.name).rglob("*.pddl")):
             if problem.name != "domain.pddl":
                 yield f"{domain.parent.name}-{problem.stem}", domain, problem
+        for environment in sorted((ROOT / "problems" / domain.parent.name / "environments").glob("*1.yaml")):
+            yield f"{domain.parent.name}-{environment.stem}", domain, environment
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -69,7 +74,9 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
 
 @pytest.fixture
 def problem(paths: tuple[Path, Path]) -> Problem:
-    """The problem of a case."""
+    """The problem of a case; an environment is compiled to one."""
+    if paths[1].suffix == ".yaml":
+        return compile_problem(load_environment(paths[1]), DomainFolder(paths[0].parent))
     return read_problem(paths[1], read_domain(paths[0]))
 
 

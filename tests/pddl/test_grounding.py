@@ -53,7 +53,7 @@ def _walk(problem: Problem, task: Task, start: State, steps: int, rng: Random) -
 def test_cases(problem: Problem) -> None:
     task = ground(problem)
     assert task.decode(task.init) == problem.init
-    _walk(problem, task, problem.init, 15, Random(1))
+    _walk(problem, task, problem.init, 15 if len(task.atoms) < 100 else 3, Random(1))
 
 
 def test_random_problems(random_problem: Problem) -> None:

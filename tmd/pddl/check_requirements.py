@@ -36,6 +36,9 @@ _IMPLIED = {
     ),
 }
 
+_OTHER_NOT = '"not" around something else than an atom'
+"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is no fault; we write it."""
+
 _Use = tuple[str, str, Location | None]
 """A requirement, the feature that needs it, and where that stands."""
 
@@ -50,6 +53,8 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
         declared.update(_IMPLIED.get(name, ()))
     first: dict[str, _Use] = {}
     for use in _problem_uses(problem) if problem else _domain_uses(domain):
+        if use[1] == _OTHER_NOT:
+            continue
         before = first.get(use[0])
         if before is None or (use[2] and before[2] and use[2] < before[2]):
             first[use[0]] = use
@@ -109,9 +114,9 @@ def _formula_uses(formula: Formula) -> Iterator[_Use]:
     if isinstance(formula, Equals):
         yield ":equality", '"="', formula.location
     elif isinstance(formula, Not):
-        if isinstance(formula.part, Atom):
-            yield ":negative-preconditions", '"not"', formula.location
-        elif not isinstance(formula.part, Equals):
+        atomic = isinstance(formula.part, Atom)
+        yield ":negative-preconditions", '"not"' if atomic else _OTHER_NOT, formula.location
+        if not isinstance(formula.part, Atom | Equals):
             yield ":disjunctive-preconditions", '"not" around a compound condition', formula.location
         yield from _formula_uses(formula.part)
     elif isinstance(formula, And | Or):

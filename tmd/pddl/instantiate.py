@@ -30,7 +30,7 @@ from tmd.pddl.model import (
     Problem,
     State,
 )
-from tmd.pddl.normal_form import FALSE, TRUE, Tree, conjunctive, disjunctive, expand
+from tmd.pddl.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
 from tmd.pddl.reachability import Reachability
 from tmd.pddl.read_formula import free_variables
 from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
@@ -63,6 +63,17 @@ def conjuncts(formula: Formula) -> list[Formula]:
     return [formula]
 
 
+def signed_atoms(formula: Formula) -> tuple[tuple[Atom, int], ...] | None:
+    """The atoms of a conjunction of literals, 1 for negated ones; ``None`` for any other formula."""
+    found: list[tuple[Atom, int]] = []
+    for part in conjuncts(formula):
+        inner = part.part if isinstance(part, Not) else part
+        if not isinstance(inner, Atom):
+            return None
+        found.append((inner, int(isinstance(part, Not))))
+    return tuple(found)
+
+
 def predicates_of(formula: Formula) -> frozenset[str]:
     """The predicates that ``formula`` speaks of."""
     match formula:
@@ -80,11 +91,15 @@ def predicates_of(formula: Formula) -> frozenset[str]:
 
 @dataclass(frozen=True, slots=True)
 class _EffectPlan:
-    """A lifted effect, with the join that finds the values of its own parameters."""
+    """A lifted effect, with the join that finds the values of its own parameters.
+
+    ``literals`` is what ``rest`` is a conjunction of, where it is so simple.
+    """
 
     effect: Effect
     join: Join | None
     rest: Formula
+    literals: tuple[tuple[Atom, int], ...] | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,12 +233,12 @@ class _Instantiation:
 
     def effect_plan(self, effect: Effect, given: tuple[str, ...]) -> _EffectPlan:
         if not effect.parameters:
-            return _EffectPlan(effect, None, effect.condition)
+            return _EffectPlan(effect, None, effect.condition, signed_atoms(effect.condition))
         parts = conjuncts(effect.condition)
         static = [p for p in parts if self.is_static(p)]
         rest = And(tuple(p for p in parts if not self.is_static(p)))
         variables = {p.name: self.objects.of(p.types) for p in effect.parameters}
-        return _EffectPlan(effect, self.join(variables, static, (), given), rest)
+        return _EffectPlan(effect, self.join(variables, static, (), given), rest, signed_atoms(rest))
 
     def instantiate(self, plan: _ActionPlan, order: Sequence[str], rows: Iterable[Row]) -> None:
         """Make the instances for ``rows`` (values in ``order``), each once, and let them take part."""
@@ -265,9 +280,21 @@ class _Instantiation:
             found = plan.join.run([tuple(outer[v] for v in order[: len(outer)])])
             rows = (dict(zip(order, row, strict=True)) for row in found)
         for binding in rows:
-            tree = expand(plan.rest, binding, self.objects, self.lookup)
-            if tree == FALSE:
-                continue
-            literal = 2 * self.number(instantiate(plan.effect.atom, binding)) + (not plan.effect.positive)
-            for cube in disjunctive(tree, what):
-                yield GroundEffect(cube, literal)
+            cubes = self.cubes(plan, binding, what)
+            if cubes:
+                literal = 2 * self.number(instantiate(plan.effect.atom, binding)) + (not plan.effect.positive)
+                for cube in cubes:
+                    yield GroundEffect(cube, literal)
+
+    def cubes(self, plan: _EffectPlan, binding: Binding, what: str) -> Sequence[Literals]:
+        """The condition of an effect as cubes; most are plain conjunctions, and quick."""
+        if plan.literals is None:
+            return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)
+        cube: set[int] = set()
+        for atom, negated in plan.literals:
+            found = self.lookup(instantiate(atom, binding))
+            if isinstance(found, int):
+                cube.add(found ^ negated)
+            elif (found == TRUE) == bool(negated):
+                return ()
+        return () if any(literal ^ 1 in cube for literal in cube) else (frozenset(cube),)

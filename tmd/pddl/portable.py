@@ -39,30 +39,32 @@ def portable(problem: Problem) -> Problem:
     Raises:
         TmdError: As :func:`without_either`.
     """
-    plain = without_either(problem.domain)
-    requirements = used_requirements(plain, problem)
-    return replace(problem, domain=replace(plain, requirements=requirements), requirements=())
+    plain = without_either(problem)
+    requirements = used_requirements(plain.domain, plain)
+    return replace(plain, domain=replace(plain.domain, requirements=requirements), requirements=())
 
 
-def without_either(domain: Domain) -> Domain:
-    """``domain`` with a new parent type in place of each ``either``; the same where there is none.
+def without_either(problem: Problem) -> Problem:
+    """``problem`` with a new parent type in place of each ``either``; the same where there is none.
 
     Raises:
         TmdError: The types of an ``either`` do not share their parent, or two of them overlap.
     """
+    domain = problem.domain
     hierarchy = TypeHierarchy(domain.types)
     wanted: dict[tuple[str, ...], TypedName] = {}
-    for name in _typed_names(domain):
+    for name in _typed_names(problem):
         types = _reduced(name.types, hierarchy)
         if len(types) > 1:
             wanted.setdefault(types, name)
-    if not any(len(name.types) > 1 for name in _typed_names(domain)):
-        return domain
+    if not any(len(name.types) > 1 for name in _typed_names(problem)):
+        return problem
     parents = {t.name: t.parent for t in domain.types}
     new: dict[tuple[str, ...], str] = {}
     for types in sorted(wanted, key=lambda t: (-len(t), t)):
         new[types] = _join(types, parents, wanted[types])
-    return _Rewriting(hierarchy, new).domain(domain, parents)
+    rewriting = _Rewriting(hierarchy, new)
+    return replace(problem, domain=rewriting.domain(domain, parents), goal=rewriting.formula(problem.goal))
 
 
 def _reduced(types: tuple[str, ...], hierarchy: TypeHierarchy) -> tuple[str, ...]:
@@ -88,7 +90,9 @@ def _join(types: tuple[str, ...], parents: dict[str, str], example: TypedName) -
     return name
 
 
-def _typed_names(domain: Domain) -> Iterator[TypedName]:
+def _typed_names(problem: Problem) -> Iterator[TypedName]:
+    domain = problem.domain
+    yield from _quantified(problem.goal)
     yield from domain.constants
     for signature in (*domain.predicates, *domain.functions):
         yield from signature.parameters

@@ -37,41 +37,46 @@ _WIDTH = 100
 
 def format_domain(domain: Domain) -> str:
     """``domain`` as text; reading it gives an equal domain."""
+    typed = bool(domain.types)
     sections = [f"(define (domain {domain.name})"]
     if domain.requirements:
         sections.append(f"  (:requirements {' '.join(domain.requirements)})")
     if domain.types:
         sections.append(_section("types", [f"{t.name} - {t.parent}" for t in parents_first(domain.types)]))
     if domain.constants:
-        sections.append(_section("constants", _listed(domain.constants)))
+        sections.append(_section("constants", _listed(domain.constants, typed)))
     if domain.predicates:
-        sections.append(_section("predicates", _predicates(domain.predicates)))
+        sections.append(_section("predicates", _predicates(domain.predicates, typed)))
     if domain.functions:
-        sections.append(_section("functions", [f"{_signature(f)} - number" for f in domain.functions]))
-    sections.extend(_action(action) for action in domain.actions)
+        sections.append(_section("functions", [f"{_signature(f, typed)} - number" for f in domain.functions]))
+    sections.extend(_action(action, typed) for action in domain.actions)
     return "\n\n".join(sections) + "\n)\n"
 
 
 def format_problem(problem: Problem) -> str:
     """``problem`` as text; reading it with the same domain gives an equal problem."""
+    typed = bool(problem.domain.types)
     sections = [f"(define (problem {problem.name})\n  (:domain {problem.domain.name})"]
     if problem.requirements:
         sections.append(f"  (:requirements {' '.join(problem.requirements)})")
     if problem.objects:
-        sections.append(_section("objects", _listed(problem.objects)))
+        sections.append(_section("objects", _listed(problem.objects, typed)))
     init = [str(atom) for atom in sorted(problem.init)]
     if any(f.name == TOTAL_COST for f in problem.domain.functions):
         init.append(f"(= ({TOTAL_COST}) 0)")
     init.extend(f"(= {function} {value})" for function, value in sorted(problem.function_values.items()))
     sections.append(_section("init", init))
-    sections.append(f"  (:goal {_laid_out(problem.goal, 8)})")
+    sections.append(f"  (:goal {_laid_out(problem.goal, 8, typed)})")
     if problem.minimize_cost:
         sections.append(f"  (:metric minimize ({TOTAL_COST}))")
     return "\n\n".join(sections) + "\n)\n"
 
 
-def format_formula(formula: Formula, binding: Mapping[str, str] | None = None) -> str:
-    """``formula`` on one line, with the variables of ``binding`` replaced."""
+def format_formula(formula: Formula, binding: Mapping[str, str] | None = None, *, typed: bool = False) -> str:
+    """``formula`` on one line, with the variables of ``binding`` replaced.
+
+    ``typed`` writes the type ``object`` as well, which VAL insists on in domains with types.
+    """
     bound = binding or {}
     match formula:
         case Atom():
@@ -79,37 +84,37 @@ def format_formula(formula: Formula, binding: Mapping[str, str] | None = None) -
         case Equals(left, right):
             return f"(= {bound.get(left, left)} {bound.get(right, right)})"
         case Not(part):
-            return f"(not {format_formula(part, bound)})"
+            return f"(not {format_formula(part, bound, typed=typed)})"
         case And(parts):
-            return _compound("and", parts, bound)
+            return _compound("and", parts, bound, typed)
         case Or(parts):
-            return _compound("or", parts, bound)
+            return _compound("or", parts, bound, typed)
         case Imply(left, right):
-            return _compound("imply", (left, right), bound)
+            return _compound("imply", (left, right), bound, typed)
         case Forall(parameters, part):
-            return f"(forall ({_typed(parameters)}) {_within(parameters, part, bound)})"
+            return f"(forall ({_typed(parameters, typed)}) {_within(parameters, part, bound, typed)})"
         case Exists(parameters, part):
-            return f"(exists ({_typed(parameters)}) {_within(parameters, part, bound)})"
+            return f"(exists ({_typed(parameters, typed)}) {_within(parameters, part, bound, typed)})"
 
 
-def _compound(word: str, parts: Iterable[Formula], bound: Mapping[str, str]) -> str:
-    return f"({' '.join((word, *(format_formula(p, bound) for p in parts)))})"
+def _compound(word: str, parts: Iterable[Formula], bound: Mapping[str, str], typed: bool) -> str:
+    return f"({' '.join((word, *(format_formula(p, bound, typed=typed) for p in parts)))})"
 
 
-def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, str]) -> str:
+def _within(parameters: Sequence[TypedName], part: Formula, bound: Mapping[str, str], typed: bool) -> str:
     own = {p.name for p in parameters}
-    return format_formula(part, {name: value for name, value in bound.items() if name not in own})
+    return format_formula(part, {n: v for n, v in bound.items() if n not in own}, typed=typed)
 
 
-def format_effect(effect: Effect) -> str:
-    """``effect`` on one line."""
+def format_effect(effect: Effect, *, typed: bool = False) -> str:
+    """``effect`` on one line; ``typed`` as for :func:`format_formula`."""
     text = format_formula(effect.atom)
     if not effect.positive:
         text = f"(not {text})"
     if effect.condition != TRUE:
-        text = f"(when {format_formula(effect.condition)} {text})"
+        text = f"(when {format_formula(effect.condition, typed=typed)} {text})"
     if effect.parameters:
-        text = f"(forall ({_typed(effect.parameters)}) {text})"
+        text = f"(forall ({_typed(effect.parameters, typed)}) {text})"
     return text
 
 
@@ -131,26 +136,24 @@ def _runs(names: Iterable[TypedName]) -> list[tuple[tuple[str, ...], list[str]]]
     return runs
 
 
-def _typed(names: Sequence[TypedName]) -> str:
-    """A typed list. Where no type is said anywhere, none is written, so plain STRIPS stays plain."""
-    if all(name.types == (OBJECT,) for name in names):
-        return " ".join(name.name for name in names)
-    return " ".join(f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names))
+def _typed(names: Sequence[TypedName], typed: bool) -> str:
+    return " ".join(_listed(names, typed))
 
 
-def _listed(names: Sequence[TypedName]) -> list[str]:
-    if all(name.types == (OBJECT,) for name in names):
+def _listed(names: Sequence[TypedName], typed: bool) -> list[str]:
+    """Names with their types. Where no type is said anywhere, none is written, so STRIPS stays STRIPS."""
+    if not typed and all(name.types == (OBJECT,) for name in names):
         return [" ".join(name.name for name in names)]
     return [f"{' '.join(run)} - {_type_text(types)}" for types, run in _runs(names)]
 
 
-def _signature(predicate: Predicate) -> str:
-    typed = _typed(predicate.parameters)
-    return f"({predicate.name} {typed})" if typed else f"({predicate.name})"
+def _signature(predicate: Predicate, typed: bool) -> str:
+    parameters = _typed(predicate.parameters, typed)
+    return f"({predicate.name} {parameters})" if parameters else f"({predicate.name})"
 
 
-def _predicates(predicates: Sequence[Predicate]) -> list[str]:
-    signatures = [_signature(p) for p in predicates]
+def _predicates(predicates: Sequence[Predicate], typed: bool) -> list[str]:
+    signatures = [_signature(p, typed) for p in predicates]
     width = max(len(s) for s in signatures)
     return [
         f"{signature:<{width}} ; {p.comment}" if p.comment else signature
@@ -158,26 +161,26 @@ def _predicates(predicates: Sequence[Predicate]) -> list[str]:
     ]
 
 
-def _action(action: ActionSchema) -> str:
-    effects = [format_effect(e) for e in action.effects]
+def _action(action: ActionSchema, typed: bool) -> str:
+    effects = [format_effect(e, typed=typed) for e in action.effects]
     if action.cost is not None:
         amount = format_formula(action.cost) if isinstance(action.cost, Atom) else str(action.cost)
         effects.append(f"(increase ({TOTAL_COST}) {amount})")
     lines = [
         f"  (:action {action.name}",
-        f"    :parameters ({_typed(action.parameters)})",
-        f"    :precondition {_laid_out(action.precondition, 6)}",
+        f"    :parameters ({_typed(action.parameters, typed)})",
+        f"    :precondition {_laid_out(action.precondition, 6, typed)}",
         f"    :effect {_lines('and', effects, 6)})",
     ]
     return "\n".join(lines)
 
 
-def _laid_out(formula: Formula, indent: int) -> str:
+def _laid_out(formula: Formula, indent: int, typed: bool) -> str:
     """``formula``; a conjunction that is too long for one line gets a line for each part."""
-    line = format_formula(formula)
+    line = format_formula(formula, typed=typed)
     if len(line) + indent <= _WIDTH or not isinstance(formula, And):
         return line
-    return _lines("and", [format_formula(p) for p in formula.parts], indent)
+    return _lines("and", [format_formula(p, typed=typed) for p in formula.parts], indent)
 
 
 def _lines(word: str, parts: Sequence[str], indent: int) -> str:
