@@ -17,7 +17,7 @@
   (:types
     thing robot relation state - object
     button knob openable additive cutlery - thing
-    door pack - openable          ; what open and close are for, and the bag that open is for
+    door - openable               ; what close is for; open is also for the bag
     scooper - cutlery             ; the one spoon that "add IceCreamScoop" means
     content switch channel doorstate - state
     fluid - content               ; what pouring hands on
@@ -57,6 +57,7 @@
     (worked_freely ?b - button)              ; nothing need be held to work b
     (swings ?d - openable ?x - thing ?s - doorstate) ; opening d makes the state s of x true
     (stops ?d - openable ?x - thing ?s - switch) ; opening d switches the state s of x off
+    (opened_in_hand ?d - openable)           ; d is a bag, torn open while it is held
     (gated ?z - thing ?rel - relation)       ; things go rel z only through its open door
     (hand_fed ?z - thing ?rel - relation)    ; things go rel z only while z itself is held
     (yields ?a - thing ?s - state)           ; adding or placing a gives the other thing the state s
@@ -139,11 +140,11 @@
     :precondition (or
       (exists (?x - thing ?s - doorstate)
         (and (swings ?d ?x ?s) (reached_at ?d ?x) (near pr2 ?x) (not (is ?x ?s))))
-      (exists (?p - pack) (and (= ?p ?d) (holding pr2 ?p))))
+      (and (opened_in_hand ?d) (holding pr2 ?d)))
     :effect (and
       (forall (?x - thing ?s - doorstate) (when (swings ?d ?x ?s) (is ?x ?s)))
       (forall (?x - thing ?s - switch) (when (stops ?d ?x ?s) (not (is ?x ?s))))
-      (forall (?p - pack) (when (and (= ?p ?d) (declares ?p isopen)) (is ?p isopen)))))
+      (when (and (opened_in_hand ?d) (declares ?d isopen)) (is ?d isopen))))
 
   ; Close an open door one is near.
   (:action close
@@ -211,9 +212,9 @@
       (not (holding pr2 ?x))
       (at ?x ?y in)))
 
-  ; Do nothing.
+  ; Do nothing. The effect says so at length, because some tools lose an action that has none.
   (:action wait
     :parameters ()
     :precondition (and)
-    :effect (and))
+    :effect (forall (?x - thing) (when (near pr2 ?x) (near pr2 ?x))))
 )

@@ -16,7 +16,7 @@
   (:types
     thing robot relation state - object
     item button knob door - thing    ; items can be carried
-    pack additive scooper - item     ; the bag that opens, what can be added, what scoops
+    additive scooper - item          ; what can be added, what scoops
     content switch channel doorstate - state
   )
 
@@ -39,6 +39,7 @@
     ; --- the world as it changes
     (at ?x - thing ?y - thing ?rel - relation) ; x is on, in or next to y
     (is ?x - thing ?s - state)               ; the state s of x is true
+    (lit ?x - thing)                         ; the burner x is on (the state of the stove, seen from the burner)
     (shut_away ?x - thing)                   ; x is behind a closed door
     (hot ?x - thing)                         ; x has been heated
     (boiling ?x - thing)                     ; the water in x boils
@@ -57,16 +58,17 @@
     (worked_freely ?b - button)              ; nothing need be held to work b
     (swings ?d - thing ?x - thing ?s - doorstate) ; opening d makes the state s of x true
     (stops ?d - thing ?x - thing ?s - switch) ; opening d switches the state s of x off
+    (opened_in_hand ?d - thing)              ; d is a bag, torn open while it is held
     (hand_fed ?z - thing ?rel - relation)    ; things go rel z only while z itself is held
     (yields ?a - thing ?s - state)           ; adding a gives the other thing the state s
     (goes_whole ?a - additive)               ; what is added is a itself, not a pinch of it
     (supports ?z - thing ?rel - relation)    ; things can be put rel z
     (closed_off ?z - thing ?rel - relation)  ; things go rel z only through an open door
-    (encloses ?d - door ?x - thing)          ; d closes off the inside of x
+    (encloses ?d - thing ?x - thing)         ; d closes off the inside of x
     (only_door ?d - door)                    ; no other door does so
     (twin_door ?d - door ?s - doorstate)     ; the other door is open when s is true
-    (heats_inside ?x - thing)                ; x, when on, heats what is in it, and needs its door closed
-    (burner ?x - thing ?y - thing ?s - switch) ; x is lit when the state s of y is true
+    (needs_shut ?x - thing)                  ; x starts only with its door closed
+    (lights ?k - knob ?x - thing)            ; k starts and stops the burner x
   )
 
   ; Go to a thing. The robot leaves where it was.
@@ -99,10 +101,8 @@
       (forall (?y - thing) (when (and (near pr2 ?y) (supports ?y on)) (at ?x ?y on)))
       (forall (?k - knob ?y - thing)
         (when (and (near pr2 ?y) (feeds ?k ?y) (is ?k tapison) (declares ?x water)) (is ?x water)))
-      (forall (?y - thing ?z - thing ?s - switch)
-        (when (and (near pr2 ?y) (burner ?y ?z ?s) (is ?z ?s)) (hot ?x)))
-      (forall (?y - thing ?z - thing ?s - switch)
-        (when (and (near pr2 ?y) (burner ?y ?z ?s) (is ?z ?s) (is ?x water)) (boiling ?x)))
+      (forall (?y - thing) (when (and (near pr2 ?y) (lit ?y)) (hot ?x)))
+      (forall (?y - thing) (when (and (near pr2 ?y) (lit ?y) (is ?x water)) (boiling ?x)))
       (when (both_hands_used pr2) (one_hand_used pr2))
       (when (both_hands_used pr2) (not (both_hands_used pr2)))
       (when (one_hand_used pr2) (not (one_hand_used pr2)))))
@@ -124,10 +124,8 @@
       (when (= ?rel inside) (at ?x ?z in))
       (forall (?k - knob)
         (when (and (= ?rel on) (feeds ?k ?z) (is ?k tapison) (declares ?x water)) (is ?x water)))
-      (forall (?y - thing ?s - switch)
-        (when (and (= ?rel on) (burner ?z ?y ?s) (is ?y ?s)) (hot ?x)))
-      (forall (?y - thing ?s - switch)
-        (when (and (= ?rel on) (burner ?z ?y ?s) (is ?y ?s) (is ?x water)) (boiling ?x)))
+      (when (and (= ?rel on) (lit ?z)) (hot ?x))
+      (when (and (= ?rel on) (lit ?z) (is ?x water)) (boiling ?x))
       (when (both_hands_used pr2) (one_hand_used pr2))
       (when (both_hands_used pr2) (not (both_hands_used pr2)))
       (when (one_hand_used pr2) (not (one_hand_used pr2)))))
@@ -141,11 +139,12 @@
       (forall (?x - thing ?s - switch) (when (and (works ?k ?x ?s) (is ?x ?s)) (not (is ?x ?s))))
       (forall (?x - thing ?v - item)
         (when (and (feeds ?k ?x) (not (is ?k tapison)) (at ?v ?x on) (declares ?v water)) (is ?v water)))
-      (forall (?x - thing ?y - thing ?s - switch ?v - item)
-        (when (and (works ?k ?y ?s) (burner ?x ?y ?s) (not (is ?y ?s)) (at ?v ?x on)) (hot ?v)))
-      (forall (?x - thing ?y - thing ?s - switch ?v - item)
-        (when (and (works ?k ?y ?s) (burner ?x ?y ?s) (not (is ?y ?s)) (at ?v ?x on) (is ?v water))
-          (boiling ?v)))))
+      (forall (?x - thing) (when (and (lights ?k ?x) (not (lit ?x))) (lit ?x)))
+      (forall (?x - thing) (when (and (lights ?k ?x) (lit ?x)) (not (lit ?x))))
+      (forall (?x - thing ?v - item)
+        (when (and (lights ?k ?x) (not (lit ?x)) (at ?v ?x on)) (hot ?v)))
+      (forall (?x - thing ?v - item)
+        (when (and (lights ?k ?x) (not (lit ?x)) (at ?v ?x on) (is ?v water)) (boiling ?v)))))
 
   ; Press a button. The microwave starts only with its door closed and heats what is in it; the dispenser fills what
   ; is held.
@@ -154,7 +153,7 @@
     :precondition (and
       (or (reached_anywhere ?b)
           (exists (?x - thing)
-            (and (reached_at ?b ?x) (near pr2 ?x) (or (not (heats_inside ?x)) (not (is ?x doorisopen))))))
+            (and (reached_at ?b ?x) (near pr2 ?x) (or (not (needs_shut ?x)) (not (is ?x doorisopen))))))
       (or (worked_freely ?b) (exists (?x - thing) (and (worked_by ?b ?x) (holding pr2 ?x)))))
     :effect (and
       (forall (?x - thing ?s - switch) (when (and (works ?b ?x ?s) (not (is ?x ?s))) (is ?x ?s)))
@@ -162,10 +161,11 @@
       (forall (?x - thing ?v - item)
         (when (and (dispenses ?b ?x) (not (is ?x waterdispenserisopen)) (holding pr2 ?v) (declares ?v water))
           (is ?v water)))
-      (forall (?x - thing ?s - switch ?v - item)
-        (when (and (works ?b ?x ?s) (heats_inside ?x) (not (is ?x ?s)) (at ?v ?x in)) (hot ?v)))
-      (forall (?x - thing ?s - switch ?v - item)
-        (when (and (works ?b ?x ?s) (heats_inside ?x) (not (is ?x ?s)) (at ?v ?x in) (is ?v water)) (boiling ?v)))
+      (forall (?x - thing ?v - item)
+        (when (and (works ?b ?x microwaveison) (not (is ?x microwaveison)) (at ?v ?x in)) (hot ?v)))
+      (forall (?x - thing ?v - item)
+        (when (and (works ?b ?x microwaveison) (not (is ?x microwaveison)) (at ?v ?x in) (is ?v water))
+          (boiling ?v)))
       (forall (?x - thing ?s - channel ?t - channel)
         (when (and (steps ?b ?x ?s ?t) (is ?x ison) (is ?x ?s)) (not (is ?x ?s))))
       (forall (?x - thing ?s - channel ?t - channel)
@@ -179,13 +179,12 @@
     :precondition (or
       (exists (?x - thing ?s - doorstate)
         (and (swings ?d ?x ?s) (reached_at ?d ?x) (near pr2 ?x) (not (is ?x ?s))))
-      (exists (?p - pack) (and (= ?p ?d) (holding pr2 ?p) (not (is ?p isopen)))))
+      (and (opened_in_hand ?d) (holding pr2 ?d) (not (is ?d isopen))))
     :effect (and
       (forall (?x - thing ?s - doorstate) (when (swings ?d ?x ?s) (is ?x ?s)))
       (forall (?x - thing ?s - switch) (when (stops ?d ?x ?s) (not (is ?x ?s))))
-      (forall (?p - pack) (when (and (= ?p ?d) (declares ?p isopen)) (is ?p isopen)))
-      (forall (?e - door ?x - thing ?v - thing)
-        (when (and (= ?e ?d) (encloses ?e ?x) (at ?v ?x in)) (not (shut_away ?v))))))
+      (when (and (opened_in_hand ?d) (declares ?d isopen)) (is ?d isopen))
+      (forall (?x - thing ?v - thing) (when (and (encloses ?d ?x) (at ?v ?x in)) (not (shut_away ?v))))))
 
   ; Close an open door one stands at. Behind the last one, things are shut away.
   (:action close
@@ -264,9 +263,9 @@
       (one_hand_used pr2)
       (not (both_hands_used pr2))))
 
-  ; Do nothing.
+  ; Do nothing. The effect says so at length, because some tools lose an action that has none.
   (:action wait
     :parameters ()
     :precondition (and)
-    :effect (and))
+    :effect (forall (?x - thing) (when (near pr2 ?x) (near pr2 ?x))))
 )

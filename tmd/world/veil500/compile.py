@@ -98,9 +98,9 @@ def _type(thing: VeilObject, semantics: Semantics) -> str:
     special = DISPATCH.get(thing.name)
     if semantics == "sane":
         carried = "IsGraspable" in thing.affordances
-        if special in (None, "cutlery"):
+        if special in (None, "cutlery", "openable"):
             return "item" if carried else "thing"
-        if special in ("pack", "additive", "scooper") and not carried:
+        if special in ("additive", "scooper") and not carried:
             return "thing"
     return special or "thing"
 

@@ -95,16 +95,12 @@ class VeilEnvironment:
             DataError: There is no object of that name.
         """
         if name not in self.by_name:
-            raise DataError(
-                f"{self.world} {self.number} has no object '{name}'", hint="names are case-sensitive"
-            )
+            raise DataError(f"{self.world} {self.number} has no object '{name}'", hint="names are case-sensitive")
         thing = self.by_name[name]
         return graph_of(name, thing.kind, thing.states, frozenset(self.by_name))
 
 
-def read_environment(
-    path: Path, world: str, number: int, classes: Mapping[str, ObjectClass]
-) -> VeilEnvironment:
+def read_environment(path: Path, world: str, number: int, classes: Mapping[str, ObjectClass]) -> VeilEnvironment:
     """An environment file.
 
     Raises:
@@ -123,9 +119,7 @@ def read_environment(
         raw[name] = element
         seen.add(name.lower())
     if not raw:
-        raise DataError(
-            "no object in the file", location=root.location, hint="copy it again from the release"
-        )
+        raise DataError("no object in the file", location=root.location, hint="copy it again from the release")
     positions = {name: _vector(element.need("position")) for name, element in raw.items()}
     kinds = {name: class_of(name) for name in raw}
     whole = parents(kinds)
@@ -155,9 +149,7 @@ def read_environment(
     return VeilEnvironment(world, number, tuple(objects), tuple(dropped), str(path))
 
 
-def _states(
-    name: str, element: Element, own: ObjectClass
-) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
+def _states(name: str, element: Element, own: ObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
     """An object's states, and the file's states that its class does not declare."""
     states = dict(own.states)
     dropped = []

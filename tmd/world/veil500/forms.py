@@ -25,7 +25,7 @@ RELATIONS = {"on": "On", "in": "In", "inside": "Inside", "next_to": "Near"}
 
 RESERVED = frozenset(
     (
-        *("object", "thing", "item", "button", "knob", "openable", "door", "pack", "additive", "cutlery"),
+        *("object", "thing", "item", "button", "knob", "openable", "door", "additive", "cutlery"),
         *("scooper", "robot", "relation", "state", "content", "fluid", "switch", "channel", "doorstate"),
         *("pr2", "on", "in", "inside", "next_to", "water", "coffee", "coke", "energydrink", "icecream"),
         *("chocolate", "canadadry", "vanilla", "salt", "ramen", "egg", "spoon", "fork", "percentfilled"),
@@ -58,9 +58,7 @@ def from_veil(text: str, location: Location | None = None) -> Instruction:
     """
     tokens = text.split()
     if not tokens:
-        raise DataError(
-            "an action without words", location=location, hint="delete it, or write: verb argument…"
-        )
+        raise DataError("an action without words", location=location, hint="delete it, or write: verb argument…")
     for token in tokens:
         if not _TOKEN.match(token):
             raise DataError(

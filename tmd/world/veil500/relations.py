@@ -88,14 +88,12 @@ def _literal(environment: VeilEnvironment) -> tuple[Relation, ...]:
     places = [
         place
         for place in environment.objects
-        if place.affordances & {"IsPlaceableOn", "IsPlaceableIn"}
-        and not place.name.startswith(("Microwave", "Sink"))
+        if place.affordances & {"IsPlaceableOn", "IsPlaceableIn"} and not place.name.startswith(("Microwave", "Sink"))
     ]
     found = []
     for thing in _graspable(environment):
         distances = [
-            math.hypot(thing.position.x - place.position.x, thing.position.y - place.position.y)
-            for place in places
+            math.hypot(thing.position.x - place.position.x, thing.position.y - place.position.y) for place in places
         ]
         if distances and min(distances) < LITERAL_REACH:
             place = places[distances.index(min(distances))]
@@ -111,9 +109,7 @@ def _plan(a: VeilObject, b: VeilObject) -> float:
 
 def _kitchen(environment: VeilEnvironment) -> tuple[Relation, ...]:
     return tuple(
-        relation
-        for thing in _graspable(environment)
-        if (relation := _in_kitchen(thing, environment)) is not None
+        relation for thing in _graspable(environment) if (relation := _in_kitchen(thing, environment)) is not None
     )
 
 

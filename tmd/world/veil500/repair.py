@@ -84,9 +84,7 @@ class Repairer:
 
 def repair(point: Point, data: VeilData) -> Repaired:
     """Repair one demonstration; see :meth:`Repairer.repair`."""
-    return Repairer(VeilData(data.directory, (point,), {point.key: data.environment_of(point)}, {})).repair(
-        point
-    )
+    return Repairer(VeilData(data.directory, (point,), {point.key: data.environment_of(point)}, {})).repair(point)
 
 
 def repaired(data: VeilData) -> VeilData:

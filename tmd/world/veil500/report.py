@@ -122,9 +122,7 @@ def _texts(data: VeilData) -> dict[str, int]:
         "repeated runs removed": sum(point.repeats_removed for point in data.points),
         "texts without separators": sum("|" not in point.raw for point in data.points),
         "segments": len(segments),
-        "segments with words, as written": sum(
-            bool(words(part)) for p in data.points for part in p.raw.split("|")
-        ),
+        "segments with words, as written": sum(bool(words(part)) for p in data.points for part in p.raw.split("|")),
         "segments with words, cleaned": sum(segment.has_words for segment in segments),
     }
 

@@ -23,10 +23,7 @@ DISPATCH = {
     **{f"StoveKnob_{k}": "knob" for k in range(1, 5)},
     "MicrowaveButton": "button",
     "FridgeButton": "button",
-    **{
-        f"{TV}{kind}Button": "button"
-        for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")
-    },
+    **{f"{TV}{kind}Button": "button" for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown")},
     **{
         f"{REMOTE}{kind}Button": "button"
         for kind in ("Power", "ChannelUp", "ChannelDown", "VolumeUp", "VolumeDown", "Mute")
@@ -34,7 +31,7 @@ DISPATCH = {
     "Microwave": "door",
     "FridgeLeftDoor": "door",
     "FridgeRightDoor": "door",
-    "BagOfChips_1": "pack",
+    "BagOfChips_1": "openable",
     "Salt_1": "additive",
     "Ramen_1": "additive",
     "BoiledEgg_1": "additive",
@@ -66,6 +63,7 @@ _FIXED: tuple[NamedFact, ...] = (
     ("reached_at", "FridgeLeftDoor", "Fridge"),
     ("swings", "FridgeRightDoor", "Fridge", "rightdoorisopen"),
     ("reached_at", "FridgeRightDoor", "Fridge"),
+    ("opened_in_hand", "BagOfChips_1"),
     ("gated", "Microwave", "in"),
     ("hand_fed", "GarbageBag_1", "in"),
     ("yields", "Salt_1", "salt"),
@@ -144,7 +142,7 @@ def sane_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
             if thing.name in ("Microwave", "Fridge"):
                 yield ("closed_off", thing.name, relation)
         if thing.kind == "Microwave":
-            yield ("heats_inside", thing.name)
+            yield ("needs_shut", thing.name)
     for door, whole, twin in (
         ("Microwave", "Microwave", None),
         ("FridgeLeftDoor", "Fridge", "rightdoorisopen"),
@@ -154,7 +152,9 @@ def sane_facts(environment: VeilEnvironment) -> Iterator[NamedFact]:
             yield ("encloses", door, whole)
             yield ("only_door", door) if twin is None else ("twin_door", door, twin)
     for k in range(1, 5):
-        if f"StoveFire_{k}" in present and "Stove" in present:
-            yield ("burner", f"StoveFire_{k}", "Stove", f"stovefire{k}")
+        if f"StoveFire_{k}" in present and f"StoveKnob_{k}" in present:
+            yield ("lights", f"StoveKnob_{k}", f"StoveFire_{k}")
+            if "Stove" in present and present["Stove"].states.get(f"StoveFire{k}"):
+                yield ("lit", f"StoveFire_{k}")
     if REMOTE in present and f"{REMOTE}MuteButton" in present:
         yield ("worked_by", f"{REMOTE}MuteButton", REMOTE)

@@ -77,9 +77,7 @@ def read_bytes(path: Path) -> bytes:
             hint="give the directory of VEIL-500: it holds data.xml, Objects.xml and Environments/",
         ) from None
     except OSError as error:
-        raise DataError(
-            f"{path} cannot be read: {error.strerror}", hint="check the path and its rights"
-        ) from None
+        raise DataError(f"{path} cannot be read: {error.strerror}", hint="check the path and its rights") from None
 
 
 def read_xml(path: Path, root: str) -> Element:
