@@ -6,7 +6,9 @@ module                  holds
 ``model``               types, objects, atoms, formulas, effects, action schemas, domain, problem
 ``hierarchy``           which type is a kind of which, and the objects of each type
 ``syntax``              nested parentheses with their places
-``read_formula``        names, typed lists, conditions and effects
+``read_names``          names, typed lists and numbers
+``read_formula``        conditions and effects
+``read_sections``       the sections of domains and problems; ``read_init`` the initial state
 ``reader``              domains and problems from text
 ``check``               every fault of a domain or problem, with place and hint
 ``check_requirements``  features used without their requirement
@@ -19,6 +21,7 @@ module                  holds
 ``grounding``           from a problem to its task; its steps are ``instantiate`` and ``prune``
 ``ground_action``       actions over numbered atoms, while grounding
 ``normal_form``         ground conditions as clauses or cubes
+``conjunctions``        conditions before they are ground: conjuncts, predicates, free variables
 ``join``                bindings that satisfy a conjunction
 ``reachability``        which literals may ever hold and which rules may ever fire
 ``validator``           whether a plan works, and the first reason why it does not

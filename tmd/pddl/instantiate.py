@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tmd.errors import TmdError
+from tmd.pddl.conjunctions import conjuncts, free_variables, predicates_of, signed_atoms
 from tmd.pddl.ground_action import GroundAction, GroundEffect, grouped
 from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.join import Check, Join, Query, Relation, Row, plan_join
@@ -18,21 +19,14 @@ from tmd.pddl.model import (
     And,
     Atom,
     Effect,
-    Equals,
-    Exists,
-    Forall,
     Formula,
     GroundAtom,
-    Imply,
     Instruction,
-    Not,
-    Or,
     Problem,
     State,
 )
 from tmd.pddl.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
 from tmd.pddl.reachability import Reachability
-from tmd.pddl.read_formula import free_variables
 from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
 
 _MOST_ACTIONS = 500_000
@@ -54,39 +48,6 @@ class Instances:
 def instantiate_actions(problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> Instances:
     """Every instance that relaxed reachability from the union of ``initial_states`` admits."""
     return _Instantiation(problem, initial_states, forced).run()
-
-
-def conjuncts(formula: Formula) -> list[Formula]:
-    """The parts of a conjunction, however nested."""
-    if isinstance(formula, And):
-        return [inner for part in formula.parts for inner in conjuncts(part)]
-    return [formula]
-
-
-def signed_atoms(formula: Formula) -> tuple[tuple[Atom, int], ...] | None:
-    """The atoms of a conjunction of literals, 1 for negated ones; ``None`` for any other formula."""
-    found: list[tuple[Atom, int]] = []
-    for part in conjuncts(formula):
-        inner = part.part if isinstance(part, Not) else part
-        if not isinstance(inner, Atom):
-            return None
-        found.append((inner, int(isinstance(part, Not))))
-    return tuple(found)
-
-
-def predicates_of(formula: Formula) -> frozenset[str]:
-    """The predicates that ``formula`` speaks of."""
-    match formula:
-        case Atom(predicate):
-            return frozenset((predicate,))
-        case Equals():
-            return frozenset()
-        case Not(part) | Forall(_, part) | Exists(_, part):
-            return predicates_of(part)
-        case And(parts) | Or(parts):
-            return frozenset[str]().union(*(predicates_of(p) for p in parts))
-        case Imply(left, right):
-            return predicates_of(left) | predicates_of(right)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Reading names, typed lists, conditions and effects from nested groups.
+"""Reading conditions and effects from nested groups.
 
 Effects come out flat. ``and`` and ``forall`` are spread out, and the conditions of a ``when`` within a
 ``when`` are conjoined: ``(when a (when b e))`` becomes ``(when (and a b) e)``.
@@ -6,13 +6,10 @@ Effects come out flat. ``and`` and ``forall`` are spread out, and the conditions
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from tmd.errors import Location, TmdError
+from tmd.pddl.conjunctions import free_variables
 from tmd.pddl.model import (
-    OBJECT,
     TOTAL_COST,
     TRUE,
     And,
@@ -27,13 +24,16 @@ from tmd.pddl.model import (
     Or,
     TypedName,
 )
+from tmd.pddl.read_names import (
+    RESERVED,
+    read_name,
+    read_number,
+    read_parameters,
+    read_term,
+    unsupported,
+)
 from tmd.pddl.syntax import Group, Node, Source, Word
 
-_NAME = re.compile(r"[a-z][a-z0-9_-]*")
-_VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
-_NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?")
-
-RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "either", "increase"})
 _UNSUPPORTED_CONDITIONS = {
     "preference": "preferences",
     "<": "numeric conditions",
@@ -51,118 +51,6 @@ _UNSUPPORTED_EFFECTS = {
     "probabilistic": "probabilistic effects",
 }
 _ONLY_COSTS = "of numeric fluents only total-cost is supported"
-
-
-def is_variable(term: str) -> bool:
-    """Whether a term is a variable."""
-    return term.startswith("?")
-
-
-def free_variables(formula: Formula) -> frozenset[str]:
-    """The variables of ``formula`` that no quantifier within it binds."""
-    if isinstance(formula, Atom):
-        return frozenset(t for t in formula.terms if is_variable(t))
-    if isinstance(formula, Equals):
-        return frozenset(t for t in (formula.left, formula.right) if is_variable(t))
-    if isinstance(formula, Not):
-        return free_variables(formula.part)
-    if isinstance(formula, Imply):
-        return free_variables(formula.left) | free_variables(formula.right)
-    if isinstance(formula, Forall | Exists):
-        return free_variables(formula.part) - {p.name for p in formula.parameters}
-    return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
-
-
-def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
-    """The error for a construct of PDDL that is outside the supported part."""
-    return source.error(f'{what} are not supported: "{name}"', location, hint)
-
-
-def read_name(node: Node, source: Source, what: str) -> Word:
-    """A name such as ``mug1``."""
-    if isinstance(node, Group):
-        raise source.error(f"expected {what}, found a parenthesis", node.location)
-    if not _NAME.fullmatch(node.text):
-        raise source.error(
-            f'"{node.text}" is not {what}',
-            node.location,
-            "names begin with a letter and hold letters, digits, - and _",
-        )
-    if node.text in RESERVED:
-        raise source.error(f'"{node.text}" is a word of PDDL and cannot be {what}', node.location)
-    return node
-
-
-def read_term(node: Node, source: Source) -> str:
-    """A variable, constant or object."""
-    if isinstance(node, Group):
-        raise unsupported(
-            source,
-            "object fluents and nested terms",
-            f"({node.head} ...)",
-            node.location,
-            "write a name or ?variable",
-        )
-    if is_variable(node.text):
-        if not _VARIABLE.fullmatch(node.text):
-            raise source.error(f'"{node.text}" is not a variable', node.location, "write ?name")
-        return node.text
-    return read_name(node, source, "a name or ?variable").text
-
-
-def read_number(node: Node, source: Source) -> int | None:
-    """A whole number that is not negative; ``None`` where ``node`` is no number at all."""
-    if isinstance(node, Group) or not re.fullmatch(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", node.text):
-        return None
-    if _NUMBER.fullmatch(node.text) and float(node.text) == int(float(node.text)):
-        return int(float(node.text)) if "." in node.text else int(node.text)
-    raise source.error(f'cost "{node.text}" is not a whole number from 0 up', node.location)
-
-
-def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, what: str) -> tuple[TypedName, ...]:
-    """``a b - t c - (either t u)``: names (or variables) with their types."""
-    found: list[TypedName] = []
-    waiting: list[Word] = []
-    rest = list(reversed(nodes))
-    while rest:
-        node = rest.pop()
-        if isinstance(node, Word) and node.text == "-":
-            types = _read_types(rest.pop() if rest else None, node.location, source)
-            if not waiting:
-                raise source.error(f"this type belongs to no {what}", node.location)
-            found.extend(TypedName(w.text, types, w.location) for w in waiting)
-            waiting.clear()
-        else:
-            waiting.append(_read_listed(node, source, variables, what))
-    found.extend(TypedName(w.text, (OBJECT,), w.location) for w in waiting)
-    return tuple(found)
-
-
-def _read_listed(node: Node, source: Source, variables: bool, what: str) -> Word:
-    if not variables:
-        return read_name(node, source, f"the name of {what}")
-    if isinstance(node, Group):
-        raise source.error(f"expected {what} such as ?x, found a parenthesis", node.location)
-    if not _VARIABLE.fullmatch(node.text):
-        raise source.error(f'"{node.text}" is not {what}', node.location, f'write "?{node.text.lstrip("?")}"')
-    return node
-
-
-def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str, ...]:
-    if node is None:
-        raise source.error('a type is missing after "-"', dash)
-    if isinstance(node, Word):
-        return (read_name(node, source, "the name of a type").text,)
-    if node.head != "either" or len(node.parts) < 2:
-        raise source.error("expected a type or (either type ...)", node.location)
-    return tuple(read_name(n, source, "the name of a type").text for n in node.parts[1:])
-
-
-def read_parameters(node: Node, source: Source) -> tuple[TypedName, ...]:
-    """The parameter list of an action or quantifier."""
-    if isinstance(node, Word):
-        raise source.error(f'expected a list of parameters, found "{node.text}"', node.location, "write (?x - type)")
-    return read_typed_list(node.parts, source, variables=True, what="a variable")
 
 
 def read_condition(node: Node, source: Source) -> Formula:
