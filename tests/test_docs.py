@@ -1,0 +1,134 @@
+"""The pages: examples are run, links lead somewhere, and nothing speaks of one machine.
+
+An example is a ``console`` block after a ``<!-- tested -->`` line; its commands must print what stands below them.
+A block after ``<!-- file: NAME -->`` is a file that the examples of its page find in their working directory.
+``python tests/test_docs.py`` runs the examples and writes their output into the pages anew.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+_BLOCK = re.compile(r"(?<=<!-- tested -->\n```console\n).*?(?=^```$)", re.MULTILINE | re.DOTALL)
+_FILE = re.compile(r"<!-- file: ([\w.]+) -->\n```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
+_LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+_HEADING = re.compile(r"^#+ +(.*?) *$", re.MULTILINE)
+_OF_ONE_MACHINE = re.compile(r"(?<![\w.])/(?:home|root|Users|work|tmp|mnt|opt|srv)/\w+")
+
+
+def pages() -> list[Path]:
+    """Every page that git would keep."""
+    listed = [*ROOT.glob("*.md"), *(p for d in ("docs", "domains", "problems") for p in (ROOT / d).rglob("*.md"))]
+    return sorted(listed)
+
+
+def examples() -> Iterator[tuple[Path, str, str]]:
+    """Page, command and the output that the page shows."""
+    for page in pages():
+        for block in _BLOCK.findall(page.read_text(encoding="utf-8")):
+            for command, output in _commands(block):
+                yield page, command, output
+
+
+def _commands(block: str) -> Iterator[tuple[str, str]]:
+    """The commands of a block with their output; a backslash continues a command on the next line."""
+    for piece in re.split(r"^\$ ", block, flags=re.MULTILINE)[1:]:
+        command, _, output = piece.partition("\n")
+        while command.endswith("\\"):
+            more, _, output = output.partition("\n")
+            command = f"{command}\n{more}"
+        yield command, output
+
+
+def executed(page: Path, command: str, directory: Path) -> str:
+    """What a command prints, standard error included; ``tmd`` is the one of this checkout."""
+    for name in ("domains", "problems", "tests"):
+        (directory / name).symlink_to(ROOT / name)
+    for name, content in _FILE.findall(page.read_text(encoding="utf-8")):
+        (directory / name).write_text(content, encoding="utf-8")
+    tmd = directory / "bin" / "tmd"
+    tmd.parent.mkdir()
+    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tmd "$@"\n', encoding="utf-8")
+    tmd.chmod(0o755)
+    environment = os.environ | {
+        "PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}",
+        "PYTHONPATH": str(ROOT),
+        "COLUMNS": "100",
+    }
+    done = subprocess.run(
+        command,
+        shell=True,
+        cwd=directory,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        timeout=120,
+        check=False,
+    )
+    return done.stdout.decode("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("page", "command", "output"),
+    [pytest.param(*example, id=f"{example[0].name}-{example[1][:40]}") for example in examples()],
+)
+def test_example_prints_what_the_page_shows(page: Path, command: str, output: str, tmp_path: Path) -> None:
+    assert executed(page, command, tmp_path) == output
+
+
+def test_there_are_examples() -> None:
+    assert {"README.md", "cli.md"} <= {page.name for page, _, _ in examples()}
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
+def test_links_lead_somewhere(page: Path) -> None:
+    text = _FENCED.sub("", page.read_text(encoding="utf-8"))
+    broken = []
+    for target in _LINK.findall(text):
+        if re.match(r"[a-z]+:", target):
+            continue
+        name, _, anchor = target.partition("#")
+        path = (page.parent / name).resolve() if name else page
+        if not path.exists() or (anchor and anchor not in _anchors(path)):
+            broken.append(target)
+    assert not broken
+
+
+def _anchors(page: Path) -> set[str]:
+    """The anchors of a page's headings, as code forges make them."""
+    headings = _HEADING.findall(_FENCED.sub("", page.read_text(encoding="utf-8")))
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
+def test_no_page_speaks_of_one_machine(page: Path) -> None:
+    assert _OF_ONE_MACHINE.findall(page.read_text(encoding="utf-8")) == []
+
+
+def rewrite() -> None:
+    """Write the output of every example into its page."""
+    for page in pages():
+        text = page.read_text(encoding="utf-8")
+        page.write_text(_BLOCK.sub(lambda block, page=page: _again(page, block[0]), text), encoding="utf-8")
+
+
+def _again(page: Path, block: str) -> str:
+    found = ""
+    for command, _ in _commands(block):
+        with tempfile.TemporaryDirectory() as directory:
+            found += f"$ {command}\n{executed(page, command, Path(directory))}"
+    return found
+
+
+if __name__ == "__main__":
+    rewrite()
