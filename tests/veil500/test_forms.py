@@ -67,6 +67,7 @@ def test_pddl_names_are_legal_and_free(name: str) -> None:
 def test_reserved_names_are_those_of_the_domains(semantics: str) -> None:
     domain = veil_domain(semantics)
     used = {t.name for t in domain.types} | {c.name for c in domain.constants}
+    used |= {p.name for p in domain.predicates} | {a.name for a in domain.actions}
     assert used <= RESERVED
 
 

@@ -31,11 +31,18 @@ RESERVED = frozenset(
         *("chocolate", "canadadry", "vanilla", "salt", "ramen", "egg", "spoon", "fork", "percentfilled"),
         *("scoopsleft", "haschips", "isopen", "ison", "volume", "cd", "tapison", "microwaveison"),
         *("waterdispenserisopen", "doorisopen", "leftdoorisopen", "rightdoorisopen"),
+        *("add", "at", "boiling", "both_hands_used", "close", "closed_off", "declares", "dispenses"),
+        *("encloses", "feeds", "gated", "goes_whole", "grasp", "graspable", "hand_fed", "holding", "hot"),
+        *("insert", "is", "keep", "lights", "lit", "lowers", "moveto", "near", "needs_shut"),
+        *("one_hand_used", "only_door", "open", "opened_in_hand", "place", "pour", "pour_out", "press"),
+        *("raises", "reached_anywhere", "reached_at", "release", "scoopfrom", "scoopto", "shut_away"),
+        *("squeezable", "squeeze", "steps", "stops", "supports", "swings", "turn", "twin_door", "wait"),
+        *("worked_by", "worked_freely", "works", "yields"),
         *(f"stovefire{k}" for k in range(1, 5)),
         *(f"channel{k}" for k in range(1, 7)),
     )
 )
-"""Names of types and constants of the two domains; a thing of that name gets another one."""
+"""Names that the two domains use (tools want each name once); a thing of that name gets another one."""
 
 _TOKEN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_]*\Z")
 _FROM_RELATION = {word.lower(): constant for constant, word in RELATIONS.items()}

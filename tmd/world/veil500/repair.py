@@ -9,7 +9,7 @@ cannot be known.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.pddl.model import And, Atom, Effect, Equals, GroundAtom, Instruction, Not, Problem, TypedName
@@ -58,13 +58,17 @@ class Repairer:
             problem = compile_environment(environment)
             self._simulators[key] = Simulator(problem, [*recorded[key], *_candidates(environment)])
 
+    def simulator(self, point: Point) -> Simulator:
+        """The literal simulator of a demonstration's environment."""
+        return self._simulators[point.key]
+
     def repair(self, point: Point) -> Repaired:
         """Insert at most one instruction, before the first step that fails under the literal rules.
 
         Only if that step lies in the last group, misses exactly one fact, and the instruction that gives the
         fact is executable there.
         """
-        simulator = self._simulators[point.key]
+        simulator = self.simulator(point)
         done = simulator.run(point.instructions)
         step = done.first_failure
         before_last = sum(len(group.instructions) for group in point.groups[:-1])
@@ -80,6 +84,10 @@ class Repairer:
         instructions = (*last.instructions[:place], fix, *last.instructions[place:])
         groups = (*point.groups[:-1], Group(last.segments, instructions))
         return Repaired(replace(point, groups=groups), fix, step)
+
+    def executability(self, points: Sequence[Point], *, two_hands: bool = False) -> Executability:
+        """:func:`executability` of some demonstrations under the literal rules."""
+        return _count(points, self._simulators, two_hands)
 
 
 def repair(point: Point, data: VeilData) -> Repaired:
@@ -106,8 +114,12 @@ def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bo
     for key, environment in data.environments.items():
         problem = compile_environment(environment)
         simulators[key] = Simulator(_exclusive(problem) if exclusive_near else problem, recorded[key])
+    return _count(data.points, simulators, two_hands)
+
+
+def _count(points: Sequence[Point], simulators: Mapping[tuple[str, int], Simulator], two_hands: bool) -> Executability:
     executable = failing = steps = 0
-    for point in data.points:
+    for point in points:
         done = simulators[point.key].run(point.instructions)
         failures = set(done.failures)
         if two_hands:
@@ -119,7 +131,7 @@ def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bo
         executable += not failures
         failing += len(failures)
         steps += len(point.instructions)
-    return Executability(len(data.points), executable, steps, failing)
+    return Executability(len(points), executable, steps, failing)
 
 
 def _recorded(points: Sequence[Point]) -> dict[tuple[str, int], list[Instruction]]:

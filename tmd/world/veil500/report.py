@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from tmd.world.veil500.compile import veil_domain
 from tmd.world.veil500.data import Point, VeilData, load
 from tmd.world.veil500.forms import mentioned
 from tmd.world.veil500.relations import initial_relations, unsupported
-from tmd.world.veil500.repair import Repairer, executability, repaired
+from tmd.world.veil500.repair import Repaired, Repairer
 
 _WORD = re.compile(r"[a-z0-9']+")
 
@@ -55,6 +55,8 @@ def check(directory: str | Path) -> DataReport:
         DataError: It cannot be read; see :func:`tmd.world.veil500.data.load`.
     """
     data = load(directory)
+    repairer = Repairer(data)
+    repairs = [repairer.repair(point) for point in data.points]
     counts = {
         "demonstrations": _demonstrations(data),
         "by environment": _by(data, lambda p: f"{p.world} {p.environment}"),
@@ -62,8 +64,8 @@ def check(directory: str | Path) -> DataReport:
         "texts": _texts(data),
         "actions": _actions(data),
         "verbs": _verbs(data),
-        "execution under the literal rules": _execution(data),
-        "repair": _repairs(data),
+        "execution under the literal rules": _execution(data, repairer, repairs),
+        "repair": _repairs(repairs),
         "environments": _environments(data),
         "objects at the start": _placement(data),
     }
@@ -153,22 +155,19 @@ def _verbs(data: VeilData) -> dict[str, int]:
     return dict(sorted(verbs.items(), key=lambda item: (-item[1], item[0])))
 
 
-def _execution(data: VeilData) -> dict[str, int]:
-    mended = repaired(data)
+def _execution(data: VeilData, repairer: Repairer, repairs: Sequence[Repaired]) -> dict[str, int]:
     found: dict[str, int] = {}
-    for title, copy in (("as released", data), ("repaired", mended)):
+    for title, points in (("as released", data.points), ("repaired", [r.point for r in repairs])):
         for hands in (False, True):
-            result = executability(copy, two_hands=hands)
+            result = repairer.executability(points, two_hands=hands)
             label = f"{title}, two hands" if hands else title
             found[f"points executable, {label}"] = result.executable
             found[f"steps not executable, {label}"] = result.failing
     return found
 
 
-def _repairs(data: VeilData) -> dict[str, int]:
-    repairer = Repairer(data)
-    inserted = [repairer.repair(point).inserted for point in data.points]
-    verbs = Counter(instruction.name for instruction in inserted if instruction)
+def _repairs(repairs: Sequence[Repaired]) -> dict[str, int]:
+    verbs = Counter(repair.inserted.name for repair in repairs if repair.inserted)
     return {
         "points repaired": sum(verbs.values()),
         **{f"{verb} put back": number for verb, number in sorted(verbs.items())},
