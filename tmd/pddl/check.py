@@ -30,21 +30,24 @@ from tmd.pddl.model import (
     Problem,
     TypedName,
 )
-from tmd.pddl.syntax import nearest
+from tmd.pddl.syntax import Source, nearest
 
 
-def check_domain(domain: Domain) -> list[TmdError]:
-    """Every fault of ``domain``, in order of appearance; empty where there is none."""
+def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:
+    """Every fault of ``domain``, in order of appearance; empty where there is none.
+
+    The faults carry their source lines where ``source``, the text that was read, is given.
+    """
     check = _Check(domain, domain.constants)
     check.declarations()
     for action in domain.actions:
         check.action(action)
     check.faults.extend(missing_requirements(domain))
-    return _in_order(check.faults)
+    return _in_order(check.faults, source)
 
 
-def check_problem(problem: Problem) -> list[TmdError]:
-    """Every fault of ``problem`` itself (its domain is taken as checked), in order of appearance."""
+def check_problem(problem: Problem, source: Source | None = None) -> list[TmdError]:
+    """Every fault of ``problem`` itself (its domain is taken as checked); otherwise as :func:`check_domain`."""
     check = _Check(problem.domain, problem.all_objects())
     check.objects(problem)
     for atom in sorted(problem.init):
@@ -53,11 +56,13 @@ def check_problem(problem: Problem) -> list[TmdError]:
     check.values(problem)
     check.formula(problem.goal, {})
     check.faults.extend(missing_requirements(problem.domain, problem))
-    return _in_order(check.faults)
+    return _in_order(check.faults, source)
 
 
-def _in_order(faults: list[TmdError]) -> list[TmdError]:
+def _in_order(faults: list[TmdError], source: Source | None) -> list[TmdError]:
     """By place; faults without one come last, as they were found."""
+    for fault in faults:
+        fault.source = source.line(fault.location) if source else None
     placed = sorted((f for f in faults if f.location), key=lambda f: f.location or Location("", 0, 0))
     return placed + [f for f in faults if not f.location]
 

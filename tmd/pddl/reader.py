@@ -66,22 +66,20 @@ def read_problem(path: str | Path, domain: Domain) -> Problem:
 def parse_domain(text: str, file: str = "<text>") -> Domain:
     """The domain that ``text`` describes; ``file`` names it in errors."""
     domain, source = parse_domain_unchecked(text, file)
-    _raise_first(check_domain(domain), source)
+    _raise_first(check_domain(domain, source))
     return domain
 
 
 def parse_problem(text: str, domain: Domain, file: str = "<text>") -> Problem:
     """The problem that ``text`` describes; ``file`` names it in errors."""
     problem, source = parse_problem_unchecked(text, domain, file)
-    _raise_first(check_problem(problem), source)
+    _raise_first(check_problem(problem, source))
     return problem
 
 
-def _raise_first(faults: list[TmdError], source: Source) -> None:
+def _raise_first(faults: list[TmdError]) -> None:
     if faults:
-        first = faults[0]
-        first.source = source.line(first.location)
-        raise first
+        raise faults[0]
 
 
 def parse_domain_unchecked(text: str, file: str = "<text>") -> tuple[Domain, Source]:

@@ -10,15 +10,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import TypeAlias
 
 from tmd.errors import TmdError
+from tmd.pddl.conjunctions import conjuncts, free_variables
 from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.model import (
     ActionSchema,
     And,
     Atom,
+    Effect,
     Equals,
     Exists,
     Forall,
@@ -171,10 +174,37 @@ def apply(instruction: Instruction, state: State, problem: Problem) -> State:
     added: set[GroundAtom] = set()
     deleted: set[GroundAtom] = set()
     for effect in schema_of(problem, instruction).effects:
-        for binding in bindings(effect.parameters, objects, outer):
-            if _holds(effect.condition, state, objects, binding):
-                (added if effect.positive else deleted).add(instantiate(effect.atom, binding))
+        for binding in _satisfying(effect, state, objects, outer):
+            (added if effect.positive else deleted).add(instantiate(effect.atom, binding))
     return (state - deleted) | added
+
+
+def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding) -> list[Binding]:
+    """The bindings of the effect's parameters under which its condition holds.
+
+    Each conjunct is tested as soon as its variables are bound, which spares most combinations of objects.
+    """
+    found = [outer]
+    for parameter, tests in _stages(effect):
+        if parameter:
+            found = [{**b, parameter.name: o} for b in found for o in objects.of(parameter.types)]
+        found = [b for b in found if all(_holds(test, state, objects, b) for test in tests)]
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _stages(effect: Effect) -> tuple[tuple[TypedName | None, tuple[Formula, ...]], ...]:
+    """The effect's parameters, each with the conjuncts that can be tested once it is bound; first those before."""
+    own = {p.name for p in effect.parameters}
+    waiting = [(free_variables(part) & own, part) for part in conjuncts(effect.condition)]
+    stages: list[tuple[TypedName | None, tuple[Formula, ...]]] = []
+    bound: set[str] = set()
+    for parameter in (None, *effect.parameters):
+        if parameter:
+            bound.add(parameter.name)
+        stages.append((parameter, tuple(part for needed, part in waiting if needed <= bound)))
+        waiting = [(needed, part) for needed, part in waiting if not needed <= bound]
+    return tuple(stages)
 
 
 def cost(instruction: Instruction, problem: Problem) -> int:
