@@ -1,4 +1,4 @@
-"""Planners by name: ``in-process``, ``fast-downward``, and ``up:ENGINE`` for any engine of unified-planning."""
+"""Planners by name: ``in-process``, ``fast-downward``, and ``up:ENGINE`` for engines of unified-planning."""
 
 from __future__ import annotations
 
@@ -27,6 +27,14 @@ def make(name: str, task: Task) -> Planner:
         from tmd.planning.filler import GapFiller
 
         return GapFiller(task)
+    if name == FAST_DOWNWARD:
+        from tmd.planning.fast_downward import fast_downward
+
+        return fast_downward(task)
+    if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
+        from tmd.planning.unified import EngineSpec, UnifiedPlanner
+
+        return UnifiedPlanner(task, EngineSpec(name.removeprefix(UP_PREFIX)))
     raise TmdError(
         f"there is no planner '{name}'", hint=f"one of {IN_PROCESS}, {FAST_DOWNWARD}, {UP_PREFIX}ENGINE"
     )

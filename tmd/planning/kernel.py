@@ -71,6 +71,7 @@ class Scratch(NamedTuple):
     cost: Ints
     in_cut: Ints
     cut: Ints
+    part: Ints
 
 
 def zeros(size: int) -> Ints:
@@ -215,6 +216,13 @@ def transposed(start: Ints, entries: Ints, lists: int, size: int) -> tuple[Ints,
     return begin, found
 
 
+def always(t: Tables, row: int) -> int:
+    """The row of what an operator does in any case, for a row of what it does under a condition; else -1."""
+    first = t.row_start[t.action[row]]
+    conditional = t.guard_start[row] < t.guard_start[row + 1]
+    return first if conditional and t.guard_start[first] == t.guard_start[first + 1] else -1
+
+
 def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: Ints) -> Relaxed:
     """The relaxation for a goal (a disjunction of fact lists), with the allowed operators only.
 
@@ -243,7 +251,9 @@ def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: In
                 used[row] = 1
                 rows += 1
                 needs += t.need_start[row + 1] - t.need_start[row] + 1
+                first = always(t, row)
                 makes += t.make_start[row + 1] - t.make_start[row]
+                makes += t.make_start[first + 1] - t.make_start[first] if first >= 0 else 0
                 for j in range(t.need_start[row], t.need_start[row + 1]):
                     if number[t.need[j]] == 0:
                         number[t.need[j]] = facts
@@ -256,7 +266,8 @@ def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: In
     for row in range(len(t.action)):
         if used[row] == 0:
             continue
-        action[at] = t.action[row]
+        first = always(t, row)
+        action[at] = t.action[row] if first < 0 else t.operators + 1 + t.action[row]
         for j in range(t.need_start[row], t.need_start[row + 1]):
             need[n] = number[t.need[j]]
             n += 1
@@ -264,6 +275,10 @@ def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: In
             need[n] = TRUE
             n += 1
         for j in range(t.make_start[row], t.make_start[row + 1]):
+            if number[t.make[j]] != 0:
+                make[m] = number[t.make[j]]
+                m += 1
+        for j in range(t.make_start[first], t.make_start[first + 1] if first >= 0 else 0):
             if number[t.make[j]] != 0:
                 make[m] = number[t.make[j]]
                 m += 1
@@ -286,7 +301,7 @@ def relaxed(t: Tables, allowed: Ints, goal_start: Ints, goal: Ints, distance: In
     one = zeros(rows + 1)
     for row in range(rows):
         one[row + 1] = row + 1
-    group_start, group = transposed(one, action, rows, t.operators + 1)
+    group_start, group = transposed(one, action, rows, len(t.cost))
     return Relaxed(
         facts, rows, literal, action, need_start, need, make_start, make,
         user_start, user, maker_start, maker, group_start, group,
@@ -298,7 +313,7 @@ def scratch(t: Tables, r: Relaxed) -> Scratch:
     f, rows = r.facts, r.rows
     return Scratch(
         zeros(f), zeros(f), zeros(f + 1), zeros(f), zeros(f + 1), zeros(rows), zeros(rows), zeros(rows),
-        zeros(t.operators + 1), zeros(t.operators + 1), zeros(t.operators + 1),
+        zeros(len(t.cost)), zeros(len(t.cost)), zeros(len(t.cost) + 1), zeros(f),
     )  # fmt: skip
 
 
@@ -356,9 +371,9 @@ def hmax(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
     for row in range(r.rows):
         s.waiting[row] = r.need_start[row + 1] - r.need_start[row]
         s.reach[row] = FAR
-    for operator in range(t.operators + 1):
-        s.cost[operator] = t.cost[operator]
-        s.in_cut[operator] = 0
+    for action in range(len(t.cost)):
+        s.cost[action] = t.cost[action]
+        s.in_cut[action] = 0
     count = 0
     for fact in range(r.facts):
         known = fact != GOAL and r.literal[fact] < 2 * t.atoms
@@ -373,12 +388,12 @@ def hmax(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
     return s.value[GOAL]
 
 
-def zone(r: Relaxed, s: Scratch) -> None:
-    """Mark (2) the facts from which the goal follows for nothing."""
+def zone(r: Relaxed, s: Scratch, target: int) -> None:
+    """Mark (2) the facts from which ``target`` follows for nothing."""
     for fact in range(r.facts):
         s.mark[fact] = 0
-    s.mark[GOAL] = 2
-    s.queue[0] = GOAL
+    s.mark[target] = 2
+    s.queue[0] = target
     count = 1
     while count > 0:
         count -= 1
@@ -420,34 +435,58 @@ def cut(r: Relaxed, s: Scratch) -> int:
     return size
 
 
-def landmark_cut(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
-    """A lower bound on the cost to the goal; ``in_cut`` then marks the operators of all cuts.
-
-    The rows of one operator share its cost, which keeps the bound admissible under conditional effects.
-    """
-    total = hmax(t, r, s, state, at)
-    if total == FAR:
-        return FAR
+def cut_off(r: Relaxed, s: Scratch, target: int) -> int:
+    """Cut until ``target`` is free; returns the cost of all cuts."""
     total = 0
-    while s.value[GOAL] > 0:
-        zone(r, s)
+    while s.value[target] > 0:
+        zone(r, s, target)
         size = cut(r, s)
         least = FAR
         for i in range(size):
             least = min(least, s.cost[s.cut[i]])
         total += least
-        tail = 0
         for fact in range(r.facts):
             s.mark[fact] = 1
+        tail = 0
         for i in range(size):
-            operator = s.cut[i]
-            s.cost[operator] -= least
-            s.in_cut[operator] = 1
-            for j in range(r.group_start[operator], r.group_start[operator + 1]):
+            action = s.cut[i]
+            s.cost[action] -= least
+            s.in_cut[action] = 1
+            for j in range(r.group_start[action], r.group_start[action + 1]):
                 if s.reach[r.group[j]] != FAR:
                     tail = lowered(r, s, r.group[j], tail)
         settle(r, s, 0, tail)
     return total
+
+
+def choices(r: Relaxed, fact: int) -> int:
+    """In how many ways a fact can be made true."""
+    return r.maker_start[fact + 1] - r.maker_start[fact]
+
+
+def landmark_cut(t: Tables, r: Relaxed, s: Scratch, state: Ints, at: int) -> int:
+    """A lower bound on the cost to the goal; ``in_cut`` then marks the operators of all cuts.
+
+    An application of an operator either has effects under conditions that matter or not, and the rows of each kind
+    share one cost, which keeps the bound admissible under conditional effects. The parts of the goal are cut off
+    one by one, those with the fewest makers first: what they need for certain is then not spent on the
+    alternatives of the others.
+    """
+    if hmax(t, r, s, state, at) == FAR:
+        return FAR
+    total = 0
+    if r.maker_start[GOAL + 1] - r.maker_start[GOAL] == 1:
+        row = r.maker[r.maker_start[GOAL]]
+        first, last = r.need_start[row], r.need_start[row + 1]
+        for i in range(first, last):
+            s.part[i - first] = r.need[i]
+            j = i - first
+            while j > 0 and choices(r, s.part[j]) < choices(r, s.part[j - 1]):
+                s.part[j], s.part[j - 1] = s.part[j - 1], s.part[j]
+                j -= 1
+        for i in range(last - first):
+            total += cut_off(r, s, s.part[i])
+    return total + cut_off(r, s, GOAL)
 
 
 class Table(NamedTuple):
@@ -527,6 +566,11 @@ class Query(NamedTuple):
     near: Ints
 
 
+def needed(q: Query, operator: int) -> int:
+    """Whether an operator is in a cut, with or without effects under conditions."""
+    return q.s.in_cut[operator] | q.s.in_cut[q.t.operators + 1 + operator]
+
+
 def descend(q: Query, start: Ints, bound: int, cap: int, counter: Ints) -> tuple[int, int, Ints]:
     """Depth-first search for a plan of cost ``bound``, where it is proven that none is cheaper.
 
@@ -546,7 +590,7 @@ def descend(q: Query, start: Ints, bound: int, cap: int, counter: Ints) -> tuple
     table.bound[0] = bound + 1
     budget[0], excess[0] = bound, FAR
     for i in range(width):
-        cuts[i] = q.s.in_cut[q.usable[i]]
+        cuts[i] = needed(q, q.usable[i])
     depth = 0
     while depth >= 0:
         here, left = node[depth], budget[depth]
@@ -605,7 +649,7 @@ def descend(q: Query, start: Ints, bound: int, cap: int, counter: Ints) -> tuple
             cuts = grown(cuts, room * width)
         node[depth], turn[depth], budget[depth], excess[depth] = known, 0, rest, FAR
         for i in range(width):
-            cuts[depth * width + i] = q.s.in_cut[q.usable[i]]
+            cuts[depth * width + i] = needed(q, q.usable[i])
     return DEAD_END, table.bound[0], zeros(0)
 
 
@@ -624,7 +668,8 @@ def earliest(t: Tables, r: Relaxed, s: Scratch) -> Ints:
     for operator in range(t.operators + 1):
         early[operator] = FAR
     for row in range(r.rows):
-        early[r.action[row]] = min(early[r.action[row]], s.reach[row])
+        operator = r.action[row] % (t.operators + 1)
+        early[operator] = min(early[operator], s.reach[row])
     return early
 
 
@@ -654,6 +699,8 @@ def search(
     s = scratch(t, r)
     hmax(t, r, s, begin, 0)
     early = earliest(t, r, s)
+    r = relaxed(t, allowed, goal_start, goal, nothing)
+    s = scratch(t, r)
     bound = landmark_cut(t, r, s, begin, 0)
     while bound < FAR:
         following, width = FAR, 0

@@ -179,6 +179,7 @@ def build(task: Task) -> Tables:
     for number, operator in enumerate(operators):
         relaxation.operator(number, operator)
     relaxed = relaxation.rows + relaxation.free_rows
+    costs, _ = search_costs(operators)
     groups: list[Ints] = [[] for _ in range(count + 1)]
     makers: list[Ints] = [[] for _ in range(relaxation.facts)]
     for number, row in enumerate(relaxed):
@@ -200,7 +201,7 @@ def build(task: Task) -> Tables:
         atoms=atoms,
         operators=count,
         facts=relaxation.facts,
-        cost=[*search_costs(operators)[0], 0],
+        cost=[*costs, 0, *costs],
         positive=flat(operator.precondition.positive for operator in operators),
         negative=flat(operator.precondition.negative for operator in operators),
         add=flat(operator.add for operator in operators),

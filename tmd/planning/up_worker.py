@@ -1,0 +1,92 @@
+"""A process of its own in which unified-planning and its engines run: ``python -m tmd.planning.up_worker``.
+
+Apart from the program for three reasons. Engines leave files in the working directory, and two that share one
+corrupt each other's. Importing unified-planning takes more than a second. And engines under the GPL are never
+loaded into the program itself.
+
+It speaks JSON Lines. The first line gives the domain, the problem and the engine; each following line asks for
+a plan. Every line is answered by one line.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import sys
+from typing import IO, Any, TypeAlias, cast
+
+Message: TypeAlias = dict[str, Any]
+"""One line, decoded."""
+
+
+class Engine:
+    """The problem and the engine of this process; the problem is built once and cloned for each question."""
+
+    def __init__(self, opening: Message) -> None:
+        from unified_planning.environment import get_environment
+        from unified_planning.io import PDDLReader
+
+        environment = get_environment()  # its reader mixes other ones with this one
+        environment.credits_stream = None
+        self.base: Any = PDDLReader().parse_problem_string(opening["domain"], opening["problem"])
+        self.planner: Any = environment.factory.OneshotPlanner(
+            name=opening["engine"], params=opening["parameters"]
+        )
+        self.planner.skip_checks = opening["skip_checks"]
+        self.planner.error_on_failed_checks = True
+        self.takes_timeout: bool = opening["takes_timeout"]
+
+    def solve(self, question: Message) -> Message:
+        """Answer one question: the status as unified-planning names it, and the plan if there is one."""
+        problem = self.base.clone()
+        for atom, value in question["state"]:
+            problem.set_initial_value(self._atom(atom), value)
+        for atom, value in question["goal"]:
+            expression = self._atom(atom)
+            problem.add_goal(expression if value else problem.environment.expression_manager.Not(expression))
+        result = self.planner.solve(problem, timeout=question["timeout"])
+        plan = None if result.plan is None else [self._step(step) for step in result.plan.actions]
+        return {"status": result.status.name, "plan": plan}
+
+    def _atom(self, atom: list[str]) -> object:
+        return self.base.fluent(atom[0])(*(self.base.object(name) for name in atom[1:]))
+
+    @staticmethod
+    def _step(step: Any) -> list[str]:  # noqa: ANN401 - a type of unified-planning, which ships none
+        return [step.action.name, *(str(argument) for argument in step.actual_parameters)]
+
+
+def fault(error: Exception) -> Message:
+    """An exception as one line."""
+    return {"fault": type(error).__name__, "message": " ".join(str(error).split())}
+
+
+def serve(questions: IO[str], answers: IO[str]) -> None:
+    """Answer lines until there are no more."""
+
+    def say(message: Message) -> None:
+        answers.write(json.dumps(message) + "\n")
+        answers.flush()
+
+    try:
+        engine = Engine(cast(Message, json.loads(questions.readline())))
+    except Exception as error:
+        say(fault(error))
+        return
+    say({"ready": True})
+    for line in questions:
+        try:
+            say(engine.solve(json.loads(line)))
+        except Exception as error:
+            say(fault(error))
+
+
+def main() -> None:
+    """Serve on the standard streams; what engines print goes to the error stream instead."""
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    os.dup2(2, 1)
+    serve(sys.stdin, answers)
+
+
+if __name__ == "__main__":
+    main()
