@@ -4,6 +4,7 @@ from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.language.lexicon import Lexicon
 from tmd.language.notation import clause_json, print_clause, read_clause
 from tmd.language.parse import parse
+from tmd.language.segments import by_segment, segments
 
 __all__ = [
     "Clause",
@@ -12,8 +13,10 @@ __all__ = [
     "Relation",
     "Skipped",
     "Span",
+    "by_segment",
     "clause_json",
     "parse",
     "print_clause",
     "read_clause",
+    "segments",
 ]

@@ -138,7 +138,10 @@ def _add_fold(draft: Draft, node: Tree[Leaf] | Leaf) -> None:
 
 def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[Leaf]]) -> None:
     state = _Attachment(draft)
-    for node in arguments:
+    for position, node in enumerate(arguments):
+        following = arguments[position + 1] if position + 1 < len(arguments) else None
+        if isinstance(node, Tree) and isinstance(following, Tree) and state.gapped(node, following):
+            continue
         if not isinstance(node, Tree):
             _add_fold(draft, node)
         elif node.data == "group":
@@ -160,6 +163,8 @@ class _Attachment:
         """The nouns the next preposition of place stands beside."""
         self.behind = ""
         """The preposition they stand behind, if any."""
+        self.earlier: tuple[list[Phrase], str] = ([], "")
+        """Host and preposition before the last prepositional phrase."""
         self.instrument = False
         """A "with" has been read."""
         self.pending: list[tuple[str, list[Phrase]]] = []
@@ -188,6 +193,9 @@ class _Attachment:
         groups = [c for c in node.children if isinstance(c, Tree)]
         if not groups:
             return
+        if preposition.form == "also":
+            self.host, self.behind = self.earlier
+        self.earlier = self.host, self.behind
         name = preposition.text
         targets = _phrases(groups[0])
         within = self.behind == "with" and len(targets) == 1 and targets[0].name in ("it", "them")
@@ -205,6 +213,24 @@ class _Attachment:
         self.behind = name
         if name not in _NEVER_HOSTS:
             self.host = targets
+
+    def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:
+        """Read "the cups on the table and the books on the shelf": the second pair stands for itself."""
+        if node.data != "place" or following.data != "place" or self.draft.verb.stem not in _PLACING:
+            return False
+        groups = [c for c in node.children if isinstance(c, Tree)]
+        phrases = _phrases(groups[0]) if groups else []
+        same = next(_leaves(node)).text == next(_leaves(following)).text
+        if len(phrases) < 2 or not same or not phrases[-1].determined or not self.draft.direct:
+            return False
+        name, moved = next(_leaves(node)).text, phrases[-1]
+        sources = list(self.draft.direct)
+        self.draft.landmarks.extend(phrases[:-1])
+        self.draft.relations.extend(Relation(name, s.name, t.name) for s in sources for t in phrases[:-1])
+        self._of(phrases)
+        self.draft.direct.append(moved)
+        self.host, self.behind = [moved], ""
+        return True
 
     def _hosted(self, name: str) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from tmd.language.clause import Span
 from tmd.language.lexicon import section
+from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
+
+NEGATED = "says what not to do"
 
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.ADV, Kind.CC})
 _SWITCHES = {"on": "turn_on", "off": "turn_off"}
@@ -38,7 +41,8 @@ def rewrite_let(tokens: list[Token], at: int) -> tuple[list[Token], int]:
     objects, stop = tokens[at + 1 : end], end
     if end < len(tokens) and tokens[end].kind is Kind.TO:
         end += 1
-    if end < len(tokens) and tokens[end].kind is Kind.V and tokens[end].form == "base":
+    bare_leave = tokens[at].text == "leave" and end == stop
+    if end < len(tokens) and not bare_leave and tokens[end].kind is Kind.V and tokens[end].form == "base":
         verb = tokens[end]
         if objects and objects[-1].text in ("us", "me"):
             return [*_filler(tokens[at:end]), verb], end + 1
@@ -60,6 +64,13 @@ def rewrite_ensure(tokens: list[Token], at: int) -> tuple[list[Token], int]:
     lead = tokens[at:begin]
     if begin < len(tokens) and tokens[begin].kind in (Kind.V, Kind.SUBJECT, Kind.NEG):
         return _filler(lead), begin
+    if any(t.text == "no" or t.kind is Kind.NEG for t in tokens[begin : begin + 4]):
+        end = begin
+        while end < len(tokens) and tokens[end].kind not in (Kind.STOP, Kind.COMMA, Kind.V):
+            end += 1
+        absent = fold(tokens[at:end], Kind.SKIP, " ")
+        absent.note = NEGATED
+        return [absent], end
     copula = _nominal_end(tokens, begin)
     place = copula
     while place < len(tokens) and tokens[place].kind is Kind.P and copula - begin:

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from tmd.language.clause import Span
 from tmd.language.lexicon import Lexicon, section
+from tmd.language.morphology import singular
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 
 ALONE = "alone"
 """The form of a verb that lost its object to a slip: it shares none."""
+ALSO = "also"
+"""The form of a preposition after a conjunction: "near the wall and near the door"."""
 _PURE = frozenset({"up", "down", "out", "away", "back", "together", "apart", "aside", "around"})
 """Particles that stay particles even when a noun follows."""
 _NP = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON})
@@ -23,6 +26,9 @@ def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the tokens the grammar sees, in order."""
     tokens = _settings(_numbered(_partitives(tokens)))
     _particles(tokens, lexicon)
+    for verb, modifier in zip(tokens, tokens[1:], strict=False):
+        if verb.kind is Kind.V and modifier.kind is Kind.ADV:
+            verb.form = ALONE
     tokens = [t for t in tokens if t.kind not in (Kind.FILLER, Kind.ADV, Kind.ADJ, Kind.SKIP)]
     tokens = _links(_drop_dangling(tokens))
     return [t for t in tokens if t.kind in _VISIBLE]
@@ -56,6 +62,11 @@ def _numbered(tokens: list[Token]) -> list[Token]:
     result: list[Token] = []
     for at, token in enumerate(tokens):
         following = _following(tokens, at)
+        if token.text == "half" and following is not None and following.kind is Kind.DET:
+            token.kind = Kind.FILLER
+        each_other = at + 1 < len(tokens) and tokens[at + 1].text == "each_other"
+        if token.kind is Kind.P and each_other:
+            token.kind = Kind.FILLER
         counted = following is not None and following.kind in (Kind.N, Kind.NUM)
         if token.kind is Kind.NUM and not counted:
             before = result[-1] if result else None
@@ -159,39 +170,40 @@ def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool
     if not noun or text in _PURE:
         return True
     adjacent = all(t.kind in (Kind.ADV, Kind.FILLER) for t in tokens[at + 1 : place])
-    return adjacent and (strict or _takes_particle(tokens, place))
+    return adjacent and (strict or text == "off" or _takes_particle(tokens, at, place))
 
 
-def _takes_particle(tokens: list[Token], place: int) -> bool:
+def _takes_particle(tokens: list[Token], at: int, place: int) -> bool:
     """Tell "put on some music" from "put on the table" by the head of the noun phrase."""
-    name = f"put_{tokens[place].text}_objects"
-    if name not in ("put_on_objects", "put_in_objects"):
-        return False
-    head = ""
+    text, head = tokens[place].text, ""
     for token in tokens[place + 1 :]:
         if token.kind not in (Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON):
             break
         if token.kind in (Kind.N, Kind.PRON):
             head = token.text
-    return head in section(name)
+    if text not in ("on", "in"):
+        return False
+    if tokens[at].stem in ("put", "place"):
+        return head in section(f"put_{text}_objects")
+    return singular(head) not in section("containers")
 
 
 def _drop_dangling(tokens: list[Token]) -> list[Token]:
-    """Drop determiners and numerals without a noun, and mark "of"."""
-    kept: list[Token] = []
-    for at, token in enumerate(tokens):
-        following = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
-        if token.kind in (Kind.DET, Kind.NUM) and following not in _NP:
-            if kept and kept[-1].kind is Kind.V:
-                kept[-1].form = ALONE
+    """Drop determiners, numerals and "of" without a noun behind them; mark the other "of"."""
+    backwards: list[Token] = []
+    for at in range(len(tokens) - 1, -1, -1):
+        token = tokens[at]
+        following = backwards[-1].kind if backwards else Kind.STOP
+        leads = token.kind in (Kind.DET, Kind.NUM) or (token.kind is Kind.P and token.text == "of")
+        if leads and following not in _NP:
+            if at and tokens[at - 1].kind is Kind.V:
+                tokens[at - 1].form = ALONE
             continue
-        if token.kind is Kind.P and token.text == "of":
-            if not kept or kept[-1].kind not in _HEADS or following not in _NP:
-                if following not in _NP:
-                    continue
-            else:
-                token.kind = Kind.OF
-        kept.append(token)
+        backwards.append(token)
+    kept = backwards[::-1]
+    for before, token in zip(kept, kept[1:], strict=False):
+        if token.kind is Kind.P and token.text == "of" and before.kind in _HEADS:
+            token.kind = Kind.OF
     return kept
 
 
@@ -236,6 +248,8 @@ def _links(tokens: list[Token]) -> list[Token]:
         elif after is Kind.P and _opens_clause(tokens, end):
             token.kind, fronted = Kind.SEP, True
             result.append(token)
+        elif after is Kind.P and any(t.kind is Kind.CC for t in tokens[at:end]):
+            tokens[end].form = ALSO
         elif before in _HEADS and after in _NP:
             token.kind = Kind.CONJ
             result.append(token)

@@ -27,7 +27,8 @@ def is_filler(word: str) -> bool:
     Fillers carry nothing of a clause: conjunctions, adverbs, articles, politeness, auxiliaries, addressing
     words and verbs that only introduce another ("need to").
     """
-    word = word.lower().replace("’", "'")
+    word = word.lower().replace("’", "'").rstrip("'")
+    word = word.removesuffix("'s") if word not in section("be") else word
     if word in _JOINTS or (word.endswith("ly") and len(word) > 5) or word.endswith(("'ll", "'d", "'ve")):
         return True
     return any(word in section(name) for name in _FILLERS) or word in _inside_phrases()

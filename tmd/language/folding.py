@@ -6,7 +6,7 @@ introduces a verb ("you should", "try to", "remember to") becomes filler.
 
 from __future__ import annotations
 
-from tmd.language.causatives import rewrite_ensure, rewrite_let
+from tmd.language.causatives import NEGATED, rewrite_ensure, rewrite_let
 from tmd.language.lexicon import section
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
@@ -14,8 +14,8 @@ from tmd.language.tokens import Kind, Token
 STATEMENT = "a statement, not an instruction"
 RELATIVE = "relative"
 """The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
+ASIDE = "an aside in brackets"
 ADDRESS = "addresses somebody"
-NEGATED = "says what not to do"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
 _NOTICING = frozenset("need see find notice have know want like wish hear smell hope think".split())
@@ -83,6 +83,10 @@ class _Folder:
                 return self._fold(at, end, Kind.SKIP, STATEMENT)
         if self.start and token.kind is Kind.N and self._kind(at + 1) is Kind.COMMA and self._calls(at + 1):
             return self._fold(at, at + 1, Kind.SKIP, ADDRESS)
+        if token.text == "(":
+            aside = self._aside(at)
+            if aside is not None:
+                return self._fold(at, aside, Kind.SKIP, ASIDE)
         if token.text == "no" and at + 1 < len(self.tokens) and self.tokens[at + 1].text == "need":
             return self._negation(at)
         handler = {
@@ -109,6 +113,15 @@ class _Folder:
             return at + 1
         self._emit(token)
         return at + 1
+
+    def _aside(self, at: int) -> int | None:
+        """Return where a bracket without a verb ends."""
+        for end, token in enumerate(self.tokens[at + 1 : at + 30], at + 1):
+            if token.text == ")":
+                return end + 1
+            if token.kind in (Kind.V, Kind.STOP):
+                return None
+        return None
 
     def _calls(self, at: int) -> bool:
         """Tell whether an instruction follows the comma after a single name: "Dave, take"."""
@@ -151,7 +164,7 @@ class _Folder:
                 if self._kind(lead) in (Kind.PRON, Kind.SUBJECT):
                     lead = self._peek(lead)
                 leads = self._kind(lead) is Kind.TO
-                have = self._kind(scan + 1) is Kind.AUX and self._kind(self._peek(scan + 1)) in _NOMINAL
+                have = self._kind(scan + 1) is Kind.AUX and self._kind(self._peek(scan + 1)) in _NOMINAL | {Kind.ING}
                 if nominal or not (noticing or have) or leads:
                     return None
                 break
@@ -172,6 +185,8 @@ class _Folder:
 
     def _statement_end(self, at: int) -> int:
         end = self._peek(at, _AFTER_SUBJECT)
+        if self._kind(end) is Kind.V:
+            end += 1
         while end < len(self.tokens) and self.tokens[end].kind is not Kind.STOP:
             token, follows = self.tokens[end], self._kind(self._peek(end))
             verb = token.kind is Kind.V and self.tokens[end - 1].kind not in (Kind.TO, Kind.AUX, Kind.NEG)
@@ -239,7 +254,7 @@ class _Folder:
         while back >= 0 and self.out[back].kind in (Kind.PRON, Kind.ADV, Kind.FILLER, Kind.ADJ):
             back -= 1
         verb = self.out[back] if back >= 0 else None
-        if verb is None or verb.kind is not Kind.V or verb.stem not in section("lead_verbs"):
+        if verb is None or verb.kind is not Kind.V or verb.stem not in section("lead_verbs") | {"like"}:
             ready = back < len(self.out) - 1 and self.verb is None and self.out[-1].kind is Kind.FILLER
             return self.out[-1] if ready else None
         for token in self.out[back:]:
@@ -264,6 +279,11 @@ class _Folder:
             self._filler(self.tokens[at])
             return at + 1
         end = at + 1
+        while self._kind(end) in (Kind.NEG, Kind.ADV, Kind.AUX):
+            end += 1
+        if end < len(self.tokens) and self.tokens[end].stem == "forget":
+            self._filler(*self.tokens[at : end + 1])
+            return end + 1
         while end < len(self.tokens) and self.tokens[end].kind is not Kind.STOP:
             token = self.tokens[end]
             follows = self._kind(self._peek(end))

@@ -188,6 +188,11 @@ class Lexicon:
         """
         if len(word) < _TYPO_LENGTH or self.knows(word):
             return None
+        swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
+        if swapped:
+            return swapped[0]
+        if word.endswith("s") and (stem := self.correct(word[:-1])):
+            return stem + "s"
         near = difflib.get_close_matches(word, self._by_initial.get(word[0], ()), 1, _TYPO_RATIO)
         return near[0] if near else None
 
@@ -205,6 +210,17 @@ _CLOSED = (
     "drop_adjectives keep_adjectives determiners quantifiers pronouns prepositions particles units_time units "
     "numbers adverbs conditions relatives be modals negations names subjects let_verbs"
 ).split()
+
+
+def _is_swap(word: str, other: str) -> bool:
+    """Tell whether two words differ by two neighbouring letters that changed places."""
+    if len(word) != len(other):
+        return False
+    places = [i for i in range(len(word)) if word[i] != other[i]]
+    if len(places) != 2 or places[1] != places[0] + 1:
+        return False
+    first, second = places
+    return word[first] == other[second] and word[second] == other[first]
 
 
 @cache

@@ -13,6 +13,7 @@ from tmd.language.tokens import Kind, Token
 _ARTICLES = frozenset({Kind.DET, Kind.PRON})
 _OPENERS = frozenset({Kind.DET, Kind.PRON, Kind.NUM, Kind.ADJ})
 _STARTS = frozenset({Kind.STOP, Kind.ENSURE, Kind.PURP, Kind.MOD})
+_DEGREES = frozenset({"really", "very", "quite", "too", "extremely"})
 _DATIVE = frozenset({"me", "us", "him", "her", "you"})
 _CONTINUES = frozenset({Kind.P, Kind.ADV, Kind.STOP, Kind.MOD, Kind.SUB, Kind.PURP, Kind.TO})
 _SERIAL = frozenset({"go", "come", "run", "help", "hurry"})
@@ -45,7 +46,7 @@ def decide(tokens: list[Token], lexicon: Lexicon) -> None:
         elif token.kind in (Kind.SUB, Kind.REL, Kind.PURP):
             _open_subordinate(token, previous, following, state)
         elif token.kind is Kind.LET:
-            state.let = True
+            state.let = token.text != "leave"
             if state.sub and state.nominal and previous is not None and previous.kind in (Kind.N, Kind.PRON):
                 token.kind, state.let = Kind.FINITE, False
         elif token.kind is Kind.CC and token.text == "plus" and previous and previous.kind is Kind.DET:
@@ -90,6 +91,9 @@ def _open_subordinate(token: Token, previous: Token | None, following: Token | N
     if token.text == "once" and ends:
         token.kind = Kind.ADV
         return
+    if token.text == "like" and previous is not None and previous.kind in (Kind.AUX, Kind.SUBJECT):
+        token.kind, token.stem, token.form = Kind.V, "like", "base"
+        return
     state.sub, state.nominal = True, token.kind is Kind.REL
 
 
@@ -98,7 +102,7 @@ def _infinitive(following: Token | None, after: Token | None) -> bool:
         return following is not None and following.text in ("be", "have", "do")
     if following.strength == 3:
         return True
-    opens = after is not None and (after.kind in _OPENERS or (after.kind is Kind.WORD and not after.strength))
+    opens = after is not None and (after.kind in _OPENERS or (after.kind is Kind.WORD and after.strength < 2))
     particle = after is not None and after.kind is Kind.P
     if following.strength == 2:
         return opens or after is None or particle or after.kind in (Kind.STOP, Kind.CC)
@@ -142,10 +146,13 @@ def _read_auxiliary(
 ) -> None:
     """Auxiliaries at the start of a sentence before a noun phrase are verbs ("have a look")."""
     nominal = previous is not None and previous.kind in (Kind.N, Kind.DET, Kind.ADJ)
-    if token.text == "can" and nominal and not (following and following.strength and following.form == "base"):
+    listed = following is None or following.kind in (Kind.CC, Kind.COMMA, Kind.STOP, Kind.P, Kind.TO)
+    verbal = following is not None and following.strength and following.form == "base"
+    if token.text == "can" and (listed or (nominal and not verbal)):
         token.kind = Kind.N
         return
-    if token.text in ("need", "needs", "do") and (previous is None or previous.kind is Kind.STOP):
+    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
+    if token.text in ("need", "needs", "do") and start:
         if following is not None and following.kind in (Kind.DET, Kind.PRON) and following.text != "you":
             token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
     state.close()
@@ -153,6 +160,20 @@ def _read_auxiliary(
 
 def _read_modifier(token: Token, previous: Token | None, following: Token | None) -> None:
     """ "second" and "back" before a noun are modifiers; "past" and "out" stay prepositions."""
+    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
+    if token.kind is Kind.ADJ and token.form == "ed" and token.stem:
+        article = following is not None and following.kind in _ARTICLES
+        if previous is not None and previous.kind is Kind.SUBJECT or (start and article):
+            token.kind = Kind.V
+            return
+    sure = following is not None and following.strength == 3 and following.form == "base"
+    if token.kind is Kind.ADJ and token.text in section("adverbs") | {"next", "last"} and start and sure:
+        token.kind = Kind.ADV
+        return
+    beside = previous is not None and previous.kind is Kind.N and following is not None
+    if token.text in ("nearest", "closest") and beside and following and following.kind in _OPENERS:
+        token.kind = Kind.P
+        return
     inside = previous is not None and previous.kind in (Kind.DET, Kind.ADJ)
     noun_next = following is not None and following.kind in (Kind.WORD, Kind.N, Kind.ADJ)
     if inside and token.text in section("keep_adjectives"):
@@ -177,6 +198,11 @@ def _read_word(
 ) -> Kind:
     if token.form == "possessive":
         return Kind.N
+    if at and tokens[at - 1].text in _DEGREES and not (following and following.kind in _ARTICLES):
+        return Kind.ADJ
+    turning = previous is not None and previous.kind is Kind.V and previous.stem in ("turn", "go", "look", "head")
+    if turning and token.text in ("left", "right") and not (following and following.kind is Kind.WORD):
+        return Kind.ADV
     if not token.stem:
         return _read_unknown(token, previous, following, lexicon)
     if token.form == "ing":
@@ -352,7 +378,8 @@ def _run_on(
     if article and not person:
         return Kind.V
     if token.strength == 3 and following is not None:
-        if following.kind in (Kind.P, Kind.NUM, Kind.ADJ):
+        moves = following.kind is Kind.TO and token.stem in section("intransitive")
+        if moves or following.kind in (Kind.P, Kind.NUM, Kind.ADJ):
             return Kind.V if not (previous is not None and previous.kind is Kind.PRON and person) else noun
         if following.kind is Kind.WORD:
             return Kind.V

@@ -152,7 +152,7 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
 
 
 def _closed(word: str) -> Kind:
-    if word in ("and", "or", "plus", "but"):
+    if word in ("and", "or", "plus", "but", "then"):
         return Kind.CC
     if word == "to":
         return Kind.TO

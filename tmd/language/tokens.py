@@ -128,6 +128,7 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
             length = position - before
             if length >= _RUN and words[before:position] == words[position : position + length]:
                 dropped.extend(tokens[position : position + length])
+                last_seen[key] = position
                 position += length
                 continue
         last_seen[key] = position

@@ -68,11 +68,13 @@ def verb_lines(dict_dir: Path) -> list[str]:
 
 
 def word_lines(dict_dir: Path) -> list[str]:
-    """Return the lines of ``wordnet_words.txt.gz``: words that occur in the tagged texts, of any class."""
+    """Return the lines of ``wordnet_words.txt.gz``: tagged words of any class, and all things."""
     words = set()
     for part in ("noun", "verb", "adj", "adv"):
         words |= {w for w, tagged, _ in index_lines(dict_dir, part) if tagged and w.isalpha() and len(w) > 1}
-    return sorted(words)
+    things = {lemma for line in noun_lines(dict_dir) for lemma in line.partition("\t")[2].split()}
+    words |= {lemma.rpartition(".")[0] for lemma in things}
+    return sorted(w for w in words if w.isalpha())
 
 
 def noun_lines(dict_dir: Path) -> list[str]:

@@ -1,0 +1,189 @@
+"""Text to clauses: the paper's example, the kinds of text people write, and what never happens."""
+
+import string
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
+from tmd.language.coverage import FOREIGN, NO_VERB, NO_WORDS, is_filler
+from tmd.language.tokens import Kind, tokenise
+
+
+def clauses(text: str, lexicon: Lexicon | None = None) -> list[str]:
+    return [print_clause(c) for c in parse(text, lexicon).clauses]
+
+
+def test_the_paper_s_example() -> None:
+    text = "Take the cup with water and then ignite the stove. Now place the cup on the stove and wait."
+    assert clauses(text) == [
+        "(take, [cup, water], with: cup -> water)",
+        "(ignite, [stove])",
+        "(place, [cup, stove], on: cup -> stove)",
+        "(wait, [])",
+    ]
+    assert parse(text).skipped == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("turn the stove on", ["(turn_on, [stove])"]),
+        ("Turn on the stove", ["(turn_on, [stove])"]),
+        ("turn the knob on the stove", ["(turn, [knob, stove], on: knob -> stove)"]),
+        ("a cup of water", []),
+        ("take a cup of water", ["(take, [cup, water], of: cup -> water)"]),
+        ("take some of the cups", ["(take, [cup])"]),
+        ("Fill the raspberry syrups", ["(fill, [raspberry_syrup])"]),
+        ("put in the microwave", ["(put, [microwave], in: -> microwave)"]),
+        ("bring me the crock-pot", ["(bring, [me, crock_pot], to: crock_pot -> me)"]),
+        ("take, wash and dry the plate", ["(take, [plate])", "(wash, [plate])", "(dry, [plate])"]),
+        ("wait then go to the sink", ["(wait, [])", "(go, [sink], to: -> sink)"]),
+        ("let the water boil", ["(boil, [water])"]),
+        ("make sure the tv is off", ["(turn_off, [tv])"]),
+        ("use the remote to mute the tv", ["(use, [remote])", "(mute, [tv])"]),
+        ("After filling the cup, wait", ["(fill, [cup])", "(wait, [])"]),
+        ("TAKE THE CUP", ["(take, [cup])"]),
+        ("took the cup", ["(take, [cup])"]),
+        ("She is taking a nap", []),
+        ("turn on | the | stove", ["(turn_on, [stove])"]),
+        ("turn | on the stove", ["(turn_on, [stove])"]),
+        ("Take the cup and take the cup and wait", ["(take, [cup])", "(wait, [])"]),
+        ("Take the cup. Take the cup.", ["(take, [cup])", "(take, [cup])"]),
+        ("take the microwav", ["(take, [microwave])"]),
+        ("heat it for 10minutes", ["(heat, [it])"]),
+    ],
+)
+def test_forms(text: str, expected: list[str]) -> None:
+    assert clauses(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "field", "value"),
+    [
+        ("boil the water until it bubbles, then wait", "condition", "until it bubbles"),
+        ("If the tv is on, turn it off", "condition", "If the tv is on"),
+        ("When the water boils pour it into the cup", "condition", "When the water boils"),
+        ("heat the milk for 3 minutes", "duration", "for 3 minutes"),
+        ("heat the milk for 10MIN", "duration", "for 10MIN"),
+        ("boil water to make tea", "purpose", "to make tea"),
+        ("rinse the cup so that it is clean", "purpose", "so that it is clean"),
+    ],
+)
+def test_folds(text: str, field: str, value: str) -> None:
+    assert getattr(parse(text).clauses[0], field) == value
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [
+        ("", NO_WORDS),
+        (" \n\t🙂 …", NO_WORDS),
+        ("Nimm die Tasse und stell sie auf den Tisch", FOREIGN),
+        ("Prends la tasse et mets-la dans le four", FOREIGN),
+        ("возьми чашку и поставь", FOREIGN),
+        ("the red cup", NO_VERB),
+        ("The cup is on the table.", "a statement, not an instruction"),
+        ("Do not touch the stove.", "says what not to do"),
+    ],
+)
+def test_no_clause_but_a_reason(text: str, reason: str) -> None:
+    parsed = parse(text)
+    assert parsed.clauses == ()
+    assert [s.reason for s in parsed.skipped] == [reason]
+
+
+def test_quantities_and_numbers() -> None:
+    clause = parse("Put two spoons and 3 forks next to burner 2").clauses[0]
+    assert clause.objects == ("spoon", "fork", "burner_2")
+    assert clause.quantities == {"spoon": "two", "fork": "3"}
+
+
+@pytest.mark.parametrize(
+    ("text", "index", "name", "meant"),
+    [
+        ("Take the cup. Put it on the table.", 1, "it", ("cup",)),
+        ("Take the cup and the plate. Wash them.", 1, "them", ("cup", "plate")),
+        ("Take the cup and the plate. Wash them. Dry them.", 2, "them", ("cup", "plate")),
+        ("Put the cup on the table and fill it.", 1, "it", ("cup",)),
+        ("Take the pot, fill with water.", 1, "", ("pot",)),
+        ("Fill the pot with water. Put it on the stove.", 1, "it", ("pot",)),
+        ("Boil the water. Place it on the counter.", 1, "it", ("water",)),
+        ("Take the plates. Wait. Turn on the oven. Bake.", 3, "", ("oven",)),
+        ("Open the fridge. Take the eggs and boil them.", 2, "them", ("egg",)),
+    ],
+)
+def test_antecedents(text: str, index: int, name: str, meant: tuple[str, ...]) -> None:
+    assert parse(text).clauses[index].meant(name) == meant
+
+
+def test_antecedents_are_ranked_and_never_of_the_own_clause() -> None:
+    clause = parse("Take the cup from the shelf. Add water to it.").clauses[1]
+    assert clause.antecedents["it"] == ("cup", "shelf")
+    assert clause.resolved() == ("water", "cup")
+
+
+def test_domain_words() -> None:
+    lexicon = Lexicon(verbs=frozenset({"plonk"}), phrasal={"fire_up": "turn_on"})
+    assert clauses("fire the stove up and plonk the cup on it", lexicon) == [
+        "(fire_up, [stove])",
+        "(plonk, [cup, it], on: cup -> it)",
+    ]
+
+
+def test_spans_point_into_the_original_text() -> None:
+    text = "Robot, please\u0007 turn the STOVE | on, and wait."
+    first, second = parse(text).clauses
+    assert text[first.span.start : first.span.end] == first.text == "turn the STOVE | on"
+    assert text[second.span.start : second.span.end] == second.text == "wait"
+
+
+_WORDS = (
+    "take put turn place water cup plate the a on in off up of with and then , . ; if until when you it them that is "
+    "not to let make sure please robot two 3 minutes which heated boiling left ( ) don't can | hot zorp"
+).split()
+_SENTENCES = st.lists(st.sampled_from(_WORDS), max_size=40).map(" ".join)
+_ANY = st.text(alphabet=string.printable + "äß|–’🙂\u0000\u200b中", max_size=120)
+
+
+def lost(parsed: Parsed) -> list[str]:
+    """Return the words that neither a clause nor an entry of ``skipped`` covers and that are no filler."""
+    spans = [c.span for c in parsed.clauses] + [s.span for s in parsed.skipped]
+    return [
+        token.text
+        for token in tokenise(parsed.text)
+        if token.kind in (Kind.WORD, Kind.NUM)
+        and not any(s.start <= token.span.start and token.span.end <= s.end for s in spans)
+        and not all(is_filler(part) for part in token.text.split("-"))
+    ]
+
+
+@settings(max_examples=4000, deadline=None)
+@given(st.one_of(_SENTENCES, _ANY))
+def test_nothing_is_lost_and_nothing_raises(text: str) -> None:
+    parsed = parse(text)
+    assert lost(parsed) == []
+    assert parse(text) == parsed
+    for clause in parsed.clauses:
+        assert clause.text == text[clause.span.start : clause.span.end] != ""
+        assert all(name == name.lower() and " " not in name for name in clause.objects)
+        assert all(r.target in clause.objects for r in clause.relations)
+        assert all(r.source is None or r.source in clause.objects for r in clause.relations)
+        copy = read_clause(print_clause(clause))
+        assert (copy.verb, copy.objects, copy.relations) == (clause.verb, clause.objects, clause.relations)
+    for skipped in parsed.skipped:
+        assert skipped.reason
+        assert skipped.text == text[skipped.span.start : skipped.span.end].strip()
+
+
+@settings(max_examples=100, deadline=None)
+@given(_SENTENCES)
+def test_segment_marks_change_nothing(text: str) -> None:
+    marked = text.replace(" ", " | ")
+    assert [print_clause(c) for c in parse(marked).clauses] == [print_clause(c) for c in parse(text).clauses]
+
+
+def test_a_long_text_gives_every_clause() -> None:
+    parsed = parse("Take the cup and put it on the table. " * 1300)
+    assert len(parsed.clauses) == 2600
