@@ -2,8 +2,8 @@
 
 α_j maps each environment that clause j can end in to the cheapest ways of getting there. For every template of
 the clause's verb, and every trimming of it, the constraints of what is left go to the planner, which finds the
-instructions that the person left unsaid. A verb without templates leaves the environment as it is:
-α_j = α_{j-1}.
+instructions that the person left unsaid. A verb without templates, or with none that can be executed, leaves the
+environment as it is: α_j = α_{j-1}.
 """
 
 from __future__ import annotations
@@ -102,9 +102,6 @@ class Inference:
 
     def _forward(self, number: int, clause: Clause, alpha: dict[Bits, list[Path]]) -> dict[Bits, list[Path]]:
         """One step of Algorithm 1."""
-        if not self.library.propose(clause):
-            unseen = Choice(None, (), {})
-            return {s: [Path(p.energy, s, (*p.choices, unseen)) for p in ways] for s, ways in alpha.items()}
         found: dict[Bits, list[Path]] = {}
         for bound, state, candidate in self._queue(number, clause, alpha):
             if self._settled(found, bound):
@@ -115,6 +112,9 @@ class Inference:
                 found.setdefault(end, []).extend(
                     Path(path.energy + choice.energy, end, (*path.choices, choice)) for path in alpha[state]
                 )
+        if not found:
+            nothing = Choice(None, (), {})
+            return {s: [Path(p.energy, s, (*p.choices, nothing)) for p in ways] for s, ways in alpha.items()}
         kept = {end: _cheapest(paths, self.top) for end, paths in found.items()}
         ends = sorted(kept, key=lambda end: _order(kept[end][0]))[: self.beam]
         return {end: kept[end] for end in ends}
@@ -173,23 +173,28 @@ class Inference:
             if instantiation is None:
                 self._refuse(number, template.source, "there is no object for one of its variables")
                 continue
-            unknown = next((i for i in instantiation.instructions if i not in self.world.task.by_instruction), None)
-            if unknown is not None:
-                self._refuse(number, template.source, f"{unknown} can never be done here")
-                continue
-            for candidate in self._trimmings(instantiation, clause):
+            first = self._first_possible(number, template.source, instantiation.instructions)
+            for candidate in self._trimmings(instantiation, clause, first):
                 energy = sum(candidate.factors.values())
                 if candidate.instructions not in best or energy < best[candidate.instructions][0]:
                     best[candidate.instructions] = energy, candidate
         return [candidate for _, candidate in best.values()]
 
-    def _trimmings(self, instantiation: Instantiation, clause: Clause) -> list[_Candidate]:
-        """I[t..] for every t that is allowed, with its factors weighed."""
+    def _first_possible(self, number: int, source: str, instructions: Sequence_) -> int:
+        """The first t for which nothing in I[t..] is impossible in this environment."""
+        for t in range(len(instructions) - 1, -1, -1):
+            if instructions[t] not in self.world.task.by_instruction:
+                self._refuse(number, source, f"{instructions[t]} can never be done here")
+                return t + 1
+        return 0
+
+    def _trimmings(self, instantiation: Instantiation, clause: Clause, first: int) -> list[_Candidate]:
+        """I[t..] for every t from ``first`` on that is allowed, with its factors weighed."""
         whole = instantiation.instructions
         fixed = {name: self.weights[name] * v for name, v in of_template(instantiation, clause).items()}
         most = len(whole) if self.trim is None else min(self.trim, len(whole))
         found = []
-        for t in range(most + 1):
+        for t in range(first, most + 1):
             kept = whole[t:]
             own = {
                 "dscpl": self.weights["dscpl"] * delta_dscpl(kept),

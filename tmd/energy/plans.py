@@ -29,7 +29,8 @@ class Choice:
     """What was chosen for one clause.
 
     Attributes:
-        source: The demonstration whose template was used; ``None`` where the verb is in none.
+        source: The demonstration whose template was used; ``None`` where none could be used:
+            the verb is in no demonstration, or nothing that was shown for it can be done here.
         steps: The latent steps, then those of the template.
         factors: The weighed factors, by name.
     """

@@ -69,7 +69,7 @@ class ExperimentConfig:
 
     def identity(self, fingerprint: str) -> dict[str, Any]:
         """What decides the outcome: everything but the place and the number of processes."""
-        said = asdict(self)
+        said = {k: list(v) if isinstance(v, tuple) else v for k, v in asdict(self).items()}
         for name in ("out", "jobs", "veil500", "domains", "problems"):
             del said[name]
         return said | {"fingerprint": fingerprint, "version": __version__}
