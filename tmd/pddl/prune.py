@@ -50,6 +50,8 @@ class _Known:
         return (literal >> 1 in self.always) != bool(literal & 1)
 
     def open(self, literals: Literals) -> Literals:
+        if all(literal >> 1 in self.fluent for literal in literals):
+            return literals
         return frozenset(literal for literal in literals if literal >> 1 in self.fluent)
 
     def action(self, action: GroundAction, effects: Sequence[Conditional]) -> GroundAction:

@@ -77,7 +77,7 @@ class Broken:
 
 def instantiate(atom: Atom, binding: Binding) -> GroundAtom:
     """The ground atom of ``atom`` under ``binding``."""
-    return GroundAtom(atom.predicate, tuple(binding.get(t, t) for t in atom.terms))
+    return GroundAtom(atom.predicate, tuple([binding.get(t, t) for t in atom.terms]))
 
 
 def bindings(parameters: tuple[TypedName, ...], objects: Universe, outer: Binding) -> Iterator[Binding]:
