@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from tmd.energy.infer import Inference
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.energy.weights import Weights, named_weights
-from tmd.language.clause import Parsed
 from tmd.language import parse
+from tmd.language.clause import Parsed
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.veil.library import Library
@@ -71,9 +71,7 @@ def ground(
     """
     parsed = parse(text, library.lexicon)
     filler = make(planner, world.task)
-    inference = Inference(
-        world, library, weights or named_weights("hand_set"), filler, beam=beam, trim=trim, top=top
-    )
+    inference = Inference(world, library, weights or named_weights("hand_set"), filler, beam=beam, trim=trim, top=top)
     inferred = inference.infer(parsed.clauses, world.task.init)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     plans = tuple(plan for plan in inferred.plans if plan.instructions or len(unseen) < len(parsed.clauses))

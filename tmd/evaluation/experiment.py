@@ -196,9 +196,12 @@ def _do(config: ExperimentConfig, part: _Part) -> _Part:
     fold = _folds(config, data)[part.fold]
     model = make_model(part.model).fit(fold.train, data)
     random = np.random.default_rng([config.seed, part.fold, zlib.crc32(part.model.encode())])
+    predictions = [(example, model.predict(example, data, random)) for example in fold.test]
+    for environment in sorted({example.environment for example in fold.test}):
+        own = [p for e, p in predictions if e.environment == environment]
+        data.scorer(environment).prepare(own)
     lines = []
-    for example in fold.test:
-        predicted = model.predict(example, data, random)
+    for example, predicted in predictions:
         scores = data.scorer(example.environment).score(predicted, example.gold)
         lines.append(
             {

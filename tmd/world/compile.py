@@ -146,7 +146,9 @@ class _Compiler:
     def _known_state(self, state: str, declared: Iterable[str], path: Sequence[str], name: str) -> None:
         if state not in declared and state not in self.predicates:
             raise self.environment.source.error(
-                path, f"'{name}' has no state '{state}'", nearest(state, sorted({*declared, *self.predicates}))
+                path,
+                f"'{name}' has no state '{state}'",
+                nearest(state, sorted({*declared, *self.predicates})),
             )
 
     def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
@@ -201,9 +203,7 @@ class _Compiler:
                 )
             if not self.universe.is_a(name, parameter.types):
                 is_a = "/".join(self.universe.types_of[name])
-                raise source.error(
-                    path, f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
-                )
+                raise source.error(path, f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}")
         self.init.add(GroundAtom(words[0], tuple(words[1:])))
 
     def _derive(self, problem: Problem) -> State:

@@ -130,9 +130,7 @@ class YamlSource:
                 seen: set[str] = set()
                 for key, value in node.value:
                     if key.value in seen:
-                        location = Location(
-                            str(self.path), key.start_mark.line + 1, key.start_mark.column + 1
-                        )
+                        location = Location(str(self.path), key.start_mark.line + 1, key.start_mark.column + 1)
                         raise TmdError(
                             f"the key '{key.value}' stands here twice",
                             location=location,
