@@ -61,7 +61,6 @@ def _edit(path: Path, old: str, new: str) -> None:
         ("data.xml", "moveto Kettle", "moveto Kett,le", "is not a name"),
         ("data.xml", "</root>", "", "not well-formed"),
         ("Objects.xml", "</objects>", "", "not well-formed"),
-        ("Environments/kitchen/kitchen2.xml", "<name>Sink</name>", "<name>Stove</name>", "stands twice"),
         (
             "Environments/kitchen/kitchen2.xml",
             "<name>Sink</name>",
@@ -104,6 +103,31 @@ def test_wrong_directories(tmp_path: Path, small_directory: Path) -> None:
     (small_directory / "data.xml").write_text((small_directory / "Objects.xml").read_text())
     with pytest.raises(DataError, match="<root> expected, <objects> found"):
         load(small_directory)
+
+
+def test_any_environment_of_either_world(small_directory: Path) -> None:
+    """Living rooms are numbered backwards in the labels, down to 0."""
+    rooms = small_directory / "Environments/livingRoom"
+    (rooms / "livingRoom1.xml").rename(rooms / "livingRoom10.xml")
+    kitchens = small_directory / "Environments/kitchen"
+    (kitchens / "kitchen2.xml").rename(kitchens / "kitchen10.xml")
+    _edit(small_directory / "data.xml", "environment_number9", "environment_number_0")
+    _edit(small_directory / "data.xml", "environment_number_2", "environment_number10")
+    data = load(small_directory)
+    assert [point.key for point in data.points] == [("kitchen", 10), ("living_room", 10)]
+    assert list(data.environments) == [("kitchen", 10), ("living_room", 10)]
+
+
+def test_odd_environments_can_be_used(small_directory: Path) -> None:
+    path = small_directory / "Environments/kitchen/kitchen2.xml"
+    _edit(path, "<name>Robinia_7</name>", "<name>Sink</name>")
+    _edit(path, "<position>(0, 40, 90)</position>", "")
+    _edit(path, "<rotation>(0, 90, 0)</rotation>", "")
+    kitchen = load(small_directory).environments["kitchen", 2]
+    assert kitchen.repeated == ("Sink",)
+    assert kitchen.by_name["Sink"].position.x == 60
+    assert kitchen.by_name["Fridge"].placeholder
+    assert kitchen.objects[0].rotation == (0, 0, 0)
 
 
 def test_environments_are_optional_but_some(small_directory: Path) -> None:

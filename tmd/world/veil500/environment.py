@@ -66,12 +66,23 @@ class VeilObject:
 
 @dataclass(frozen=True, slots=True)
 class VeilEnvironment:
-    """An environment. ``dropped`` are states of the file that no class declares, as (object, state)."""
+    """An environment.
+
+    Attributes:
+        world: ``kitchen`` or ``living_room``.
+        number: The number of its file.
+        objects: In file order.
+        dropped: States of the file that no class declares, as (object, state).
+        repeated: Objects that the file describes again; the first description counts.
+        path: The file.
+        by_name: The objects by VEIL name.
+    """
 
     world: str
     number: int
     objects: tuple[VeilObject, ...]
     dropped: tuple[tuple[str, str], ...] = ()
+    repeated: tuple[str, ...] = ()
     path: str = ""
     by_name: Mapping[str, VeilObject] = field(init=False, repr=False, compare=False)
 
@@ -104,23 +115,29 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
     """An environment file.
 
     Raises:
-        DataError: The file is missing, broken, or says something twice or unreadably.
+        DataError: The file is missing or broken, or holds a name or a position that cannot be read.
     """
     root = read_xml(path, "environment")
     raw: dict[str, Element] = {}
     seen: set[str] = set()
+    repeated: list[str] = []
     for element in root.all("object"):
         spelled = element.need("name").text.strip()
         name = spelled[:1].upper() + spelled[1:]
-        twice = name.lower() in seen
-        if twice or not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
-            problem = f"object '{name}' stands twice" if twice else f"'{name}' is no name for an object"
-            raise DataError(problem, location=element.location, hint="copy the file again from the release")
+        if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
+            raise DataError(
+                f"'{name}' is no name for an object",
+                location=element.location,
+                hint="names are letters, digits and underscores; copy the file again from the release",
+            )
+        if name.lower() in seen:
+            repeated.append(name)
+            continue
         raw[name] = element
         seen.add(name.lower())
     if not raw:
         raise DataError("no object in the file", location=root.location, hint="copy it again from the release")
-    positions = {name: _vector(element.need("position")) for name, element in raw.items()}
+    positions = {name: _vector(element, "position", PLACEHOLDER) for name, element in raw.items()}
     kinds = {name: class_of(name) for name in raw}
     whole = parents(kinds)
     objects: list[VeilObject] = []
@@ -132,7 +149,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
         placeholder = positions[name] == PLACEHOLDER
         parent = whole.get(name)
         position = positions[parent] if placeholder and parent else positions[name]
-        rotation = _vector(element.need("rotation"))
+        rotation = _vector(element, "rotation", (0.0, 0.0, 0.0))
         objects.append(
             VeilObject(
                 name,
@@ -146,7 +163,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
                 parent,
             )
         )
-    return VeilEnvironment(world, number, tuple(objects), tuple(dropped), str(path))
+    return VeilEnvironment(world, number, tuple(objects), tuple(dropped), tuple(repeated), str(path))
 
 
 def _states(name: str, element: Element, own: ObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
@@ -165,13 +182,16 @@ def _states(name: str, element: Element, own: ObjectClass) -> tuple[Mapping[str,
     return MappingProxyType(states), dropped
 
 
-def _vector(element: Element) -> Vector:
-    """Three numbers, with or without brackets round them."""
-    numbers = _NUMBER.findall(element.text)
+def _vector(thing: Element, tag: str, default: tuple[float, float, float]) -> Vector:
+    """Three numbers, with or without brackets round them; the default where nothing is said."""
+    found = thing.all(tag)
+    if not found:
+        return Vector(*default)
+    numbers = _NUMBER.findall(found[0].text)
     if len(numbers) != 3:
         raise DataError(
-            f"<{element.tag}> needs three numbers, not '{element.text.strip()}'",
-            location=element.location,
+            f"<{tag}> needs three numbers, not '{found[0].text.strip()}'",
+            location=found[0].location,
             hint="write x,y,z",
         )
     return Vector(*(float(number) for number in numbers))

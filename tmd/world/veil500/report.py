@@ -183,6 +183,7 @@ def _environments(data: VeilData) -> dict[str, int]:
         "classes": len(data.classes),
         "objects": len(things),
         "objects of a class that is not declared": sum(t.kind not in data.classes for t in things),
+        "objects described twice, the first kept": sum(len(e.repeated) for e in environments),
         "placeholder positions, taken from the whole": sum(bool(t.placeholder and t.parent) for t in things),
         "placeholder positions left": sum(t.placeholder and not t.parent for t in things),
         "states dropped, not declared by the class": sum(dropped.values()),
