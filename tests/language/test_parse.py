@@ -139,12 +139,59 @@ def test_spans_point_into_the_original_text() -> None:
     assert text[second.span.start : second.span.end] == second.text == "wait"
 
 
-_WORDS = (
-    "take put turn place water cup plate the a on in off up of with and then , . ; if until when you it them that is "
-    "not to let make sure please robot two 3 minutes which heated boiling left ( ) don't can | hot zorp"
-).split()
+_WORDS = [
+    "take",
+    "put",
+    "turn",
+    "place",
+    "water",
+    "cup",
+    "plate",
+    "the",
+    "a",
+    "on",
+    "in",
+    "off",
+    "up",
+    "of",
+    "with",
+    "and",
+    "then",
+    ",",
+    ".",
+    ";",
+    "if",
+    "until",
+    "when",
+    "you",
+    "it",
+    "them",
+    "that",
+    "is",
+    "not",
+    "to",
+    "let",
+    "make",
+    "sure",
+    "please",
+    "robot",
+    "two",
+    "3",
+    "minutes",
+    "which",
+    "heated",
+    "boiling",
+    "left",
+    "(",
+    ")",
+    "don't",
+    "can",
+    "|",
+    "hot",
+    "zorp",
+]
 _SENTENCES = st.lists(st.sampled_from(_WORDS), max_size=40).map(" ".join)
-_ANY = st.text(alphabet=string.printable + "äß|–’🙂\u0000\u200b中", max_size=120)
+_ANY = st.text(alphabet=string.printable + "äß|\u2013\u2019🙂\u0000\u200b中", max_size=120)
 
 
 def lost(parsed: Parsed) -> list[str]:
@@ -155,11 +202,11 @@ def lost(parsed: Parsed) -> list[str]:
         for token in tokenise(parsed.text)
         if token.kind in (Kind.WORD, Kind.NUM)
         and not any(s.start <= token.span.start and token.span.end <= s.end for s in spans)
-        and not all(is_filler(part) for part in token.text.split("-"))
+        and not is_filler(token.text)
     ]
 
 
-@settings(max_examples=4000, deadline=None)
+@settings(max_examples=5000, deadline=None)
 @given(st.one_of(_SENTENCES, _ANY))
 def test_nothing_is_lost_and_nothing_raises(text: str) -> None:
     parsed = parse(text)

@@ -12,11 +12,10 @@ from lark import Tree
 
 from tmd.language.clause import Clause, Relation, Span
 from tmd.language.grammar import Leaf
-from tmd.language.lexicon import section
 from tmd.language.morphology import singular
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
-_PLACING = frozenset("put place set lay keep pour drop put_back put_down set_down return store hang insert".split())
 _ORIGIN = frozenset({"from", "out_of", "off"})
 _NEVER_HOSTS = frozenset({"with", "for", "using", "of", "containing"})
 _MULTIPLE = "; "
@@ -216,7 +215,7 @@ class _Attachment:
 
     def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:
         """Read "the cups on the table and the books on the shelf": the second pair stands for itself."""
-        if node.data != "place" or following.data != "place" or self.draft.verb.stem not in _PLACING:
+        if node.data != "place" or following.data != "place" or self.draft.verb.stem not in section("placing"):
             return False
         groups = [c for c in node.children if isinstance(c, Tree)]
         phrases = _phrases(groups[0]) if groups else []
@@ -239,7 +238,7 @@ class _Attachment:
             return stem not in section("with_verbs") or self.instrument
         if name not in section("static") and name != "of":
             return False
-        return not (self.behind in _ORIGIN and stem in _PLACING)
+        return not (self.behind in _ORIGIN and stem in section("placing"))
 
     def finish(self) -> None:
         for name, targets in self.pending:

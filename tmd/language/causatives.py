@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from tmd.language.clause import Span
-from tmd.language.lexicon import section
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
 NEGATED = "says what not to do"
 

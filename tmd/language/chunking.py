@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from tmd.language.clause import Span
-from tmd.language.lexicon import Lexicon, section
+from tmd.language.lexicon import Lexicon
 from tmd.language.morphology import singular
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
 ALONE = "alone"
 """The form of a verb that lost its object to a slip: it shares none."""
@@ -26,7 +29,7 @@ def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the tokens the grammar sees, in order."""
     tokens = _settings(_numbered(_partitives(tokens)))
     _particles(tokens, lexicon)
-    for verb, modifier in zip(tokens, tokens[1:], strict=False):
+    for verb, modifier in pairwise(tokens):
         if verb.kind is Kind.V and modifier.kind is Kind.ADV:
             verb.form = ALONE
     tokens = [t for t in tokens if t.kind not in (Kind.FILLER, Kind.ADV, Kind.ADJ, Kind.SKIP)]
@@ -42,7 +45,7 @@ def _following(tokens: list[Token], at: int) -> Token | None:
 
 
 def _partitives(tokens: list[Token]) -> list[Token]:
-    """ "all of the cups" is "the cups"."""
+    """Read "all of the cups" as "the cups"."""
     for at, token in enumerate(tokens[:-1]):
         of = tokens[at + 1]
         quantity = token.text in section("partitives") and token.kind in (
@@ -88,10 +91,11 @@ def _settings(tokens: list[Token]) -> list[Token]:
             token.kind = Kind.ADJ
         if token.kind is not Kind.P or token.text not in ("on", "to", "at", "in"):
             continue
-        setting = tokens[at + 1]
-        if setting.text not in section("settings"):
+        place = at + 2 if tokens[at + 1].text == "the" else at + 1
+        if place >= len(tokens) or tokens[place].text not in section("settings"):
             continue
-        after = tokens[at + 2] if at + 2 < len(tokens) else None
+        setting = tokens[place]
+        after = tokens[place + 1] if place + 1 < len(tokens) else None
         if after is None or (after.kind not in (Kind.N, Kind.PARTICIPLE) and after.text != "of"):
             setting.kind, setting.form = Kind.MOD, "setting"
             if token.text != "on":
@@ -147,10 +151,10 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             _split_up_to(verb, token)
             return True
         match = lexicon.particle(verb.stem, token.text)
-        if match is not None and not (preposition and token.text not in _PURE and not match):
-            if _is_particle(tokens, at, place, match):
-                _absorb(verb, [token], f"{verb.stem}_{token.text}")
-                return True
+        behind = preposition and token.text not in _PURE and not match
+        if match is not None and not behind and _is_particle(tokens, at, place, match):
+            _absorb(verb, [token], f"{verb.stem}_{token.text}")
+            return True
         preposition = preposition or token.kind is Kind.P
     return False
 
@@ -201,7 +205,7 @@ def _drop_dangling(tokens: list[Token]) -> list[Token]:
             continue
         backwards.append(token)
     kept = backwards[::-1]
-    for before, token in zip(kept, kept[1:], strict=False):
+    for before, token in pairwise(kept):
         if token.kind is Kind.P and token.text == "of" and before.kind in _HEADS:
             token.kind = Kind.OF
     return kept

@@ -14,6 +14,10 @@ class Span(NamedTuple):
     end: int
 
 
+NOWHERE = Span(0, 0)
+"""The span of a clause that comes from no text."""
+
+
 class Relation(NamedTuple):
     """One entry of the relation matrix ρ: ``on: cup -> stove``.
 
@@ -48,7 +52,7 @@ class Clause:
     verb: str
     objects: tuple[str, ...] = ()
     relations: tuple[Relation, ...] = ()
-    span: Span = Span(0, 0)
+    span: Span = NOWHERE
     text: str = field(default="", compare=False)
     antecedents: Mapping[str, tuple[str, ...]] = field(default_factory=dict, compare=False)
     together: Mapping[str, int] = field(default_factory=dict, compare=False)

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Sequence
+from functools import cache
 
 from tmd.language.clause import Clause, Skipped, Span
-from tmd.language.lexicon import Lexicon, section
+from tmd.language.lexicon import Lexicon
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
@@ -14,11 +17,26 @@ NO_WORDS = "there are no words in the text"
 
 _ENGLISH_SHARE = 0.5
 _FEWEST_WORDS = 3
+_ADVERB = 5
 _FILLERS = (
-    "adverbs multiword_adverbs determiners quantifiers subjects names be modals ensure conditions let_verbs "
-    "lead_verbs relatives prepositions pronouns particles"
-).split()
-_JOINTS = frozenset("and or but plus then to & +".split())
+    "adverbs",
+    "multiword_adverbs",
+    "determiners",
+    "quantifiers",
+    "subjects",
+    "names",
+    "be",
+    "modals",
+    "ensure",
+    "conditions",
+    "let_verbs",
+    "lead_verbs",
+    "relatives",
+    "prepositions",
+    "pronouns",
+    "particles",
+)
+_JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
 
 
 def is_filler(word: str) -> bool:
@@ -27,13 +45,17 @@ def is_filler(word: str) -> bool:
     Fillers carry nothing of a clause: conjunctions, adverbs, articles, politeness, auxiliaries, addressing
     words and verbs that only introduce another ("need to").
     """
-    word = word.lower().replace("’", "'").rstrip("'")
+    return all(_is_filler(part) for part in re.split("[-_]", word.lower().replace("\u2019", "'").rstrip("'")))
+
+
+def _is_filler(word: str) -> bool:
     word = word.removesuffix("'s") if word not in section("be") else word
-    if word in _JOINTS or (word.endswith("ly") and len(word) > 5) or word.endswith(("'ll", "'d", "'ve")):
+    if word in _JOINTS or (word.endswith("ly") and len(word) > _ADVERB) or word.endswith(("'ll", "'d", "'ve")):
         return True
     return any(word in section(name) for name in _FILLERS) or word in _inside_phrases()
 
 
+@cache
 def _inside_phrases() -> frozenset[str]:
     words: set[str] = set()
     for name in ("multiword_adverbs", "ensure"):
@@ -85,7 +107,7 @@ def skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tu
 
 
 def _all_filler(token: Token) -> bool:
-    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.replace("_", " ").split())
+    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.split())
 
 
 def _adjacent(text: str, before: Span, after: Span) -> bool:

@@ -7,9 +7,9 @@ introduces a verb ("you should", "try to", "remember to") becomes filler.
 from __future__ import annotations
 
 from tmd.language.causatives import NEGATED, rewrite_ensure, rewrite_let
-from tmd.language.lexicon import section
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
 STATEMENT = "a statement, not an instruction"
 RELATIVE = "relative"
@@ -18,7 +18,6 @@ ASIDE = "an aside in brackets"
 ADDRESS = "addresses somebody"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
-_NOTICING = frozenset("need see find notice have know want like wish hear smell hope think".split())
 _AFTER_SUBJECT = frozenset({Kind.AUX, Kind.ADV, Kind.SUBJECT})
 
 
@@ -159,7 +158,7 @@ class _Folder:
             token = self.tokens[scan]
             if token.kind is Kind.SUBJECT:
                 verb = self._peek(scan, _AFTER_SUBJECT)
-                noticing = verb < len(self.tokens) and self.tokens[verb].stem in _NOTICING
+                noticing = verb < len(self.tokens) and self.tokens[verb].stem in section("noticing")
                 lead = self._peek(verb)
                 if self._kind(lead) in (Kind.PRON, Kind.SUBJECT):
                     lead = self._peek(lead)
@@ -170,7 +169,7 @@ class _Folder:
                 break
             there = token.text == "there" and self._kind(scan + 1) is Kind.AUX
             contracted = token.kind is Kind.AUX and "'s" in token.text
-            if token.kind in (Kind.AUX, Kind.FINITE) and (nominal or contracted) or there:
+            if (token.kind in (Kind.AUX, Kind.FINITE) and (nominal or contracted)) or there:
                 if token.kind is Kind.AUX and self._kind(self._peek(scan)) is Kind.TO:
                     return None
                 break

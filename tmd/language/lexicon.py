@@ -6,53 +6,18 @@ A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon_file`.
 from __future__ import annotations
 
 import difflib
-import gzip
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
-from importlib.resources import files
 from pathlib import Path
 
 from tmd.language.morphology import singular, verb_stem
+from tmd.language.words import data_text, section, sections
 
 _TYPO_LENGTH = 4
 """Shorter words are never corrected."""
 _TYPO_RATIO = 0.85
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
-
-
-def data_text(name: str) -> str:
-    """Return a data file of this room as text; ``.gz`` is unpacked."""
-    raw = (files("tmd.language") / "data" / name).read_bytes()
-    return (gzip.decompress(raw) if name.endswith(".gz") else raw).decode("utf-8")
-
-
-@cache
-def _sections() -> Mapping[str, tuple[str, ...]]:
-    sections: dict[str, list[str]] = {}
-    current: list[str] = []
-    for line in data_text("words.txt").splitlines():
-        if line.startswith("["):
-            current = sections.setdefault(line.strip("[]"), [])
-        elif not line.startswith("#"):
-            current.extend(line.split())
-    return {name: tuple(words) for name, words in sections.items()}
-
-
-@cache
-def section(name: str) -> frozenset[str]:
-    """Return one section of ``data/words.txt``."""
-    return frozenset(_sections()[name])
-
-
-@cache
-def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
-    """Return a section of several-word entries by first word, longest first."""
-    table: dict[str, list[tuple[str, ...]]] = {}
-    for entry in _sections()[name]:
-        words = tuple(entry.split("_"))
-        table.setdefault(words[0], []).append(words)
-    return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
 
 
 @cache
@@ -76,7 +41,7 @@ def _wordnet_verbs() -> tuple[Mapping[str, str], dict[str, str], frozenset[str]]
 
 @cache
 def _spellings() -> Mapping[str, str]:
-    return dict(entry.split("=") for entry in _sections()["spellings"])
+    return dict(entry.split("=") for entry in sections()["spellings"])
 
 
 @cache
@@ -132,7 +97,7 @@ class Lexicon:
         """Verb with particle -> whether the particle is one even before a noun."""
         moving = section("intransitive") | section("chain_verbs")
         table = {name: False for name in _wordnet_verbs()[2] if name.partition("_")[0] not in moving}
-        table.update((entry.rstrip("!"), entry.endswith("!")) for entry in _sections()["phrasal"])
+        table.update((entry.rstrip("!"), entry.endswith("!")) for entry in sections()["phrasal"])
         table.update((name, True) for name in self.phrasal)
         return table
 
@@ -150,7 +115,7 @@ class Lexicon:
         if stem in self.verbs:
             return stem, form, 3
         noun = singular(word) in self._own_nouns or stem in self._own_nouns
-        if stem in section("noun_verbs") or word in section("keep_adjectives") and stem not in section("verbs"):
+        if stem in section("noun_verbs") or (word in section("keep_adjectives") and stem not in section("verbs")):
             return stem, form, 1
         if stem in section("verbs"):
             return stem, form, 2 if noun else 3
@@ -194,7 +159,8 @@ class Lexicon:
         if word.endswith("s") and (stem := self.correct(word[:-1])):
             return stem + "s"
         near = difflib.get_close_matches(word, self._by_initial.get(word[0], ()), 1, _TYPO_RATIO)
-        return near[0] if near else None
+        # "soapy" is no slip of "soap": letters get lost at the end, endings are not made up
+        return near[0] if near and not word.startswith(near[0]) else None
 
     @cached_property
     def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
@@ -207,9 +173,26 @@ class Lexicon:
 
 
 _CLOSED = (
-    "drop_adjectives keep_adjectives determiners quantifiers pronouns prepositions particles units_time units "
-    "numbers adverbs conditions relatives be modals negations names subjects let_verbs"
-).split()
+    "drop_adjectives",
+    "keep_adjectives",
+    "determiners",
+    "quantifiers",
+    "pronouns",
+    "prepositions",
+    "particles",
+    "units_time",
+    "units",
+    "numbers",
+    "adverbs",
+    "conditions",
+    "relatives",
+    "be",
+    "modals",
+    "negations",
+    "names",
+    "subjects",
+    "let_verbs",
+)
 
 
 def _is_swap(word: str, other: str) -> bool:

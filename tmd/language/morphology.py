@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from tmd.language.words import section
+
 _IRREGULAR = {
     "knives": "knife",
     "shelves": "shelf",
@@ -38,11 +40,6 @@ _IRREGULAR = {
     "lenses": "lens",
     "batteries": "battery",
 }
-_SAME = frozenset(
-    "scissors tongs pliers clothes gas glass bus lens series headphones pants jeans shorts goggles tweezers "
-    "always is was this its us yes bias canvas chaos iris asparagus hummus couscous citrus cactus christmas"
-    " molasses swiss xbox as less perhaps upstairs downstairs needs".split()
-)
 _VOWELS = "aeiou"
 
 
@@ -55,7 +52,7 @@ def singular(noun: str) -> str:
 def _singular(word: str) -> str:
     if word in _IRREGULAR:
         return _IRREGULAR[word]
-    if word in _SAME or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
+    if word in section("invariant") or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
         return word
     if word.endswith("ies") and len(word) > 4:
         return word[:-3] + "y"

@@ -21,8 +21,8 @@ NAME, ALIAS, LEARNED, WORDNET = "name", "alias", "learned", "wordnet"
 SIMILAR = 0.85
 """Least Wu-Palmer similarity that counts (the value of the original system)."""
 
-_ORDINALS = "first second third fourth fifth sixth seventh eighth ninth tenth".split()
-_NUMBERS = "one two three four five six seven eight nine ten".split()
+_ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"]
+_NUMBERS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 _CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _LOOSEST = 0.5
 """Score of a name match by head alone, all modifiers unmatched."""

@@ -12,16 +12,15 @@ from dataclasses import dataclass, replace
 
 from tmd.language.attachment import Draft, Phrase
 from tmd.language.clause import Clause
-from tmd.language.lexicon import section
+from tmd.language.words import section
 
 SINGULAR = frozenset({"it", "this", "that", "itself", "one"})
-PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones", "everything"}) - {"everything"}
+PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones"})
 OPEN = frozenset({"some", "all", "each", "any", "half", "most", ""})
 """Pronouns without number; the empty name is an elided object."""
 
 _REACH = 5
 _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
-_MOVING = frozenset("put place take move bring grab get carry keep set pick_up put_back put_down set_down".split())
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +102,7 @@ def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
 
 def _scored(recent: list[_Scene], own: set[str], draft: Draft) -> list[tuple[str, int]]:
     best: dict[str, int] = {}
-    moving = draft.verb.stem in _MOVING
+    moving = draft.verb.stem in section("moving")
     for age, scene in enumerate(recent):
         for mention in scene.mentions:
             if mention.name in own:

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from tmd.language.lexicon import Lexicon, section
+from tmd.language.lexicon import Lexicon
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import section
 
 _ARTICLES = frozenset({Kind.DET, Kind.PRON})
 _OPENERS = frozenset({Kind.DET, Kind.PRON, Kind.NUM, Kind.ADJ})
@@ -152,18 +153,18 @@ def _read_auxiliary(
         token.kind = Kind.N
         return
     start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
-    if token.text in ("need", "needs", "do") and start:
-        if following is not None and following.kind in (Kind.DET, Kind.PRON) and following.text != "you":
-            token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
+    object_next = following is not None and following.kind in _ARTICLES and following.text != "you"
+    if token.text in ("need", "needs", "do") and start and object_next:
+        token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
     state.close()
 
 
 def _read_modifier(token: Token, previous: Token | None, following: Token | None) -> None:
-    """ "second" and "back" before a noun are modifiers; "past" and "out" stay prepositions."""
+    """Read "second" and "back" as modifiers a noun; "past" and "out" stay prepositions."""
     start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
     if token.kind is Kind.ADJ and token.form == "ed" and token.stem:
         article = following is not None and following.kind in _ARTICLES
-        if previous is not None and previous.kind is Kind.SUBJECT or (start and article):
+        if (previous is not None and previous.kind is Kind.SUBJECT) or (start and article):
             token.kind = Kind.V
             return
     sure = following is not None and following.strength == 3 and following.form == "base"
@@ -176,9 +177,9 @@ def _read_modifier(token: Token, previous: Token | None, following: Token | None
         return
     inside = previous is not None and previous.kind in (Kind.DET, Kind.ADJ)
     noun_next = following is not None and following.kind in (Kind.WORD, Kind.N, Kind.ADJ)
-    if inside and token.text in section("keep_adjectives"):
-        token.kind = Kind.N
-    elif inside and token.text in ("inside", "outside", "front", "back") and not noun_next:
+    if (inside and token.text in section("keep_adjectives")) or (
+        inside and token.text in ("inside", "outside", "front", "back") and not noun_next
+    ):
         token.kind = Kind.N
     elif token.kind is Kind.ADV and token.text in section("keep_adjectives") and noun_next:
         beside = following is not None and (following.text in section("keep_adjectives"))
@@ -240,7 +241,8 @@ def _read_ing(token: Token, previous: Token | None, following: Token | None, lex
     if lexicon.is_noun(token.text) or (previous is not None and previous.kind in (Kind.DET, Kind.ADJ, Kind.P)):
         return Kind.N
     if previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.N, Kind.PRON, Kind.MOD):
-        bare_noun = noun_next and (previous is None or previous.kind is not Kind.COMMA)
+        modifier = token.text in section("ing_modifiers") or token.strength < 3
+        bare_noun = noun_next and modifier and (previous is None or previous.kind is not Kind.COMMA)
         return Kind.N if bare_noun else Kind.ING
     return Kind.N
 
@@ -267,14 +269,14 @@ def _read_third_person(
     kind = previous.kind if previous else Kind.STOP
     if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL, Kind.P, Kind.SUBJECT):
         return Kind.FINITE
-    if kind is Kind.SUBJECT or previous is not None and previous.text == "robot":
+    if kind is Kind.SUBJECT or (previous is not None and previous.text == "robot"):
         state.narrative = True
         return Kind.V
     if state.narrative and kind in (Kind.CC, Kind.COMMA) and not lexicon.is_noun(token.text):
         return Kind.V
     article = following is not None and following.kind in _ARTICLES
     if kind in (Kind.N, Kind.PRON) and not lexicon.is_noun(token.text) and token.strength >= 2:
-        return Kind.FINITE if article or token.strength == 3 or previous and previous.kind is Kind.PRON else Kind.N
+        return Kind.FINITE if article or token.strength == 3 or (previous and previous.kind is Kind.PRON) else Kind.N
     return Kind.N
 
 
@@ -349,7 +351,7 @@ def _at_start(token: Token, following: Token | None, article: bool, tokens: list
         for later in tokens[at + 1 :]:
             if later.kind in (Kind.STOP, Kind.COMMA, Kind.CC):
                 break
-            if later.strength >= 2 and later.form == "base" or later.kind is Kind.AUX:
+            if (later.strength >= 2 and later.form == "base") or later.kind is Kind.AUX:
                 return noun
         return Kind.V
     return noun
@@ -379,7 +381,8 @@ def _run_on(
         return Kind.V
     if token.strength == 3 and following is not None:
         moves = following.kind is Kind.TO and token.stem in section("intransitive")
-        if moves or following.kind in (Kind.P, Kind.NUM, Kind.ADJ):
+        state = token.text in section("drop_adjectives") and following.kind is Kind.P
+        if not state and (moves or following.kind in (Kind.P, Kind.NUM, Kind.ADJ)):
             return Kind.V if not (previous is not None and previous.kind is Kind.PRON and person) else noun
         if following.kind is Kind.WORD:
             return Kind.V

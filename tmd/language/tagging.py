@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tmd.language.clause import Span
-from tmd.language.lexicon import Lexicon, phrases, section
+from tmd.language.lexicon import Lexicon
 from tmd.language.tokens import Kind, Token
+from tmd.language.words import phrases, section
 
 _PHRASES = (
     ("multiword_prepositions", Kind.P, ""),
@@ -26,6 +27,7 @@ _CLOSED = (
     ("ensure", Kind.ENSURE),
     ("let_verbs", Kind.LET),
 )
+_FRACTIONS = ("half", "quarter", "quarters", "third", "thirds")
 _CONTRACTED = ("'ll", "'d", "'ve")
 
 
@@ -57,6 +59,9 @@ def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
     for name, kind, form in _PHRASES:
         for words in phrases(name).get(tokens[at].text, ()):
             run = tokens[at : at + len(words)]
+            measured = kind is Kind.ADV and tokens[at + len(words) :][:1] and tokens[at + len(words)].text == "of"
+            if measured:
+                continue
             if len(words) > max(1, best[1]) and tuple(t.text for t in run) == words:
                 token = fold(run, kind, form=form)
                 token.text = _SPELLING.get(token.text, token.text)
@@ -68,7 +73,7 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
     """Fold "for about 3 minutes", "to 180 degrees", "two feet"; the numeral words are still undecided."""
     end, words = at, [t.text for t in tokens[at : at + 8]]
     for text in words:
-        if text in _BEFORE_MEASURE:
+        if text in section("before_measure"):
             end += 1
         else:
             break
@@ -82,7 +87,7 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
     article = number == 0 and lead < len(words) and words[lead] in ("a", "an")
     if article:
         unit += 1
-    parted = number and words[unit - 1] in ("half", "quarter", "quarters", "third", "thirds")
+    parted = number and ("/" in words[unit - 1] or words[unit - 1] in _FRACTIONS)
     if parted and words[unit : unit + 1] == ["full"]:
         return fold(tokens[at : at + unit + 1], Kind.MOD, " ", "setting"), unit + 1
     rest = words[unit : unit + 2]
@@ -114,13 +119,8 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
     return fold(tokens[at : at + used], Kind.MOD, " ", form), used
 
 
-_BEFORE_MEASURE = frozenset(
-    "for to at about around approximately roughly another at_least exactly of by no more than less within".split()
-)
-
-
 def _is_number(word: str) -> bool:
-    return word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th")) or word in section("numbers")
+    return (word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th"))) or word in section("numbers")
 
 
 def _is_unit(word: str, words: list[str]) -> bool:

@@ -81,7 +81,7 @@ class Token:
 
 _TOKEN = re.compile(
     r"(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
-    r"|(?P<word>[^\W\d_]+(?:['’\-_][^\W\d_]+)*['’]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,–—()\[\]/]|-)"
+    r"|(?P<word>[^\W\d_]+(?:['\u2019\-_][^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
 )
@@ -97,7 +97,7 @@ def tokenise(text: str) -> list[Token]:
     """Cut a text into tokens. Everything between them is blank or a sign without meaning here."""
     tokens = []
     for match in _TOKEN.finditer(text):
-        span, word = Span(*match.span()), match.group().lower().replace("’", "'")
+        span, word = Span(*match.span()), match.group().lower().replace("\u2019", "'")
         kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
             match.lastgroup or "", Kind.WORD
         )
@@ -132,6 +132,11 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
                 position += length
                 continue
         last_seen[key] = position
+        pair = words[position : position + 2]
+        if pair == words[position + 2 : position + 4] and len(set(pair)) == 2 and Kind.NUM is not token.kind:
+            dropped.extend(tokens[position : position + 2])
+            position += 2
+            continue
         if kept and token.kind is Kind.WORD and kept[-1].text == token.text and kept[-1].kind is Kind.WORD:
             dropped.append(token)
         else:

@@ -1,4 +1,4 @@
-"""WordNet's artifacts, food and substances: how alike are two nouns? (Wu and Palmer, 1994.)
+"""WordNet's artifacts, food and substances: how alike two nouns are (Wu and Palmer, 1994).
 
 Loaded only when a noun has to be compared; the data file is written by ``data/rebuild.py``.
 """
@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from functools import cache
 
-from tmd.language.lexicon import data_text
 from tmd.language.morphology import singular
+from tmd.language.words import data_text
 
 
 class _Taxonomy:

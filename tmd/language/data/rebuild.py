@@ -16,7 +16,7 @@ import sys
 from collections.abc import Iterator
 from pathlib import Path
 
-PARTICLES = frozenset("away back down out up".split())
+PARTICLES = frozenset(["away", "back", "down", "out", "up"])
 NOUN_FILES = {6: "artifact", 13: "food", 27: "substance"}
 """Lexicographer files of WordNet whose synsets are kept."""
 
