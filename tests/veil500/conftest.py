@@ -42,6 +42,7 @@ OBJECTS = """<objects>
   <affordances><affordance>IsGraspable</affordance></affordances></attributes></object>
  <object><name>Plate</name><attributes><property>
    <state><stateName>Egg</stateName><default>False</default></state>
+   <state><stateName>Ramen</stateName><default>False</default></state>
    <state><stateName>Spoon</stateName><default>False</default></state>
    <state><stateName>Fork</stateName><default>False</default></state></property>
   <affordances><affordance>IsGraspable</affordance></affordances></attributes></object>

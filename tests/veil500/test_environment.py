@@ -64,7 +64,7 @@ def test_parts(small: VeilData) -> None:
     assert graph.edges == (("button", "body"), ("door", "body"))
     assert [v.object for v in room.graph("Tv_1").vertices][:2] == ["Tv_1", "Tv_1PowerButton"]
     assert ("MuteButton", "screen") in room.graph("Tv_1Remote_1").edges
-    assert kitchen.graph("Plate_1").vertices[0].states == ("Egg", "Spoon", "Fork")
+    assert kitchen.graph("Plate_1").vertices[0].states == ("Egg", "Ramen", "Spoon", "Fork")
     assert len(kitchen.graph("Stove").vertices) == 1 + 2 + 2  # only the parts that are there
     with pytest.raises(DataError, match="no object"):
         kitchen.graph("Piano")

@@ -361,6 +361,40 @@ def test_same_as_the_direct_interpreter(small: VeilData, key: tuple[str, int], v
     assert verbs <= compare_at_random(small.environments[key], seed=0, walks=8, steps=400)
 
 
+@pytest.mark.parametrize(
+    ("key", "texts"),
+    [
+        # under a running tap only On the sink fills, and only turning it on does
+        (("kitchen", 2), "moveto Sink, turn SinkKnob, grasp Kettle, keep Kettle In Sink, keep Kettle On Sink"),
+        (("kitchen", 2), "keep Kettle On Sink, turn SinkKnob, pour Kettle, turn SinkKnob, turn SinkKnob"),
+        (("kitchen", 2), "keep Mug_1 Near Sink, keep Kettle Inside Sink, keep Plate_1 On Sink, turn SinkKnob"),
+        # the dispenser fills what is held, and only when it starts
+        (("kitchen", 2), "grasp Kettle, grasp Plate_1, press FridgeButton, pour Kettle, press FridgeButton"),
+        (("kitchen", 2), "press FridgeButton, grasp Kettle, open FridgeLeftDoor, press FridgeButton"),
+        # noodles and eggs are added, not poured on
+        (("kitchen", 2), "add Ramen_1 Kettle, add Salt_1 Kettle, pour Kettle Plate_1, pour Kettle Mug_1, pour Kettle"),
+        (("kitchen", 2), "add BoiledEgg_1 Plate_1, pour Plate_1 Kettle, add BoiledEgg_1 Kettle, pour Plate_1"),
+        (("kitchen", 2), "squeeze Syrup_1 Mug_1, squeeze Syrup_2 Mug_1, squeeze Mug_1 Syrup_1, squeeze Syrup_1 Mug_1"),
+        (("kitchen", 2), "open Microwave, press MicrowaveButton, open Microwave, close Microwave"),
+        (("kitchen", 2), "turn StoveKnob_1, turn StoveKnob_2, turn StoveKnob_1, turn StoveKnob_4, turn StoveKnob_5"),
+        (("kitchen", 2), "grasp Kettle, keep Mug_1 Near Kettle, moveto Mug_1, release Kettle, moveto Mug_1"),
+        (("living_room", 1), "press Tv_1ChannelUpButton, press Tv_1PowerButton" + ", press Tv_1ChannelUpButton" * 7),
+        (("living_room", 1), "press Tv_1PowerButton" + ", press Tv_1Remote_1ChannelDownButton" * 7),
+        (("living_room", 1), "press Tv_1Remote_1MuteButton, press Tv_1PowerButton, press Tv_1Remote_1MuteButton"),
+        (("living_room", 1), "press Tv_1VolumeDownButton, press Tv_1PowerButton, press Tv_1VolumeDownButton, "
+         "press Tv_1VolumeUpButton"),
+        (("living_room", 1), "insert Xbox_1 Cd_1, insert Cd_1 Xbox_1, insert Xbox_1 Cd_1, insert Cd_1 Book_1"),
+    ],
+)  # fmt: skip
+def test_same_on_chosen_sequences(small: VeilData, key: tuple[str, int], texts: str) -> None:
+    environment = small.environments[key]
+    sequence = [from_veil(text) for text in texts.split(", ")]
+    simulator = Simulator(compile_environment(environment), sequence, absent_types(environment))
+    assert differences(environment, simulator, sequence) == 0
+    fetched = [Instruction(v, (x,)) for i in sequence for x in i.args for v in ("moveto", "grasp")]
+    assert differences(environment, simulator, [*fetched, *sequence]) == 0
+
+
 def test_same_on_everything_recorded(veil: VeilData) -> None:
     steps = different = 0
     for key, environment in veil.environments.items():
