@@ -61,6 +61,7 @@ class _Noun:
     head: str
     modifiers: tuple[str, ...]
     number: int | None
+    ordinal: bool = False
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -110,15 +111,15 @@ def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
 
 def _parse(noun: str) -> _Noun:
     words = list(split_name(singular(noun.lower().replace(" ", "_").replace("-", "_"))))
-    number = None
+    number, ordinal = None, False
     if words and words[-1].isdigit():
         number = int(words.pop())
     elif len(words) > 1 and words[-1] in _NUMBERS:
         number = _NUMBERS.index(words.pop()) + 1
     elif len(words) > 1 and words[0] in _ORDINALS:
-        number = _ORDINALS.index(words.pop(0)) + 1
+        number, ordinal = _ORDINALS.index(words.pop(0)) + 1, True
     words = [singular(w) for w in words] or [noun]
-    return _Noun(words[-1], tuple(words[:-1]), number)
+    return _Noun(words[-1], tuple(words[:-1]), number, ordinal)
 
 
 def _vocabulary(candidate: Candidate) -> list[tuple[str, ...]]:
@@ -160,11 +161,11 @@ def _name_score(noun: _Noun, words: tuple[str, ...], extra: tuple[str, ...]) -> 
 
 
 def _numbered(matches: list[Match], noun: _Noun) -> list[Match]:
-    """Pick by number: the thing that carries it in its name, else the n-th in order."""
-    if noun.number is None:
+    """Pick by number: the thing that carries it in its name, else (and for "second") the n-th in order."""
+    if not noun.number:
         return matches
     carrying = [m for m in matches if _number(m.name) == noun.number]
-    if carrying:
+    if carrying and not noun.ordinal:
         return carrying
     ordered = sorted(matches, key=lambda m: (-m.score, _natural(m.name)))
     if noun.number <= len(ordered):

@@ -1,0 +1,1 @@
+"""Word lists and WordNet subsets, and the script that rebuilds them."""
