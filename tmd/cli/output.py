@@ -33,7 +33,9 @@ def _laid_out(value: object, indent: int) -> str:
         return line
     inner = " " * (indent + 2)
     if isinstance(value, dict):
-        parts = [f"{inner}{json.dumps(key, ensure_ascii=False)}: {_laid_out(v, indent + 2)}" for key, v in value.items()]
+        parts = [
+            f"{inner}{json.dumps(key, ensure_ascii=False)}: {_laid_out(v, indent + 2)}" for key, v in value.items()
+        ]
         return "{\n" + ",\n".join(parts) + f"\n{' ' * indent}}}"
     return "[\n" + ",\n".join(f"{inner}{_laid_out(v, indent + 2)}" for v in value) + f"\n{' ' * indent}]"
 

@@ -1,0 +1,277 @@
+"""Every documented exit code, provoked by a real command; every command says in one line what is wrong."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd
+from tmd.errors import ExitCode
+
+DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
+PLANS = BLOCKS / "plans"
+HIDE_FAST_DOWNWARD = "import sys; sys.modules['up_fast_downward'] = None"
+HIDE_UNIFIED_PLANNING = "import sys; sys.modules['unified_planning'] = None"
+BREAK_PARSER = (
+    "import tmd.language\ndef parse(*_): raise ZeroDivisionError('division by zero')\ntmd.language.parse = parse"
+)
+KITCHEN = ("ground", "--environment", "kitchen1")
+
+
+def documented() -> dict[str, int]:
+    """The table in the page."""
+    page = (ROOT / "docs" / "exit-codes.md").read_text(encoding="utf-8")
+    return {name: int(code) for code, name in re.findall(r"^\| (\d+) \| `(\w+)` \|", page, re.MULTILINE)}
+
+
+def test_the_page_lists_the_codes() -> None:
+    assert documented() == {code.name: int(code) for code in ExitCode}
+
+
+def counter(directory: Path, bits: int = 20) -> tuple[Path, Path]:
+    """A problem whose only plan has 2 ** bits - 1 steps."""
+    names = [f"b{i}" for i in range(bits)]
+    actions = "".join(
+        f"(:action up{i} :precondition (and (not (one b{i})) {' '.join(f'(one {b})' for b in names[:i])})\n"
+        f" :effect (and (one b{i}) {' '.join(f'(not (one {b}))' for b in names[:i])}))\n"
+        for i in range(bits)
+    )
+    domain, problem = directory / "counter.pddl", directory / "count.pddl"
+    domain.write_text(
+        "(define (domain counter) (:requirements :strips :typing :negative-preconditions) (:types bit)\n"
+        f"(:constants {' '.join(names)} - bit) (:predicates (one ?b - bit))\n{actions})\n"
+    )
+    goal = " ".join(f"(one {b})" for b in names)
+    problem.write_text(f"(define (problem count) (:domain counter) (:goal (and {goal})))\n")
+    return domain, problem
+
+
+CASES = {
+    "help": (ExitCode.OK, ["--help"], ""),
+    "parse": (ExitCode.OK, ["parse", "--text", "take the cup"], ""),
+    "parse-no-clause": (ExitCode.OK, ["parse", "--text", "Bonjour, je voudrais une tasse"], ""),
+    "valid-plan": (ExitCode.OK, ["validate", DOMAIN, PROBLEM, PLANS / "valid-sussman.plan"], ""),
+    "plan": (ExitCode.OK, ["plan", DOMAIN, PROBLEM], ""),
+    "compiled": (ExitCode.OK, ["compile", "kitchen", "--check"], ""),
+    "invalid-plan": (ExitCode.INVALID_PLAN, ["validate", DOMAIN, PROBLEM, PLANS / "invalid-not-clear.plan"], ""),
+    "unknown-verb": (
+        ExitCode.NOT_GROUNDED,
+        [*KITCHEN, "--text", "Flurble the pot"],
+        r"no demonstration has the verb 'flurble' \(.+\)\nno plan: no demonstration has any of its verbs; .+",
+    ),
+    "not-english": (
+        ExitCode.NOT_GROUNDED,
+        [*KITCHEN, "--text", "Bonjour, je voudrais une tasse de café s'il vous plaît"],
+        r"no plan: the text has no instruction \(.*not English\); say what is to be done",
+    ),
+    "no-instruction": (ExitCode.NOT_GROUNDED, [*KITCHEN, "--text", "hello there"], r"no plan: the text has no instruc"),
+    "no-command": (ExitCode.USAGE, ["bogus"], r"error: No such command 'bogus'"),
+    "no-option": (ExitCode.USAGE, ["--bogus"], r"error: No such option"),
+    "no-argument": (ExitCode.USAGE, ["plan", DOMAIN], r"error: Missing argument 'PROBLEM'"),
+    "no-text": (ExitCode.USAGE, [*KITCHEN], r"error: give one of --text and --text-file"),
+    "two-texts": (ExitCode.USAGE, ["parse", "--text", "a", "--text-file", "b"], r"error: give one of"),
+    "bad-range": (
+        ExitCode.USAGE,
+        ["experiment", "--task", "ramen", "--out", "o", "--train-environments", "8-1"],
+        r"error: .*the range 8-1 runs backwards",
+    ),
+    "bad-top": (ExitCode.USAGE, [*KITCHEN, "--text", "a", "--top", "0"], r"error: Invalid value for '--top'"),
+    "check-environment": (ExitCode.USAGE, ["compile", "x.yaml", "--check"], r"error: --check is for domains"),
+    "goal-of-domain": (ExitCode.USAGE, ["compile", "kitchen", "--goal", "(a)"], r"error: --output and --goal are for"),
+    "empty-text": (ExitCode.BAD_INPUT, [*KITCHEN, "--text", " \n\t"], r"error: --text: the text is empty"),
+    "empty-text-parse": (ExitCode.BAD_INPUT, ["parse", "--text", ""], r"error: --text: the text is empty"),
+    "no-environment": (
+        ExitCode.BAD_INPUT,
+        ["ground", "--environment", "kitchen9", "--text", "a"],
+        r"error: there is no environment 'kitchen9'\nhint: ",
+    ),
+    "no-environment-file": (
+        ExitCode.BAD_INPUT,
+        ["ground", "--environment", "none.yaml", "--text", "a"],
+        r"error: none.yaml:1:1: cannot be read: No such file",
+    ),
+    "no-domain": (ExitCode.BAD_INPUT, ["compile", "kitchn", "--check"], r'error: .*kitchn.*\nhint: did you mean "kit'),
+    "nothing-to-compile": (ExitCode.BAD_INPUT, ["compile", "veil500_sane"], r"error: there is nothing to compile in"),
+    "no-domains": (ExitCode.BAD_INPUT, ["--domains", "none", "plan", "kitchen", PROBLEM], r"error: none: no such dir"),
+    "no-planner": (
+        ExitCode.BAD_INPUT,
+        ["plan", DOMAIN, PROBLEM, "--planner", "slow-upward"],
+        r"error: there is no planner 'slow-upward'\nhint: one of in-process",
+    ),
+    "no-weights": (ExitCode.BAD_INPUT, [*KITCHEN, "--text", "a", "--weights", "hand"], r"error: there are no weights"),
+    "no-task": (
+        ExitCode.BAD_INPUT,
+        ["experiment", "--task", "rmen", "--out", "o"],
+        r'error: .*\nhint: did you mean "ra',
+    ),
+    "no-model": (
+        ExitCode.BAD_INPUT,
+        ["experiment", "--task", "ramen", "--out", "o", "--models", "empt"],
+        r"error: there is no model 'empt'\nhint: ",
+    ),
+    "problem-as-plan": (ExitCode.BAD_INPUT, ["validate", DOMAIN, PROBLEM, PROBLEM], r"error: .*p01.pddl:\d+:\d+: .+\n"),
+    "other-domain": (ExitCode.BAD_INPUT, ["plan", "kitchen", PROBLEM], r'error: .*the problem is of domain "'),
+    "bad-goal": (
+        ExitCode.BAD_INPUT,
+        ["compile", ROOT / "problems/kitchen/environments/kitchen1.yaml", "--goal", "(hot pot12)"],
+        r'error: --goal:1:\d+: unknown object "pot12"\n.*\n *\^\nhint: did you mean "pot1"',
+    ),
+    "pddl-without-domain": (
+        ExitCode.BAD_INPUT,
+        ["ground", "--environment", PROBLEM, "--text", "a"],
+        r"error: .*does not say where its domain is\nhint: give --domain",
+    ),
+    "no-data": (ExitCode.BAD_DATA, ["data", "check", "none"], r"error: none is not a directory\nhint: "),
+    "other-data": (ExitCode.BAD_DATA, ["data", "check", ROOT / "domains"], r"error: .*data.xml is missing\nhint: "),
+    "no-data-for-experiment": (
+        ExitCode.BAD_DATA,
+        ["experiment", "--task", "ramen", "--data", "veil500", "--veil500", "none", "--out", "o"],
+        r"error: none is not a directory",
+    ),
+    "no-directory": (
+        ExitCode.CANNOT_WRITE,
+        ["plan", DOMAIN, PROBLEM, "--output", "none/out.plan"],
+        r"error: none/out.plan cannot be written: No such file or directory\nhint: ",
+    ),
+    "file-for-directory": (
+        ExitCode.CANNOT_WRITE,
+        ["experiment", "--task", "ramen", "--models", "empty", "--out", PROBLEM],
+        r"error: .*p01.pddl",
+    ),
+}
+
+
+@pytest.mark.parametrize(("code", "arguments", "told"), CASES.values(), ids=list(CASES))
+def test_exit_code(tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], told: str) -> None:
+    ended = tmd(*arguments, env={"VEIL500_DIR": ""})
+    assert (ended.code, ended.err) == (code, ended.err)
+    assert re.search(told, ended.err), ended.err
+    _no_traceback(ended)
+    assert not list(tmp_path.iterdir())
+
+
+def _no_traceback(ended: Ended) -> None:
+    assert "Traceback" not in ended.out + ended.err
+    assert sum(line.startswith("error:") for line in ended.err.splitlines()) <= 1
+    if ended.code >= 30:
+        assert ended.out == ""
+        assert ended.err.startswith("error: ")
+
+
+def test_unreachable(tmd: Tmd, tmp_path: Path) -> None:
+    domain, problem = counter(tmp_path, 2)
+    problem.write_text(problem.read_text().replace("(one b0)", "(one b0) (not (one b0))"))
+    ended = tmd("plan", domain, problem)
+    assert (ended.code, ended.out) == (ExitCode.UNREACHABLE, "")
+    assert re.fullmatch(r"no plan: .+\n", ended.err)
+
+
+def test_gave_up(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd("plan", *counter(tmp_path))
+    assert (ended.code, ended.out) == (ExitCode.GAVE_UP, "")
+    assert re.fullmatch(r"no plan: the planner gave up at .*; nothing is proven\n", ended.err)
+
+
+def test_out_of_memory(tmd: Tmd) -> None:
+    broken = BREAK_PARSER.replace("ZeroDivisionError('division by zero')", "MemoryError")
+    ended = tmd("parse", "--text", "take the cup", before=broken)
+    assert ended.code == ExitCode.GAVE_UP
+    assert ended.err.startswith("error: out of memory\nhint: ")
+
+
+@pytest.mark.parametrize("hidden", [HIDE_FAST_DOWNWARD, HIDE_UNIFIED_PLANNING])
+@pytest.mark.parametrize("arguments", [["plan", DOMAIN, PROBLEM], [*KITCHEN, "--text", "fill the pot with water"]])
+def test_no_fast_downward(tmd: Tmd, hidden: str, arguments: list[str | Path]) -> None:
+    ended = tmd(*arguments, "--planner", "fast-downward", before=hidden)
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert re.match(r"error: .*not installed\nhint: pip install ", ended.err)
+
+
+def test_no_other_engine(tmd: Tmd) -> None:
+    ended = tmd("plan", DOMAIN, PROBLEM, "--planner", "up:nosuchengine")
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert "nosuchengine" in ended.err
+    _no_traceback(ended)
+
+
+def test_drifted_domain(tmd: Tmd, tmp_path: Path) -> None:
+    folder = tmp_path / "domains" / "kitchen"
+    folder.mkdir(parents=True)
+    for file in (ROOT / "domains" / "kitchen").iterdir():
+        if file.is_file():
+            (folder / file.name).write_bytes(file.read_bytes())
+    compiled = folder / "domain.pddl"
+    right = compiled.read_text()
+    compiled.write_text(right.replace("(:predicates", "(:predicates (new_one)"))
+    drifted = compiled.read_text()
+    assert tmd("compile", "kitchen", "--check").code == ExitCode.FAULTS_FOUND
+    assert compiled.read_text() == drifted
+    assert tmd("compile", "kitchen").code == ExitCode.OK
+    assert compiled.read_text() == right
+    assert tmd("compile", "kitchen", "--check").code == ExitCode.OK
+
+
+def test_internal_error(tmd: Tmd) -> None:
+    ended = tmd("parse", "--text", "take the cup", before=BREAK_PARSER)
+    assert ended.code == ExitCode.INTERNAL
+    assert ended.err.splitlines()[0] == ("error: internal error: ZeroDivisionError: division by zero; please report")
+    _no_traceback(ended)
+
+
+def test_internal_error_in_debugging(tmd: Tmd) -> None:
+    ended = tmd("--debug", "parse", "--text", "take the cup", before=BREAK_PARSER)
+    assert ended.code == ExitCode.INTERNAL
+    assert "Traceback" in ended.err
+
+
+def test_nested_too_deeply(tmd: Tmd) -> None:
+    broken = BREAK_PARSER.replace("raise ZeroDivisionError('division by zero')", "return parse()")
+    ended = tmd("parse", "--text", "take the cup", before=broken)
+    assert ended.code == ExitCode.BAD_INPUT
+    assert ended.err.startswith("error: the input is nested too deeply\nhint: ")
+
+
+def test_interrupted(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    command = [sys.executable, "-m", "tmd", "parse", "--text-file", str(pipe)]
+    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        writer = os.open(pipe, os.O_WRONLY)  # returns when tmd has begun to read
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+        os.close(writer)
+    assert (process.returncode, out, err) == (ExitCode.INTERRUPTED, "", "error: interrupted\n")
+
+
+def test_the_reader_goes_away() -> None:
+    command = [sys.executable, "-m", "tmd", "parse", "--text-file", "-", "--json"]
+    reading, writing = os.pipe()
+    os.close(reading)
+    done = subprocess.run(command, input=b"take the cup", stdout=writing, stderr=subprocess.PIPE, check=False)
+    os.close(writing)
+    assert (done.returncode, done.stderr) == (ExitCode.OK, b"")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+@pytest.mark.parametrize("arguments", [["parse", "--text", "take the cup"], ["--help"], ["--version"]])
+def test_the_disk_is_full(arguments: list[str]) -> None:
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-m", "tmd", *arguments]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
+    assert done.returncode == ExitCode.CANNOT_WRITE
+    assert done.stderr.startswith(b"error: output: No space left on device\n")
+
+
+def test_every_code_is_provoked() -> None:
+    """The codes of the table above and those that have a test of their own."""
+    own = {
+        ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND, ExitCode.INTERNAL,
+        ExitCode.INTERRUPTED,
+    }  # fmt: skip
+    assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)

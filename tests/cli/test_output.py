@@ -1,0 +1,185 @@
+"""What the commands print: the documented JSON, the same bytes every time, nothing half-written."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import BLOCKS, ROOT, Tmd
+from tmd.errors import ExitCode
+
+DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
+TEXT = "Fill the pot with water."
+GROUND_KEYS = [
+    "text", "domain", "environment", "clauses", "skipped", "unseen_verbs", "unknown_nouns", "plans", "refusals"
+]  # fmt: skip
+PLAN_KEYS = ["steps", "energy", "factors", "valid", "cost", "why_not_first"]
+
+
+def test_ground_json(tmd: Tmd, environment: Path) -> None:
+    ended = tmd("ground", "--environment", environment, "--text", TEXT, "--top", "2", "--json")
+    assert ended.code == ExitCode.OK
+    told = json.loads(ended.out)
+    assert list(told) == GROUND_KEYS
+    assert (told["text"], told["domain"], told["environment"]) == (TEXT, "kitchen", "mine")
+    assert [clause["verb"] for clause in told["clauses"]] == ["fill"]
+    assert 1 <= len(told["plans"]) <= 2
+    for place, plan in enumerate(told["plans"]):
+        assert list(plan) == PLAN_KEYS
+        assert plan["valid"] is True
+        assert (plan["why_not_first"] is None) == (place == 0)
+        assert plan["energy"] == pytest.approx(sum(plan["factors"].values()), abs=1e-5)
+        for step in plan["steps"]:
+            assert list(step) == ["action", "args", "clause", "latent"]
+            assert step["clause"] == 0
+    energies = [plan["energy"] for plan in told["plans"]]
+    assert energies == sorted(energies)
+
+
+def test_a_grounded_plan_passes_the_validator(tmd: Tmd, tmp_path: Path, environment: Path) -> None:
+    """The plan of one command is executed by another, from the environment compiled by a third."""
+    told = json.loads(tmd("ground", "--environment", environment, "--text", TEXT, "--json").out)
+    problem, plan = tmp_path / "mine.pddl", tmp_path / "plan"
+    assert tmd("compile", environment, "--goal", "(contains pot1 water)", "--output", problem).code == ExitCode.OK
+    steps = told["plans"][0]["steps"]
+    plan.write_text("".join(f"({' '.join([s['action'], *s['args']])})\n" for s in steps))
+    ended = tmd("validate", "kitchen", problem, plan, "--json")
+    assert ended.code == ExitCode.OK, ended
+    assert json.loads(ended.out)["cost"] == told["plans"][0]["cost"]
+    plan.write_text(plan.read_text().splitlines()[-1] + "\n")
+    assert tmd("validate", "kitchen", problem, plan).code == ExitCode.INVALID_PLAN
+
+
+def test_a_pddl_problem_is_an_environment(tmd: Tmd, tmp_path: Path, environment: Path) -> None:
+    problem = tmp_path / "mine.pddl"
+    tmd("compile", environment, "--output", problem)
+    ended = tmd("ground", "--environment", problem, "--domain", "kitchen", "--text", TEXT, "--json")
+    assert ended.code == ExitCode.OK
+    assert ended.out == tmd("ground", "--environment", environment, "--text", TEXT, "--json").out
+
+
+def test_the_reference_planner_finds_plans_of_the_same_cost(tmd: Tmd) -> None:
+    costs = {}
+    for planner in ("in-process", "fast-downward"):
+        told = json.loads(tmd("plan", DOMAIN, PROBLEM, "--planner", planner, "--json").out)
+        assert list(told) == ["status", "planner", "plan", "cost", "reason"]
+        assert (told["status"], told["planner"], told["reason"]) == ("solved", planner, None)
+        costs[planner] = (told["cost"], len(told["plan"]))
+    assert costs["in-process"] == costs["fast-downward"] == (6, 6)
+
+
+def test_a_plan_file_passes_the_validator(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd("plan", DOMAIN, PROBLEM, "--output", "found.plan")
+    assert (ended.code, ended.out, ended.err) == (ExitCode.OK, "", "")
+    assert tmd("validate", DOMAIN, PROBLEM, tmp_path / "found.plan").out == "valid: 6 instructions, cost 6\n"
+
+
+def test_validate_json(tmd: Tmd) -> None:
+    ended = tmd("validate", DOMAIN, PROBLEM, BLOCKS / "plans" / "invalid-not-clear.plan", "--json")
+    told = json.loads(ended.out)
+    assert list(told) == ["valid", "status", "step", "line", "instruction", "broken", "reason", "cost"]
+    assert told["valid"] is False
+    assert (told["status"], told["step"], told["line"]) == ("broken-precondition", 1, 2)
+    assert (told["instruction"], told["broken"]) == ("(pick-up a)", "(clear a)")
+
+
+def test_parse_json(tmd: Tmd) -> None:
+    text = "Take the cup and put it in the microwave. Foo, bar."
+    told = json.loads(tmd("parse", "--text", text, "--json").out)
+    assert list(told) == ["clauses", "skipped"]
+    first, second, *_ = told["clauses"]
+    assert first == {"verb": "take", "objects": ["cup"], "relations": [], "text": "Take the cup", "span": [0, 12]}
+    assert (second["verb"], second["objects"]) == ("put", ["it", "microwave"])
+    assert second["relations"] == [["in", "it", "microwave"]]
+    assert second["antecedents"] == {"it": ["cup"]}
+    for piece in (*told["clauses"], *told["skipped"]):
+        assert text[piece["span"][0] : piece["span"][1]] == piece["text"]
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["parse", "--json", "--text", "take the cup, fill it, put it on the stove"],
+        ["compile", ROOT / "problems" / "kitchen" / "environments" / "kitchen1.yaml"],
+        ["plan", DOMAIN, PROBLEM, "--json"],
+        ["ground", "--environment", "kitchen5", "--text", "take the ramen and fill the pot with water", "--json"],
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_the_same_bytes_every_time(tmd: Tmd, arguments: list[str | Path]) -> None:
+    runs = [tmd(*arguments, env={"PYTHONHASHSEED": seed}) for seed in ("1", "2")]
+    assert runs[0] == runs[1]
+    assert runs[0].code == ExitCode.OK
+
+
+@pytest.mark.parametrize("encoding", ["utf-8", "ascii", "latin-1"])
+def test_output_is_utf8_whatever_the_terminal_says(tmd: Tmd, encoding: str) -> None:
+    ended = tmd("parse", "--text", "take the café", "--json", env={"PYTHONIOENCODING": encoding})
+    assert "take the café" in ended.out
+
+
+def test_text_from_a_file_and_from_standard_input(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "said.txt").write_bytes(b"\xef\xbb\xbftake the cup\r\n")
+    wanted = tmd("parse", "--text", "take the cup\r\n", "--json")
+    assert wanted.code == ExitCode.OK
+    assert tmd("parse", "--text-file", "said.txt", "--json") == wanted
+    assert tmd("parse", "--text-file", "-", "--json", stdin=b"take the cup\r\n") == wanted
+
+
+def test_text_that_is_not_utf8(tmd: Tmd) -> None:
+    ended = tmd("parse", "--text-file", "-", stdin=b"take \xff cup")
+    assert ended.code == ExitCode.BAD_INPUT
+    assert ended.err == "error: standard input: byte 6 is not UTF-8\nhint: send UTF-8\n"
+
+
+def test_ten_thousand_words(tmd: Tmd, environment: Path) -> None:
+    text = b"boil water in the pot. " * 2000
+    assert tmd("parse", "--text-file", "-", "--json", stdin=text).code == ExitCode.OK
+    ended = tmd("ground", "--environment", environment, "--text-file", "-", stdin=text)
+    assert (ended.code, ended.out) == (ExitCode.BAD_INPUT, "")
+    assert ended.err.startswith("error: the text has 10,000 words; at most 1,000 ")
+
+
+def test_a_million_characters(tmd: Tmd) -> None:
+    ended = tmd("parse", "--text-file", "-", stdin=b"a" * 1_000_001)
+    assert ended.code == ExitCode.BAD_INPUT
+    assert "more than 1,000,000" in ended.err
+
+
+def test_what_is_unknown_is_told(tmd: Tmd, environment: Path) -> None:
+    ended = tmd(
+        "ground", "--environment", environment, "--text", f"{TEXT} Flurble it. Put the zebra in the sink.", "--json"
+    )
+    told = json.loads(ended.out)
+    assert told["unseen_verbs"] == ["flurble"]
+    assert told["unknown_nouns"] == ["zebra"]
+    assert "warning: no demonstration has the verb 'flurble'" in ended.err
+    assert "warning: nothing here is called 'zebra'" in ended.err
+
+
+def test_a_no_is_json_too(tmd: Tmd, environment: Path) -> None:
+    ended = tmd("ground", "--environment", environment, "--text", "Flurble the pot.", "--json")
+    assert ended.code == ExitCode.NOT_GROUNDED
+    assert json.loads(ended.out)["plans"] == []
+
+
+def test_output_is_not_half_written(tmd: Tmd, tmp_path: Path, environment: Path) -> None:
+    target = tmp_path / "out.pddl"
+    target.write_text("before")
+    ended = tmd("compile", environment, "--goal", "(nonsense)", "--output", target)
+    assert ended.code == ExitCode.BAD_INPUT
+    assert target.read_text() == "before"
+
+
+def test_domains_of_ones_own(tmd: Tmd, tmp_path: Path) -> None:
+    """A folder with a plain domain.pddl is a domain; it has no demonstrations yet, and tmd says so."""
+    folder = tmp_path / "own" / "blocks"
+    folder.mkdir(parents=True)
+    (folder / "domain.pddl").write_bytes(DOMAIN.read_bytes())
+    roots = ("--domains", tmp_path / "own", "--problems", tmp_path)
+    assert tmd(*roots, "plan", "blocks", PROBLEM).code == ExitCode.OK
+    ended = tmd(*roots, "ground", "--environment", PROBLEM, "--domain", "blocks", "--text", "take block a")
+    assert ended.code == ExitCode.NOT_GROUNDED
+    assert "the domain has no demonstrations" in ended.err

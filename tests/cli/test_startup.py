@@ -1,0 +1,30 @@
+"""Start-up stays quick: the commands import nothing heavy before they need it."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+
+import pytest
+
+from tmd.cli.program import COMMANDS
+
+HEAVY = {
+    "hypothesis", "joblib", "lark", "llvmlite", "numba", "numpy", "pddl", "pydantic", "rich", "unified_planning", "yaml"
+}  # fmt: skip
+PROBE = """
+import sys
+from tmd.cli.program import run
+code = run(sys.argv[1:])
+print(int(code), *sorted({name.partition(".")[0] for name in sys.modules}), file=sys.stderr)
+"""
+
+
+@pytest.mark.parametrize("arguments", [[], ["--help"], ["--version"], *([c, "--help"] for c in COMMANDS)])
+def test_help_imports_nothing_heavy(arguments: list[str]) -> None:
+    done = subprocess.run([sys.executable, "-c", PROBE, *arguments], capture_output=True, text=True, check=True)
+    code, *modules = done.stderr.split()
+    assert code == "0"
+    assert "click" in modules
+    assert not HEAVY & set(modules)
+    assert done.stdout
