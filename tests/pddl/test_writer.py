@@ -125,6 +125,14 @@ def test_the_portable_form_is_the_problem_itself_where_it_can_be() -> None:
     assert portable(problem) == problem
 
 
+@pytest.mark.parametrize("number", ["1.5", "-1", "1e3", "9" * 5000, "9" * 400 + ".0"])
+def test_costs_are_whole_numbers(number: str) -> None:
+    domain = parse_domain(f"{HEAD} (:predicates (p)) (:functions (total-cost) (f)))")
+    text = f"(define (problem x) (:domain d) (:init (= (f) {number})) (:goal (p)))"
+    with pytest.raises(TmdError, match="is not a whole number"):
+        parse_problem(text, domain)
+
+
 def test_values_and_metric() -> None:
     domain = parse_domain(f"{HEAD} (:predicates (p)) (:functions (total-cost) (f ?x - a)))")
     text = """(define (problem x) (:domain d) (:requirements :equality) (:objects k - s m - a)

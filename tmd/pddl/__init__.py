@@ -24,6 +24,7 @@ module                  holds
 ``conjunctions``        conditions before they are ground: conjuncts, predicates, free variables
 ``join``                bindings that satisfy a conjunction
 ``reachability``        which literals may ever hold and which rules may ever fire
+``simulator``           executing sequences by force, for scoring
 ``validator``           whether a plan works, and the first reason why it does not
 ======================  ==========================================================================
 """

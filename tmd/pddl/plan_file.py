@@ -18,7 +18,7 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
-_COST = re.compile(r";\s*cost\s*=\s*([0-9]+)\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
+_COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
 _STAMP = re.compile(r"[0-9.]+\s*:")
 
 

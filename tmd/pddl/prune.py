@@ -7,9 +7,9 @@ of conditions that are settled by it. The result is exact for all reachable stat
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from tmd.pddl.ground_action import Conditional, GroundAction, GroundEffect, grouped
+from tmd.pddl.ground_action import Conditional, GroundAction, grouped
 from tmd.pddl.normal_form import Literals
 from tmd.pddl.reachability import Reachability
 
@@ -56,11 +56,14 @@ class _Known:
 
     def action(self, action: GroundAction, effects: Sequence[Conditional]) -> GroundAction:
         clauses = (c for c in action.clauses if not any(self.truth(literal) for literal in c))
-        fired = GroundAction(action.instruction, (), tuple(effects), action.cost)
-        flat = (
-            GroundEffect(self.open(condition), literal)
-            for condition, literal in fired.flat()
-            if literal >> 1 in self.fluent and not any(self.truth(x) is False for x in condition)
-        )
+        kept: list[Conditional] = []
+        shortened = False
+        for condition, add, delete in effects:
+            add, delete = add & self.fluent, delete & self.fluent
+            if (add or delete) and not any(self.truth(literal) is False for literal in condition):
+                kept.append(Conditional(self.open(condition), add, delete))
+                shortened |= len(kept[-1].condition) < len(condition)
         left = tuple(dict.fromkeys(self.open(c) for c in clauses))
-        return GroundAction(action.instruction, left, grouped(flat), action.cost, action.forced)
+        found = GroundAction(action.instruction, left, tuple(kept), action.cost, action.forced)
+        # Shorter conditions may coincide or be empty; then adding wins anew.
+        return replace(found, effects=grouped(found.flat())) if shortened else found

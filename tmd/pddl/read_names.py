@@ -11,7 +11,7 @@ from tmd.pddl.syntax import Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
-_NUMBER = re.compile(r"[0-9]+(\.[0-9]+)?")
+_NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
 
 RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "either", "increase"})
 
@@ -62,9 +62,10 @@ def read_number(node: Node, source: Source) -> int | None:
     """A whole number that is not negative; ``None`` where ``node`` is no number at all."""
     if isinstance(node, Group) or not re.fullmatch(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", node.text):
         return None
-    if _NUMBER.fullmatch(node.text) and float(node.text) == int(float(node.text)):
-        return int(float(node.text)) if "." in node.text else int(node.text)
-    raise source.error(f'cost "{node.text}" is not a whole number from 0 up', node.location)
+    whole = _NUMBER.fullmatch(node.text)
+    if whole:
+        return int(whole[1])
+    raise source.error(f'cost "{node.text}" is not a whole number from 0 to 10^15', node.location)
 
 
 def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, what: str) -> tuple[TypedName, ...]:
