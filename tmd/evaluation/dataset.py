@@ -194,11 +194,11 @@ class VeilDataset:
     def scorer(self, environment: str) -> Scorer:
         """The metrics under the literal rules."""
         if environment not in self._scorers:
-            from tmd.world.veil500.compile import compile_environment
+            from tmd.world.veil500.compile import absent_types, compile_environment
             from tmd.world.veil500.forms import mentioned
 
-            problem = compile_environment(self._data.environments[self._key(environment)], "literal")
-            scorer = Scorer(problem, mentioned)
+            place = self._data.environments[self._key(environment)]
+            scorer = Scorer(compile_environment(place, "literal"), mentioned, absent_types(place))
             scorer.prepare(e.gold for e in self.examples if e.environment == environment)
             self._scorers[environment] = scorer
         return self._scorers[environment]

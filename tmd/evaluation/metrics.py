@@ -10,7 +10,7 @@ demonstrations.
   floor beside it. **EED-trim** first drops states that look like the one before, which takes most of the
   floor away.
 
-Both sequences are executed by force (:mod:`tmd.world.veil500.simulator`): preconditions are not read. Report
+Both sequences are executed by force (:mod:`tmd.pddl.simulator`): preconditions are not read. Report
 the share of executable predictions beside END.
 """
 
@@ -25,7 +25,7 @@ from typing import TypeAlias
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.task import Bits, Task
-from tmd.world.veil500.simulator import Rollout, Simulator, rollout
+from tmd.pddl.simulator import Rollout, Simulator, rollout
 
 __all__ = [
     "EPSILON",

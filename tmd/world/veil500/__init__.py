@@ -10,7 +10,7 @@ from tmd.world.veil500.environment import VeilEnvironment, VeilObject
 from tmd.world.veil500.forms import from_veil, mentioned, to_veil
 from tmd.world.veil500.repair import executability, repair, repaired
 from tmd.world.veil500.report import DataReport, check
-from tmd.world.veil500.simulator import Rollout, Simulator, rollout
+from tmd.pddl.simulator import Rollout, Simulator, rollout
 
 __all__ = [
     "DataReport",

@@ -17,7 +17,7 @@ from tmd.pddl.task import Bits, Cube, Task
 from tmd.world.veil500.compile import compile_environment
 from tmd.world.veil500.data import Group, Point, VeilData
 from tmd.world.veil500.environment import VeilEnvironment
-from tmd.world.veil500.simulator import Simulator
+from tmd.pddl.simulator import Simulator
 
 HANDS = 2
 """How many things the two-handed variant lets the robot hold."""

@@ -1,0 +1,60 @@
+"""Every bundled planning problem: read, written and read again, still what its environment says, and solvable."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from tmd.pddl.grounding import ground
+from tmd.pddl.model import Problem
+from tmd.pddl.reader import parse_problem, read_domain, read_problem
+from tmd.pddl.writer import format_problem
+from tmd.veil.corpus import Corpus
+from tmd.veil.replay import replay
+from tmd.world.compile import compile_problem
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder
+
+ROOT = Path(__file__).parents[2]
+PROBLEMS = sorted(ROOT.glob("problems/**/*.pddl"))
+CORPORA = sorted({p.parent.parent for p in ROOT.glob("problems/*/*/demonstrations.jsonl")})
+
+
+def read(path: Path) -> Problem:
+    return read_problem(path, read_domain(ROOT / "domains" / path.parent.name / "domain.pddl"))
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: p.stem)
+def test_a_problem_survives_a_round_trip(path: Path) -> None:
+    problem = read(path)
+    again = parse_problem(format_problem(problem), problem.domain)
+    assert (again.init, again.objects, again.goal) == (problem.init, problem.objects, problem.goal)
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: p.stem)
+def test_a_problem_is_what_its_environment_compiles_to(path: Path) -> None:
+    environment = path.parent / "environments" / f"{path.stem.rpartition('-')[2]}.yaml"
+    folder = DomainFolder(ROOT / "domains" / path.parent.name)
+    compiled = compile_problem(load_environment(environment), folder)
+    problem = read(path)
+    assert problem.init == compiled.init
+    assert sorted(o.name for o in problem.objects) == sorted(o.name for o in compiled.objects)
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: p.stem)
+def test_a_problem_has_a_goal_that_relaxed_reachability_admits_and_words_for_it(path: Path) -> None:
+    task = ground(read(path))
+    assert task.goal
+    assert not any(cube.holds(task.init) for cube in task.goal)
+    assert path.with_suffix(".nl").read_text().strip()
+
+
+@pytest.mark.parametrize("directory", CORPORA, ids=lambda p: p.name)
+def test_every_fact_that_a_demonstration_brings_about_is_reachable_in_the_ground_task(directory: Path) -> None:
+    corpus = Corpus(DomainFolder(ROOT / "domains" / directory.name), directory)
+    for demonstration in corpus.demonstrations():
+        world = corpus.world(demonstration.environment)
+        assert all(i in world.task.by_instruction for i in demonstration.instructions), demonstration.id
+        for state in replay(demonstration, world.task.problem):
+            assert world.task.decode(world.task.encode(state)) == state, demonstration.id
