@@ -1,7 +1,7 @@
 """Measure the clause parser: ``python -m experiments.bench.parse_speed``.
 
-Prints the start-up (import and first parse in a fresh interpreter), sentences per second on the invented gold texts, and
-the time for texts of growing length, which shows that it is linear.
+Prints the start-up (import and first parse in a fresh interpreter), sentences per second on the invented gold
+texts, and the time for texts of growing length, which shows that it is linear.
 """
 
 from __future__ import annotations
