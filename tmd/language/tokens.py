@@ -133,7 +133,8 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
                 continue
         last_seen[key] = position
         pair = words[position : position + 2]
-        if pair == words[position + 2 : position + 4] and len(set(pair)) == 2 and Kind.NUM is not token.kind:
+        plain = all(t.kind is Kind.WORD for t in tokens[position : position + 2])
+        if plain and pair == words[position + 2 : position + 4] and len(set(pair)) == 2:
             dropped.extend(tokens[position : position + 2])
             position += 2
             continue
