@@ -54,36 +54,65 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
     library = Library(lexicon)
     for demonstration in demonstrations:
         world = world_of(demonstration.environment)
-        clauses = align(parse(demonstration.text, lexicon).clauses, demonstration.segments)
         state = world.task.init
-        for segment, clause in zip(demonstration.segments, clauses, strict=True):
-            if segment.instructions and clause is None:
-                library.unaligned.append((demonstration.id, demonstration.text[segment.start : segment.end]))
-            elif segment.instructions and clause is not None:
+        for clause, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
+            instructions = tuple(i for segment in segments for i in segment.instructions)
+            if instructions and clause is None:
+                library.unaligned.append((demonstration.id, demonstration.text[segments[0].start : segments[-1].end]))
+            elif instructions and clause is not None:
                 library.add(
                     generalise(
                         demonstration.id,
                         clause,
                         demonstration.environment,
-                        segment.instructions,
+                        instructions,
                         state,
                         world.profiles,
                         world.mentions,
                     )
                 )
-            state = run(world, state, segment.instructions)
+            state = run(world, state, instructions)
     return library
 
 
-def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[Clause | None]:
-    """For each segment the first clause that lies in it more than in any other; ``None`` where there is none."""
-    found: list[Clause | None] = [None] * len(segments)
+def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[Clause | None, list[Segment]]]:
+    """The segments in their order, each with the first clause that has most of its words there.
+
+    A segment without a clause joins its neighbour if the neighbour's clause begins or ends in it: in *when it
+    boils, add the ramen* the waiting serves the adding. Otherwise it stands alone, with ``None``.
+    """
+    owners: list[Clause | None] = [None] * len(segments)
     for clause in clauses:
-        overlaps = [min(clause.span.end, segment.end) - max(clause.span.start, segment.start) for segment in segments]
+        overlaps = [_overlap(clause, segment) for segment in segments]
         if overlaps and max(overlaps) > 0:
             best = overlaps.index(max(overlaps))
-            found[best] = found[best] or clause
-    return found
+            owners[best] = owners[best] or clause
+    for index, segment in enumerate(segments):
+        if owners[index] is None:
+            near = [owners[i] for i in (index + 1, index - 1) if 0 <= i < len(segments)]
+            owners[index] = next((c for c in near if c and _touches(c, segment)), None)
+    grouped: list[tuple[Clause | None, list[Segment]]] = []
+    for owner, segment in zip(owners, segments, strict=True):
+        if grouped and owner is not None and grouped[-1][0] is owner:
+            grouped[-1][1].append(segment)
+        else:
+            grouped.append((owner, [segment]))
+    return grouped
+
+
+def _overlap(clause: Clause, segment: Segment) -> int:
+    """How many characters of the clause lie in the segment; its condition, duration and purpose do not count."""
+    start, end = max(clause.span.start, segment.start), min(clause.span.end, segment.end)
+    count = max(0, end - start)
+    for aside in (clause.condition, clause.duration, clause.purpose):
+        if aside is not None and aside in clause.text:
+            begins = clause.span.start + clause.text.index(aside)
+            count -= max(0, min(begins + len(aside), end) - max(begins, start))
+    return count
+
+
+def _touches(clause: Clause, segment: Segment) -> bool:
+    return clause.span.start < segment.end and segment.start < clause.span.end
 
 
 def run(world: World, state: int, instructions: Iterable[Instruction]) -> int:
