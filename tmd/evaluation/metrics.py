@@ -24,8 +24,8 @@ from typing import TypeAlias
 
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import GroundAtom, Instruction, Problem
-from tmd.pddl.task import Bits, Task
 from tmd.pddl.simulator import Rollout, Simulator, rollout
+from tmd.pddl.task import Bits, Task
 
 __all__ = [
     "EPSILON",

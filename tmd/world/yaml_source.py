@@ -89,8 +89,7 @@ class YamlSource:
             node, mark = step
         if mark is None:
             mark = node.start_mark if node is not None else None
-        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
-        return Location(str(self.path), line, column)
+        return self._place(mark)
 
     def _from_model(self, error: ValidationError) -> TmdError:
         """The first fault; an unknown key goes before the key that is missed because of it."""
@@ -109,16 +108,15 @@ class YamlSource:
     def _from_yaml(self, error: yaml.MarkedYAMLError) -> TmdError:
         mark = error.problem_mark or error.context_mark
         problem = (error.problem or error.context or "not YAML").replace("\n", " ")
-        if mark is None:
-            return TmdError(f"{self.path}: {problem}")
-        location = Location(str(self.path), mark.line + 1, mark.column + 1)
-        return TmdError(f"not YAML: {problem}", location=location, source=self._line(mark.line + 1))
+        place = self._place(mark)
+        return TmdError(f"not YAML: {problem}", location=place, source=self._line(place.line))
 
     def _refuse_aliases(self) -> None:
         for event in yaml.parse(self.text, Loader=_Loader):
             if isinstance(event, yaml.AliasEvent):
-                location = Location(str(self.path), event.start_mark.line + 1, event.start_mark.column + 1)
-                raise TmdError("aliases are not accepted", location=location, hint="write the value out")
+                raise TmdError(
+                    "aliases are not accepted", location=self._place(event.start_mark), hint="write the value out"
+                )
 
     def _refuse_twins(self) -> None:
         waiting: list[yaml.Node] = [self._root] if self._root is not None else []
@@ -130,14 +128,15 @@ class YamlSource:
                 seen: set[str] = set()
                 for key, value in node.value:
                     if key.value in seen:
-                        location = Location(str(self.path), key.start_mark.line + 1, key.start_mark.column + 1)
-                        raise TmdError(
-                            f"the key '{key.value}' stands here twice",
-                            location=location,
-                            source=self._line(location.line),
-                        )
+                        place = self._place(key.start_mark)
+                        message = f"the key '{key.value}' stands here twice"
+                        raise TmdError(message, location=place, source=self._line(place.line))
                     seen.add(key.value)
                     waiting.append(value)
+
+    def _place(self, mark: yaml.Mark | None) -> Location:
+        line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
+        return Location(str(self.path), line, column)
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:

@@ -4,13 +4,13 @@ The data are not part of this project; give the directory of your copy to :func:
 ``docs/veil500.md``.
 """
 
+from tmd.pddl.simulator import Rollout, Simulator, rollout
 from tmd.world.veil500.compile import absent_types, compile_environment, veil_domain
 from tmd.world.veil500.data import Group, Point, VeilData, load
 from tmd.world.veil500.environment import VeilEnvironment, VeilObject
 from tmd.world.veil500.forms import from_veil, mentioned, to_veil
 from tmd.world.veil500.repair import executability, repair, repaired
 from tmd.world.veil500.report import DataReport, check
-from tmd.pddl.simulator import Rollout, Simulator, rollout
 
 __all__ = [
     "DataReport",

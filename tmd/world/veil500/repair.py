@@ -13,11 +13,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.pddl.model import And, Atom, Effect, Equals, GroundAtom, Instruction, Not, Problem, TypedName
+from tmd.pddl.simulator import Simulator
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.world.veil500.compile import compile_environment
 from tmd.world.veil500.data import Group, Point, VeilData
 from tmd.world.veil500.environment import VeilEnvironment
-from tmd.pddl.simulator import Simulator
 
 HANDS = 2
 """How many things the two-handed variant lets the robot hold."""
