@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TypeVar
+from typing import Protocol, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -21,6 +21,13 @@ MAX_BYTES = 10_000_000
 """Larger files are refused: no environment or class file comes near."""
 
 Model = TypeVar("Model", bound=BaseModel)
+
+
+class _Mark(Protocol):
+    """A place as both of PyYAML's parsers give it: counted from 0."""
+
+    line: int
+    column: int
 
 
 class _Loader(yaml.SafeLoader):
@@ -134,7 +141,7 @@ class YamlSource:
                     seen.add(key.value)
                     waiting.append(value)
 
-    def _place(self, mark: yaml.Mark | None) -> Location:
+    def _place(self, mark: _Mark | None) -> Location:
         line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
         return Location(str(self.path), line, column)
 
