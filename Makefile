@@ -13,7 +13,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.made-from-pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help setup experiment test check style format lint types docs bench clean
+.PHONY: help setup experiment test check style format lint types docs examples bench clean
 
 help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -59,6 +59,9 @@ types: setup ## Check types.
 
 docs: setup ## Run the examples in the pages, and check their links.
 	@$(BIN)/python -m pytest tests/test_docs.py
+
+examples: setup ## Run the examples in the pages, and write what they print into the pages anew.
+	@$(BIN)/python tests/test_docs.py
 
 bench: setup ## Run the benchmarks.
 	@set -e; for script in experiments/bench/*.py; do echo "== $$script"; $(BIN)/python "$$script"; done

@@ -32,6 +32,8 @@ def load_scene(roots: Roots, environment: str, domain: str | None) -> tuple[Corp
         return _pddl(roots, path, domain)
     read = load_environment(path)
     corpus = roots.corpus(roots.folder(domain or read.domain))
+    if path == corpus.directory / "environments" / f"{read.name}.yaml":
+        return corpus, corpus.world(read.name)
     return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
 
 
