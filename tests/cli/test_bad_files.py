@@ -213,3 +213,29 @@ def test_a_long_line_is_cut_around_the_fault(tmd: Tmd, tmp_path: Path) -> None:
     assert "swich" in error
     assert len(source) <= 110
     assert source[caret.index("^") :].startswith(("swich", "s2"))
+
+
+DATA_SETS = {
+    "empty directory": {},
+    "empty file": {"data.xml": ""},
+    "truncated": {"data.xml": "<root>\n<point><text>Boil wat"},
+    "not XML": {"data.xml": "text, objective\n"},
+    "another root": {"data.xml": "<points></points>"},
+    "no classes": {"data.xml": "<root></root>"},
+    "truncated classes": {"data.xml": "<root></root>", "Objects.xml": "<objects><object>"},
+}
+
+
+@pytest.mark.parametrize("files", DATA_SETS.values(), ids=list(DATA_SETS))
+@pytest.mark.parametrize(
+    "arguments", [["data", "check"], ["experiment", "--task", "all", "--data", "veil500", "--out", "o", "--veil500"]]
+)
+def test_data_sets_that_are_damaged(tmd: Tmd, tmp_path: Path, arguments: list[str], files: dict[str, str]) -> None:
+    directory = tmp_path / "veil"
+    directory.mkdir()
+    for name, text in files.items():
+        (directory / name).write_text(text)
+    ended = tmd(*arguments, directory)
+    assert (ended.code, ended.out) == (ExitCode.BAD_DATA, ""), ended
+    assert re.match(r"error: .+\n", ended.err)
+    assert not (tmp_path / "o").exists()
