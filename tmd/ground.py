@@ -13,8 +13,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from tmd.energy.energy import Energy
 from tmd.energy.infer import Inference
 from tmd.energy.plans import RankedPlan, Refusal
+from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
 from tmd.language import parse
 from tmd.language.clause import Parsed
@@ -71,7 +73,8 @@ def ground(
     """
     parsed = parse(text, library.lexicon)
     filler = make(planner, world.task)
-    inference = Inference(world, library, weights or named_weights("hand_set"), filler, beam=beam, trim=trim, top=top)
+    energy = Energy(weights or named_weights("hand_set"), count(library), world)
+    inference = Inference(world, library, energy, filler, beam=beam, trim=trim, top=top)
     inferred = inference.infer(parsed.clauses, world.task.init)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     plans = tuple(plan for plan in inferred.plans if plan.instructions or len(unseen) < len(parsed.clauses))

@@ -31,12 +31,13 @@ def steps(*texts: str) -> tuple[Instruction, ...]:
 
 def template(corpus: Corpus, environment: str, text: str, *instructions: str) -> Template:
     world = corpus.world(environment)
+    done = steps(*instructions)
     return generalise(
         "test",
         clause(text, corpus),
         environment,
-        steps(*instructions),
-        world.task.init,
+        done,
+        (world.task.init, run(world, world.task.init, done)),
         world.profiles,
         world.mentions,
     )

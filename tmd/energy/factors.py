@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
@@ -55,14 +55,3 @@ def delta_dscpl(instructions: Sequence[Instruction]) -> float:
 def delta_trim(kept: int, whole: int) -> float:
     """Trimming cost: (|I_s| - |I_i|)²."""
     return float((whole - kept) ** 2)
-
-
-def of_template(instantiation: Instantiation, clause: Clause) -> Mapping[str, float]:
-    """The factors that do not depend on how much of the template is kept."""
-    template = instantiation.template.clause
-    return {
-        "env": delta_env(instantiation),
-        "nl": delta_nl(template, clause),
-        "sim": delta_sim(instantiation),
-        "pcc": delta_pcc(template, clause),
-    }

@@ -12,9 +12,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmd.energy.constraints import get_constraints
-from tmd.energy.factors import delta_dscpl, delta_trim, of_template
+from tmd.energy.energy import Energy
 from tmd.energy.plans import Choice, RankedPlan, Refusal, Step, why_lost
-from tmd.energy.weights import Weights
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Operator
@@ -37,11 +36,12 @@ class Path:
 
 @dataclass(frozen=True, slots=True)
 class _Candidate:
-    """A trimmed instantiation: what it costs before the planner has been asked."""
+    """A trimmed instantiation: what it costs before the planner is asked, and the objects its clause speaks of."""
 
     source: str
     instructions: Sequence_
     factors: dict[str, float]
+    names: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +58,7 @@ class Inference:
     Args:
         world: The environment.
         library: The templates.
-        weights: What each factor counts for.
+        energy: The factors, weighed.
         filler: The planner that finds what was left unsaid.
         beam: How many environments each α keeps; ``None`` keeps all, which is exact.
         trim: How many leading instructions may be trimmed; ``None`` is any number.
@@ -70,7 +70,7 @@ class Inference:
         self,
         world: World,
         library: Library,
-        weights: Weights,
+        energy: Energy,
         filler: Planner,
         *,
         beam: int | None = 5,
@@ -80,7 +80,7 @@ class Inference:
     ) -> None:
         self.world = world
         self.library = library
-        self.weights = weights
+        self.energy = energy
         self.filler = filler
         self.beam = beam
         self.trim = trim
@@ -106,7 +106,7 @@ class Inference:
         for bound, state, candidate in self._queue(number, clause, alpha):
             if self._settled(found, bound):
                 break
-            reached = self._reach(number, candidate, state)
+            reached = self._reach(number, clause, candidate, state)
             if reached is not None:
                 choice, end = reached
                 found.setdefault(end, []).extend(
@@ -133,21 +133,22 @@ class Inference:
     def _settled(self, found: dict[Bits, list[Path]], bound: float) -> bool:
         """Whether no candidate that costs ``bound`` or more can enter the beam or the best plans any more.
 
-        Without a beam every candidate counts; so it does where latent steps are rewarded, since then ``bound``
-        is none.
+        Without a beam every candidate counts; so it does where weights are negative, since then
+        ``bound`` is none.
         """
-        if self.beam is None or self.weights["latent_dscpl"] < 0:
+        if self.beam is None:
             return False
-        cheaper = [sum(path.energy < bound for path in paths) for paths in found.values()]
+        least = bound + self.energy.least_more()
+        cheaper = [sum(path.energy < least for path in paths) for paths in found.values()]
         return sum(map(bool, cheaper)) >= self.beam and sum(cheaper) >= self.top
 
-    def _reach(self, number: int, candidate: _Candidate, state: Bits) -> tuple[Choice, Bits] | None:
+    def _reach(self, number: int, clause: Clause, candidate: _Candidate, state: Bits) -> tuple[Choice, Bits] | None:
         """Ask the planner for what the candidate needs; ``None`` where it cannot be executed."""
         operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
         answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
         match answer:
             case Filled():
-                return self._choice(number, candidate, answer, operators)
+                return self._choice(number, clause, candidate, answer, operators)
             case Unreachable(reason):
                 self._refuse(number, candidate.source, reason)
             case GaveUp(limit):
@@ -155,29 +156,35 @@ class Inference:
         return None
 
     def _choice(
-        self, number: int, candidate: _Candidate, filled: Filled, operators: Sequence[Operator]
+        self, number: int, clause: Clause, candidate: _Candidate, filled: Filled, operators: Sequence[Operator]
     ) -> tuple[Choice, Bits]:
         end = filled.state
         for operator in operators:
             end = operator.apply(end)
         steps = tuple(Step(i, number, latent=True) for i in filled.plan)
         steps += tuple(Step(i, number, latent=False) for i in candidate.instructions)
-        latent = self.weights["latent_dscpl"] * delta_dscpl(filled.plan)
-        return Choice(candidate.source, steps, {**candidate.factors, "latent_dscpl": latent}), end
+        verb = self.library.lexicon.canonical_verb(clause.verb)
+        weighed = {
+            **candidate.factors,
+            **self.energy.of_end(verb, candidate.names, end),
+            **self.energy.of_latent(filled.plan, filled.state),
+        }
+        return Choice(candidate.source, steps, weighed), end
 
     def _candidates(self, number: int, clause: Clause, state: Bits) -> list[_Candidate]:
         """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
-        best: dict[Sequence_, tuple[float, _Candidate]] = {}
+        best: dict[tuple[Sequence_, tuple[str, ...]], tuple[float, _Candidate]] = {}
         for template in self.library.propose(clause):
             instantiation = instantiate(template, clause, self.world, state, pair_nouns=self.pair_nouns)
             if instantiation is None:
                 self._refuse(number, template.source, "there is no object for one of its variables")
                 continue
             first = self._first_possible(number, template.source, instantiation.instructions)
-            for candidate in self._trimmings(instantiation, clause, first):
+            for candidate in self._trimmings(instantiation, clause, state, first):
                 energy = sum(candidate.factors.values())
-                if candidate.instructions not in best or energy < best[candidate.instructions][0]:
-                    best[candidate.instructions] = energy, candidate
+                key = candidate.instructions, candidate.names
+                if key not in best or energy < best[key][0]:
+                    best[key] = energy, candidate
         return [candidate for _, candidate in best.values()]
 
     def _first_possible(self, number: int, source: str, instructions: Sequence_) -> int:
@@ -188,20 +195,26 @@ class Inference:
                 return t + 1
         return 0
 
-    def _trimmings(self, instantiation: Instantiation, clause: Clause, first: int) -> list[_Candidate]:
+    def _trimmings(self, instantiation: Instantiation, clause: Clause, state: Bits, first: int) -> list[_Candidate]:
         """I[t..] for every t from ``first`` on that is allowed, with its factors weighed."""
         whole = instantiation.instructions
-        fixed = {name: self.weights[name] * v for name, v in of_template(instantiation, clause).items()}
+        fixed = self.energy.of_template(instantiation, clause)
+        names = self._meant(clause, instantiation, state)
         most = len(whole) if self.trim is None else min(self.trim, len(whole))
         found = []
         for t in range(first, most + 1):
-            kept = whole[t:]
-            own = {
-                "dscpl": self.weights["dscpl"] * delta_dscpl(kept),
-                "trim": self.weights["trim"] * delta_trim(len(kept), len(whole)),
-            }
-            found.append(_Candidate(instantiation.template.source, kept, fixed | own))
+            own = self.energy.of_sequence(whole[t:], len(whole))
+            found.append(_Candidate(instantiation.template.source, whole[t:], {**fixed, **own}, names))
         return found
+
+    def _meant(self, clause: Clause, instantiation: Instantiation, state: Bits) -> tuple[str, ...]:
+        """The clause's objects: for each noun what it may mean among the objects used, or the likeliest."""
+        used = set(instantiation.grounding.values())
+        found: dict[str, None] = {}
+        for noun in clause.resolved():
+            names = [match.name for match in self.world.mentions.of(noun, state)]
+            found.update(dict.fromkeys(next(([n] for n in names if n in used), names[:1])))
+        return tuple(found)
 
     def _needs(self, instructions: Sequence_, operators: Sequence[Operator]) -> tuple[Cube, ...]:
         """The constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""

@@ -8,8 +8,10 @@ from typing import Protocol, Self
 
 import numpy as np
 
+from tmd.energy.energy import Energy
 from tmd.energy.factors import delta_env, delta_nl
 from tmd.energy.infer import Inference
+from tmd.energy.statistics import count
 from tmd.energy.weights import named_weights
 from tmd.errors import TmdError
 from tmd.evaluation.dataset import Dataset, Example
@@ -118,20 +120,23 @@ class HandSet:
         self.trim = trim
 
     def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
-        """Build the library of each world."""
+        """Build the library of each world, and count what it holds."""
         self.libraries_ = libraries(examples, data)
+        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
         self._fillers: dict[str, Planner] = {}
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
         """The plan of least energy."""
+        if example.world not in self.libraries_:
+            return ()
         world = data.world(example.environment)
         if example.environment not in self._fillers:
             self._fillers[example.environment] = make(IN_PROCESS, world.task)
         inference = Inference(
             world,
-            self.libraries_.get(example.world) or Library(data.lexicon),
-            named_weights(self.weights),
+            self.libraries_[example.world],
+            Energy(named_weights(self.weights), self.statistics_[example.world], world),
             self._fillers[example.environment],
             beam=self.beam,
             trim=self.trim,

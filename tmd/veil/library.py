@@ -35,6 +35,10 @@ class Library:
         """D^(i): every template whose verb is the clause's, in the order of the corpus."""
         return self._by_verb.get(self.lexicon.canonical_verb(clause.verb), ())
 
+    def templates(self, verb: str) -> Sequence[Template]:
+        """The templates of a canonical verb."""
+        return self._by_verb.get(verb, ())
+
     def verbs(self) -> list[str]:
         """The verbs there are templates for, sorted."""
         return sorted(self._by_verb)
@@ -57,21 +61,21 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
         state = world.task.init
         for clause, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
             instructions = tuple(i for segment in segments for i in segment.instructions)
+            end = run(world, state, instructions)
             if instructions and clause is None:
                 library.unaligned.append((demonstration.id, demonstration.text[segments[0].start : segments[-1].end]))
             elif instructions and clause is not None:
-                library.add(
-                    generalise(
-                        demonstration.id,
-                        clause,
-                        demonstration.environment,
-                        instructions,
-                        state,
-                        world.profiles,
-                        world.mentions,
-                    )
+                template = generalise(
+                    demonstration.id,
+                    clause,
+                    demonstration.environment,
+                    instructions,
+                    (state, end),
+                    world.profiles,
+                    world.mentions,
                 )
-            state = run(world, state, instructions)
+                library.add(template)
+            state = end
     return library
 
 

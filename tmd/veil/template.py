@@ -28,6 +28,7 @@ class Template:
         profiles: E_s, as far as it matters: the states of each of those objects when the sequence began.
         links: For each two variables, the static relations between their objects.
         mentions: For each noun of the clause, the variable it meant.
+        ends: The states of each of the objects when the sequence was done.
     """
 
     source: str
@@ -40,6 +41,7 @@ class Template:
     profiles: Mapping[str, Profile]
     links: Mapping[tuple[str, str], frozenset[str]]
     mentions: Mapping[str, str]
+    ends: Mapping[str, Profile]
 
 
 def generalise(
@@ -47,7 +49,7 @@ def generalise(
     clause: Clause,
     environment: str,
     instructions: Sequence[Instruction],
-    state: Bits,
+    states: tuple[Bits, Bits],
     profiles: Profiles,
     mentions: Mentions,
 ) -> Template:
@@ -58,10 +60,11 @@ def generalise(
         clause: The clause that it served.
         environment: The name of the environment.
         instructions: What was done for the clause.
-        state: The state in which the sequence began.
+        states: The states in which the sequence began and ended.
         profiles: The states of the environment's objects.
         mentions: The nouns of the environment's objects.
     """
+    before, after = states
     names: dict[str, str] = {}
     for instruction in instructions:
         for argument in instruction.args:
@@ -78,14 +81,15 @@ def generalise(
         grounding=grounding,
         classes={variable: types[name][0] if name in types else "" for variable, name in grounding.items()},
         wanted={variable: _wanted(generalised, variable, profiles) for variable in grounding},
-        profiles={variable: profiles.of(name, state) for variable, name in grounding.items()},
+        profiles={variable: profiles.of(name, before) for variable, name in grounding.items()},
         links={
             (a, b): profiles.links[grounding[a], grounding[b]]
             for a in grounding
             for b in grounding
             if (grounding[a], grounding[b]) in profiles.links
         },
-        mentions=_meant(clause, names, mentions, state),
+        mentions=_meant(clause, names, mentions, before),
+        ends={variable: profiles.of(name, after) for variable, name in grounding.items()},
     )
 
 

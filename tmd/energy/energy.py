@@ -1,0 +1,107 @@
+"""The energy of a choice: every factor, weighed (section VI). What is a sum over choices is the paper's Γ."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from tmd.energy import factors
+from tmd.energy.statistics import EndStates, Statistics, kind_of
+from tmd.energy.weights import Weights
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
+from tmd.veil.instantiate import Instantiation
+from tmd.veil.world import World
+
+Weighed = dict[str, float]
+"""Factors by name, each already multiplied by its weight."""
+
+
+class Energy:
+    """The factors of one environment under given weights.
+
+    Args:
+        weights: What each factor counts for.
+        statistics: The tables of the training data.
+        world: The environment.
+    """
+
+    def __init__(self, weights: Weights, statistics: Statistics, world: World) -> None:
+        self.weights = weights
+        self.statistics = statistics
+        self.world = world
+        self._surprises: dict[Instruction, tuple[float, float]] = {}
+
+    def of_template(self, instantiation: Instantiation, clause: Clause) -> Weighed:
+        """The factors of ψ_i that do not depend on how much of the template is kept."""
+        template = instantiation.template.clause
+        return self._weigh(
+            {
+                "env": factors.delta_env(instantiation),
+                "nl": factors.delta_nl(template, clause),
+                "sim": factors.delta_sim(instantiation),
+                "pcc": factors.delta_pcc(template, clause),
+            }
+        )
+
+    def of_sequence(self, kept: Sequence[Instruction], whole: int) -> Weighed:
+        """The factors of ψ_i that depend on the instructions that are kept."""
+        inpr, para = self._prior(kept)
+        return self._weigh(
+            {
+                "dscpl": factors.delta_dscpl(kept),
+                "inpr": inpr,
+                "para": para,
+                "trim": factors.delta_trim(len(kept), whole),
+            }
+        )
+
+    def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Weighed:
+        """ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
+        table = self.statistics.ends.get(verb)
+        return self._weigh({"cons": self._inconsistency(table, names, end) if table is not None else 0.0})
+
+    def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Weighed:
+        """ψ_il and ψ'_il, for the instructions that were left unsaid; nothing where none are needed."""
+        if not plan:
+            return {}
+        inpr, para = self._prior(plan)
+        used = dict.fromkeys(a for i in plan for a in i.args if a not in self.world.profiles.constants)
+        return self._weigh(
+            {
+                "latent_dscpl": factors.delta_dscpl(plan),
+                "latent_inpr": inpr,
+                "latent_para": para,
+                "latent_cons": self._inconsistency(self.statistics.all_ends, list(used), end),
+            }
+        )
+
+    def least_more(self) -> float:
+        """The least that end and latent factors can add to a candidate: they are never negative but by weight."""
+        if any(self.weights[name] < 0 for name in ("latent_dscpl", "latent_inpr", "latent_para")):
+            return -math.inf
+        return min(0.0, self.weights["cons"]) + min(0.0, self.weights["latent_cons"])
+
+    def _weigh(self, values: Mapping[str, float]) -> Weighed:
+        return {name: self.weights[name] * value for name, value in values.items()}
+
+    def _prior(self, instructions: Sequence[Instruction]) -> tuple[float, float]:
+        """Δ_inpr and Δ_para: the mean surprise of the instructions, and of the classes of their arguments."""
+        if not instructions:
+            return 0.0, 0.0
+        found = [self._surprise(instruction) for instruction in instructions]
+        count = len(found)
+        return math.fsum(own for own, _ in found) / count, math.fsum(args for _, args in found) / count
+
+    def _surprise(self, instruction: Instruction) -> tuple[float, float]:
+        if instruction not in self._surprises:
+            kinds = [kind_of(argument, self.world) for argument in instruction.args]
+            self._surprises[instruction] = self.statistics.surprise(instruction, kinds)
+        return self._surprises[instruction]
+
+    def _inconsistency(self, table: EndStates, names: Sequence[str], end: Bits) -> float:
+        """Δ_cons: one minus the mean probability of the objects' states; 0 for no object."""
+        objects = [(kind_of(name, self.world), self.world.profiles.of(name, end)) for name in names]
+        probability = table.mean(objects)
+        return 1 - probability if probability is not None else 0.0
