@@ -20,7 +20,7 @@ def instantiation(
     before: dict[str, dict[tuple[str, ...], bool]], after: dict[str, dict[tuple[str, ...], bool]]
 ) -> Instantiation:
     grounding = {z: f"{z[1:]}_before" for z in before}
-    template = Template("t", Clause("take", ("cup", "water")), "e", (), grounding, {}, {}, before, {}, {}, {})
+    template = Template("t", Clause("take", ("cup", "water")), "e", (), grounding, {}, {}, before, {}, {}, {}, ())
     return Instantiation(template, (), {z: f"{z[1:]}_after" for z in after}, after)
 
 

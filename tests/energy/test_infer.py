@@ -20,7 +20,7 @@ from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner
 from tmd.veil.corpus import Corpus
-from tmd.veil.instantiate import Instantiation, instantiate
+from tmd.veil.instantiate import instantiate
 from tmd.veil.library import Library, learn
 from tmd.veil.world import World
 
@@ -100,13 +100,6 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
     filler = make(IN_PROCESS, world.task)
     scorer = Energy(weights, count(library), world)
 
-    def meant(clause: Clause, made: Instantiation, state: int) -> list[str]:
-        found = []
-        for noun in clause.resolved():
-            names = [m.name for m in world.mentions.of(noun, state)]
-            found += [n for n in names if n in made.grounding.values()][:1] or names[:1]
-        return list(dict.fromkeys(found))
-
     def ways(clause: Clause, state: int) -> list[tuple[float, int]]:
         found = []
         for template in library.propose(clause):
@@ -126,7 +119,7 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
                 parts = (
                     scorer.of_template(made, clause),
                     scorer.of_sequence(whole[t:], len(whole)),
-                    scorer.of_end(clause.verb, meant(clause, made, state), end),
+                    scorer.of_end(clause.verb, world.mentions.meant(clause, made.grounding.values(), state), end),
                     scorer.of_latent(answer.plan, answer.state),
                 )
                 found.append((sum(sum(part.values()) for part in parts), end))

@@ -199,22 +199,13 @@ class Inference:
         """I[t..] for every t from ``first`` on that is allowed, with its factors weighed."""
         whole = instantiation.instructions
         fixed = self.energy.of_template(instantiation, clause)
-        names = self._meant(clause, instantiation, state)
+        names = self.world.mentions.meant(clause, instantiation.grounding.values(), state)
         most = len(whole) if self.trim is None else min(self.trim, len(whole))
         found = []
         for t in range(first, most + 1):
             own = self.energy.of_sequence(whole[t:], len(whole))
             found.append(_Candidate(instantiation.template.source, whole[t:], {**fixed, **own}, names))
         return found
-
-    def _meant(self, clause: Clause, instantiation: Instantiation, state: Bits) -> tuple[str, ...]:
-        """The clause's objects: for each noun what it may mean among the objects used, or the likeliest."""
-        used = set(instantiation.grounding.values())
-        found: dict[str, None] = {}
-        for noun in clause.resolved():
-            names = [match.name for match in self.world.mentions.of(noun, state)]
-            found.update(dict.fromkeys(next(([n] for n in names if n in used), names[:1])))
-        return tuple(found)
 
     def _needs(self, instructions: Sequence_, operators: Sequence[Operator]) -> tuple[Cube, ...]:
         """The constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""

@@ -107,8 +107,8 @@ def _count_template(verb: str, template: Template, found: Statistics) -> None:
             table = found.parameters.setdefault((instruction.name, position), Frequencies())
             table.add(template.classes.get(argument, argument))
     ends = found.ends.setdefault(verb, EndStates())
-    for variable in dict.fromkeys(template.mentions.values()):
-        ends.add(template.classes[variable], template.ends[variable])
+    for kind, profile in template.subjects:
+        ends.add(kind, profile)
     for variable, profile in template.ends.items():
         found.all_ends.add(template.classes[variable], profile)
 

@@ -6,8 +6,9 @@ a noun that names no object but something an object contains (*coffee*, *raspber
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
+from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
 from tmd.language.nouns import Candidate, Match, rank
 from tmd.pddl.hierarchy import hierarchy
@@ -54,6 +55,27 @@ class Mentions:
                 if name not in found or found[name].score < better.score:
                     found[name] = better
         return sorted(found.values(), key=lambda m: -m.score)
+
+    def meant(self, clause: Clause, used: Collection[str], state: Bits) -> tuple[str, ...]:
+        """The clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.
+
+        Of several that are equally likely it is the one with the most edges to what was used: the burner of the
+        knob that was turned.
+        """
+        found: dict[str, None] = {}
+        for noun in clause.resolved():
+            matches = self.of(noun, state)
+            chosen = next((match.name for match in matches if match.name in used), None)
+            if chosen is None and matches:
+                best = [match.name for match in matches if match.score == matches[0].score]
+                chosen = max(best, key=lambda name: self._edges(name, used))
+            if chosen is not None:
+                found[chosen] = None
+        return tuple(found)
+
+    def _edges(self, name: str, used: Collection[str]) -> int:
+        links = self.profiles.links
+        return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
 
     def _containers(self, constant: str, state: Bits) -> list[str]:
         """The objects in one of whose states ``constant`` stands, in the problem's order."""

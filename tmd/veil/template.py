@@ -29,6 +29,7 @@ class Template:
         links: For each two variables, the static relations between their objects.
         mentions: For each noun of the clause, the variable it meant.
         ends: The states of each of the objects when the sequence was done.
+        subjects: The objects that the clause speaks of: class, and states when the sequence was done.
     """
 
     source: str
@@ -42,6 +43,7 @@ class Template:
     links: Mapping[tuple[str, str], frozenset[str]]
     mentions: Mapping[str, str]
     ends: Mapping[str, Profile]
+    subjects: tuple[tuple[str, Profile], ...]
 
 
 def generalise(
@@ -90,6 +92,7 @@ def generalise(
         },
         mentions=_meant(clause, names, mentions, before),
         ends={variable: profiles.of(name, after) for variable, name in grounding.items()},
+        subjects=tuple((types[name][0], profiles.of(name, after)) for name in mentions.meant(clause, names, before)),
     )
 
 
