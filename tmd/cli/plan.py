@@ -28,20 +28,19 @@ def command(
     """
     from tmd.atomic import write_text
     from tmd.cli.show_answer import answer_json, exit_code, plan_text, why_none
-    from tmd.pddl.grounding import ground
     from tmd.pddl.reader import read_problem
-    from tmd.planning.backends import IN_PROCESS, make
+    from tmd.planning.backends import IN_PROCESS, solve
     from tmd.planning.result import Filled
 
     name = planner or IN_PROCESS
-    task = ground(read_problem(problem, roots.domain(domain)))
-    answer = make(name, task).fill(task.init, task.goal)
+    wanted = read_problem(problem, roots.domain(domain))
+    answer = solve(wanted, name)
     if isinstance(answer, Filled) and output:
-        write_text(output, plan_text(answer, task))
+        write_text(output, plan_text(answer, wanted.domain))
     if as_json:
         emit_json(answer_json(answer, name))
     elif isinstance(answer, Filled) and not output:
-        emit(plan_text(answer, task))
+        emit(plan_text(answer, wanted.domain))
     if not isinstance(answer, Filled):
         emit(f"no plan: {why_none(answer)}\n", error=True)
     return exit_code(answer)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from tmd.errors import ExitCode
+from tmd.pddl.model import Domain
 from tmd.pddl.plan_file import format_plan
-from tmd.pddl.task import Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 
 
-def plan_text(answer: Filled, task: Task) -> str:
+def plan_text(answer: Filled, domain: Domain) -> str:
     """The plan as the planning competitions write it."""
-    unit = all(action.cost is None for action in task.problem.domain.actions)
+    unit = all(action.cost is None for action in domain.actions)
     return format_plan(answer.plan, answer.cost, unit=unit)
 
 
