@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from tmd.errors import TmdError
+from tmd.pddl.grounding import ground
+from tmd.pddl.model import Problem
+from tmd.pddl.syntax import nearest
 from tmd.pddl.task import Task
-from tmd.planning.result import Planner
+from tmd.planning.result import Answer, Planner
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -16,17 +19,27 @@ UP_PREFIX = "up:"
 """What stands before the name of any other engine of unified-planning."""
 
 
-def make(name: str, task: Task) -> Planner:
+PLAN_CAP = 1_000_000
+"""Generated states after which the in-process search gives up on a whole problem; gaps have a smaller cap."""
+
+
+def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
     """The planner ``name`` for ``task``.
 
+    Args:
+        name: The planner.
+        task: The ground problem.
+        cap: Generated states after which the in-process search gives up; the usual cap for gaps by default.
+
     Raises:
-        TmdError: There is no such planner.
+        TmdError: There is no such planner, or it refuses the problem.
         MissingToolError: The planner is not installed.
     """
     if name == IN_PROCESS:
         from tmd.planning.filler import GapFiller
+        from tmd.planning.search import DEFAULT_CAP
 
-        return GapFiller(task)
+        return GapFiller(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:
         from tmd.planning.fast_downward import fast_downward
 
@@ -35,6 +48,16 @@ def make(name: str, task: Task) -> Planner:
         from tmd.planning.unified import EngineSpec, UnifiedPlanner
 
         return UnifiedPlanner(task, EngineSpec(name.removeprefix(UP_PREFIX)))
-    raise TmdError(
-        f"there is no planner '{name}'", hint=f"one of {IN_PROCESS}, {FAST_DOWNWARD}, {UP_PREFIX}ENGINE"
-    )
+    known = [IN_PROCESS, FAST_DOWNWARD, f"{UP_PREFIX}ENGINE"]
+    raise TmdError(f"there is no planner '{name}'", hint=nearest(name, known, what="planners"))
+
+
+def solve(problem: Problem, planner: str = IN_PROCESS) -> Answer:
+    """A plan for a whole PDDL problem, from its initial state to its goal.
+
+    Raises:
+        TmdError: As :func:`make`, or the problem cannot be ground.
+        MissingToolError: As :func:`make`.
+    """
+    task = ground(problem)
+    return make(planner, task, cap=PLAN_CAP).fill(task.init, task.goal)

@@ -8,63 +8,89 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cache
+from hashlib import sha256
+from pathlib import Path
 from types import FunctionType
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
-from tmd.planning import kernel
+from tmd.planning import kernel, landmarks, relaxation, states
+from tmd.planning.relaxation import Goal
 from tmd.planning.tables import Ints, Tables
 
-Search = Callable[[Tables, Ints, Ints, Ints, Ints, Ints, int], tuple[int, int, int, Ints]]
-"""The type of :func:`tmd.planning.kernel.search`."""
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+class Functions(NamedTuple):
+    """The entry points of the kernel."""
+
+    prepared: Callable[[Tables, Ints, Ints, Ints, Ints], Goal]
+    search: Callable[[Tables, Goal, Ints, int], tuple[int, int, int, Ints]]
+
+
+MODULES = (states, relaxation, landmarks, kernel)
+"""The modules that make up the kernel, each before those that use it."""
+
+REPLACED = frozenset({"zeros", "grown"})
+"""Functions of the kernel that differ between lists and arrays."""
 
 
 @cache
-def compiled_search() -> Search:
-    """:func:`tmd.planning.kernel.search`, compiled.
+def compiled() -> Functions:
+    """The kernel, compiled.
 
     Raises:
         ImportError: numba is not installed.
     """
-    import numba
     import numpy as np
 
-    namespace = dict(vars(kernel))
-
-    def zeros(size: int) -> Any:
+    def zeros(size: int) -> NDArray[np.int64]:
         return np.zeros(size, np.int64)
 
-    def grown(old: Any, size: int) -> Any:
+    def grown(old: NDArray[np.int64], size: int) -> NDArray[np.int64]:
         new = np.zeros(size, np.int64)
         new[: len(old)] = old
         return new
 
-    def jit(function: Any) -> Any:
-        try:
-            return numba.njit(cache=True, nogil=True)(function)
-        except RuntimeError:  # no directory to keep the cache in
-            return numba.njit(nogil=True)(function)
-
+    namespace: dict[str, Any] = {}
+    for module in MODULES:
+        namespace.update(vars(module))
     namespace["zeros"], namespace["grown"] = jit(zeros), jit(grown)
-    for name, member in vars(kernel).items():
-        if isinstance(member, FunctionType) and member.__module__ == kernel.__name__ and name not in replaced:
-            twin = FunctionType(member.__code__, namespace, name, member.__defaults__)
-            twin.__module__ = kernel.__name__
-            namespace[name] = jit(twin)
-    search: Search = namespace["search"]
-    return search
+    version = digest()
+    for module in MODULES:
+        for name, member in vars(module).items():
+            if isinstance(member, FunctionType) and member.__module__ == module.__name__ and name not in REPLACED:
+                twin = FunctionType(member.__code__, namespace, name)
+                twin.__module__, twin.__qualname__ = module.__name__, f"{name}_{version}"
+                namespace[name] = jit(twin)
+    return Functions(namespace["prepared"], namespace["search"])
 
 
-replaced = frozenset({"zeros", "grown"})
-"""Functions of the kernel that differ between lists and arrays."""
+def digest() -> str:
+    """A name for the present text of the kernel: what is cached of one module has others compiled into it."""
+    text = "".join(Path(module.__file__ or "").read_text(encoding="utf-8") for module in MODULES)
+    return sha256(text.encode()).hexdigest()[:12]
+
+
+def jit(function: Callable[..., object]) -> Callable[..., object]:
+    """``function`` compiled, with the result kept on disk where there is a place for it."""
+    import numba
+
+    try:
+        kept: Callable[..., object] = numba.njit(cache=True, nogil=True)(function)
+    except RuntimeError:  # no directory that numba may write to
+        kept = numba.njit(nogil=True)(function)
+    return kept
 
 
 def arrays(tables: Tables) -> Tables:
     """``tables`` with numpy arrays in the place of lists."""
-    return Tables(*(array(part) if isinstance(part, list) else part for part in tables))
+    return Tables(*[array(part) if isinstance(part, list) else part for part in tables])  # type: ignore[arg-type]
 
 
-def array(values: Ints) -> Any:
-    """A list as the kernel's kind of array."""
+def array(values: Ints) -> Ints:
+    """A list as the compiled kernel's kind of list, a numpy array."""
     import numpy as np
 
-    return np.array(values, dtype=np.int64)
+    return cast(Ints, np.array(values, dtype=np.int64))

@@ -105,9 +105,7 @@ class Counts:
 
     def _bounds(self, cube: Cube) -> tuple[tuple[int, int], ...]:
         """The least and the most atoms of each predicate in a state that satisfies ``cube``."""
-        return tuple(
-            ((cube.positive & mask).bit_count(), (mask & ~cube.negative).bit_count()) for mask in self._masks
-        )
+        return tuple(((cube.positive & mask).bit_count(), (mask & ~cube.negative).bit_count()) for mask in self._masks)
 
     def _cases(self, operator: Operator) -> Iterator[_Case]:
         """The ways in which ``operator`` may change the counts."""
@@ -119,15 +117,13 @@ class Counts:
             case = Cube(positive | chosen, negative | (unknown & ~chosen))
             if not self._mutexes.exclusive(case, Cube()):
                 after = operator.apply(case.positive)
-                change = tuple(
-                    (after & mask).bit_count() - (case.positive & mask).bit_count() for mask in self._masks
-                )
+                change = tuple((after & mask).bit_count() - (case.positive & mask).bit_count() for mask in self._masks)
                 yield _Case(change, self._bounds(case))
 
     def _feasible(self, vector: Sequence[int], bounds: Sequence[tuple[int, int]]) -> bool:
         """Whether counts within ``bounds`` may keep a law."""
         low = high = 0
-        flags = []
+        flags: list[int] = []
         for number, weight in enumerate(vector):
             least, most = bounds[number]
             if weight and self._masks[number].bit_count() == 1 and least < most and len(flags) < MOST_FLAGS:

@@ -33,7 +33,7 @@ def relaxed_literals(task: Task, state: Bits) -> Cube:
 def unreachable_reason(task: Task, state: Bits, goal: Sequence[Cube]) -> str:
     """Why no plan from ``state`` reaches ``goal``, which is known to be out of reach."""
     if not goal:
-        return "the goal contradicts itself or what never changes"
+        return "no state can satisfy the goal: it contradicts itself or what never changes"
     true, false = relaxed_literals(task, state)
     for positive, negative in goal:
         for atom in task.names(positive & negative):

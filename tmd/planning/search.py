@@ -5,22 +5,34 @@ The kernel runs compiled where numba is installed and as plain Python elsewhere;
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from importlib.util import find_spec
-from typing import Any, Literal
+from typing import Literal
 
 from tmd.errors import MissingToolError, TmdError
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning import kernel
+from tmd.planning.compiled import Functions, array, arrays, compiled
 from tmd.planning.reachability import unreachable_reason
+from tmd.planning.relaxation import Goal, prepared
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.tables import Ints, Tables, build, literals, rows, words_of
 
 Backend = Literal["auto", "numba", "python"]
-"""Which form of the kernel runs; ``auto`` takes numba where it is installed."""
+"""Which form of the kernel runs. ``auto`` begins in plain Python, and goes over to numba, where that is installed,
+once there is more to do than loading it is worth. The answers are the same."""
 
 DEFAULT_CAP = 30_000
 """Generated states after which a search gives up."""
+
+PATIENCE = 100
+"""Generated states after which ``auto`` goes over to numba. Loading it takes a second."""
+
+QUESTION = 5
+"""What a question counts for, in generated states."""
+
+GOALS_KEPT = 256
+"""Goals whose relaxations a search keeps."""
 
 
 class OptimalSearch:
@@ -48,22 +60,35 @@ class OptimalSearch:
         self.backend = chosen(backend)
         self.generated = 0
         self.steps: tuple[int, ...] = ()
-        self._kernel: _Kernel = _Compiled(task) if self.backend == "numba" else _Plain(task)
+        self._patience = PATIENCE if backend == "auto" and self.backend == "numba" else 0
+        self._kernel = _kernel(task, "python" if self._patience else self.backend)
 
     def fill(self, state: Bits, goal: Sequence[Cube], cap: int | None = None) -> Answer:
         """The cheapest instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
         self.generated, self.steps = 0, ()
         limit = self.cap if cap is None else cap
-        cubes = [cube for cube in goal if not cube.positive & cube.negative]
+        cubes = tuple(cube for cube in goal if not cube.positive & cube.negative)
         if any(cube.holds(state) for cube in cubes):
             return Filled((), state, 0)
-        status, self.generated, steps = self._kernel.run(state, cubes, limit)
+        status, self.generated, steps = self._run(state, cubes, limit)
         if status == kernel.CAPPED:
             return GaveUp(f"{limit} generated states")
         if status == kernel.DEAD_END:
             return Unreachable(unreachable_reason(self.task, state, goal))
-        self.steps = tuple(steps)
+        self.steps = steps
         return replayed(self.task, state, steps)
+
+    def _run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
+        """Ask the kernel, and change to the compiled one when it is time."""
+        if self._patience > 0:
+            small = min(cap, self._patience)
+            result = self._kernel.run(state, cubes, small)
+            self._patience -= result[1] + QUESTION
+            if self._patience <= 0:
+                self._kernel = _kernel(self.task, self.backend)
+            if result[0] != kernel.CAPPED or small == cap:
+                return result
+        return self._kernel.run(state, cubes, cap)
 
 
 def replayed(task: Task, state: Bits, steps: Sequence[int]) -> Filled:
@@ -89,35 +114,36 @@ def chosen(backend: str) -> Literal["numba", "python"]:
 
 
 class _Kernel:
-    """Calls the kernel with a query in flat form."""
+    """Calls the kernel with a question in flat form, and keeps what it works out about goals."""
 
-    def __init__(self, tables: Tables, search: Any) -> None:
-        self.tables = tables
-        self.search = search
+    def __init__(self, tables: Tables, functions: Functions, pack: Callable[[Ints], Ints]) -> None:
+        self._tables = tables
+        self._functions = functions
+        self._pack = pack
+        self._goals: dict[tuple[Cube, ...], Goal] = {}
 
-    def pack(self, values: Ints) -> Any:
-        """A list in the form that the kernel takes."""
-        return values
-
-    def run(self, state: Bits, cubes: Sequence[Cube], cap: int) -> tuple[int, int, list[int]]:
+    def run(self, state: Bits, cubes: tuple[Cube, ...], cap: int) -> tuple[int, int, tuple[int, ...]]:
         """The status, the number of generated states and the operators of the plan."""
-        words = self.tables.words
-        goal_start, goal = rows(literals(cube) for cube in cubes)
+        goal = self._goals.pop(cubes, None) or self._prepared(cubes)
+        self._goals[cubes] = goal
+        start = self._pack(words_of(state, self._tables.words))
+        status, _, generated, plan = self._functions.search(self._tables, goal, start, cap)
+        return int(status), int(generated), tuple(int(step) for step in plan)
+
+    def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
+        """A goal that is new; the one that was longest without use is forgotten for it."""
+        if len(self._goals) >= GOALS_KEPT:
+            del self._goals[next(iter(self._goals))]
+        words = self._tables.words
+        fact_start, fact = rows(literals(cube) for cube in cubes)
         positive = [word for cube in cubes for word in words_of(cube.positive, words)]
         negative = [word for cube in cubes for word in words_of(cube.negative, words)]
-        given = (words_of(state, words), positive, negative, goal_start, goal)
-        status, _, generated, plan = self.search(self.tables, *map(self.pack, given), cap)
-        return int(status), int(generated), [int(step) for step in plan]
+        return self._functions.prepared(
+            self._tables, self._pack(positive), self._pack(negative), self._pack(fact_start), self._pack(fact)
+        )
 
 
-class _Plain(_Kernel):
-    def __init__(self, task: Task) -> None:
-        super().__init__(build(task), kernel.search)
-
-
-class _Compiled(_Kernel):
-    def __init__(self, task: Task) -> None:
-        from tmd.planning.compiled import array, arrays, compiled_search
-
-        super().__init__(arrays(build(task)), compiled_search())
-        self.pack = array  # type: ignore[method-assign]
+def _kernel(task: Task, backend: str) -> _Kernel:
+    if backend == "python":
+        return _Kernel(build(task), Functions(prepared, kernel.search), list)
+    return _Kernel(arrays(build(task)), compiled(), array)

@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import NamedTuple
 
-from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task
 
 WORD = 62
 """Bits of a state in one word; two fewer than 64, so that words are never negative."""
@@ -30,7 +30,9 @@ class Tables(NamedTuple):
         atoms: Fluent atoms.
         operators: Operators; index ``operators`` stands for the free operators of the relaxation.
         facts: Literals and clause facts.
-        cost: Cost of each operator in search units, and 0 for the free ones.
+        step: What a step counts for beside its cost; a unit of cost counts for as much as ``step`` steps.
+        cost: Cost of each operator in search units, then 0 for the free ones, then all costs again for the
+            operators where they have effects under conditions.
         row_start: The relaxed operators of each operator; those of the free one come last.
     """
 
@@ -38,6 +40,7 @@ class Tables(NamedTuple):
     atoms: int
     operators: int
     facts: int
+    step: int
     cost: Ints
     positive: Ints
     negative: Ints
@@ -97,17 +100,19 @@ def effect_facts(add: Bits, delete: Bits) -> Ints:
     return literals(Cube(add, delete & ~add))
 
 
-def search_costs(operators: Iterable[Operator]) -> tuple[Ints, int]:
-    """Costs as the search sees them, and the factor between them and the true costs.
+STEP = 1 << 10
+"""By how much the smallest difference in cost outweighs a step; more than any plan has steps."""
 
-    The search wants every step to cost something. Where some operator is free, costs are scaled and every step
-    gets one unit more, so that among plans of least cost those with the fewest steps are taken.
+
+def search_costs(operators: Sequence[Operator]) -> Ints:
+    """Costs as the search sees them: every step counts, and among plans of least cost those with fewest steps win.
+
+    Where all operators cost the same, each counts 1.
     """
     costs = [operator.cost for operator in operators]
-    if all(costs):
-        return costs, 1
-    factor = 1 << 10
-    return [cost * factor + 1 for cost in costs], factor
+    if len(set(costs)) <= 1:
+        return [1] * len(costs)
+    return [cost * STEP + 1 for cost in costs]
 
 
 class _Row(NamedTuple):
@@ -141,18 +146,22 @@ class _Relaxation:
     def operator(self, number: int, operator: Operator) -> None:
         """Split an operator by its effect conditions."""
         base = literals(operator.precondition) + [self.clause(cube) for cube in operator.forbidden]
-        if operator.add or operator.delete:
-            self.rows.append(_Row(number, base, [], effect_facts(operator.add, operator.delete)))
-        for condition, makes in _merged(operator.conditional).items():
+        for condition, makes in _merged(operator).items():
             guard = literals(condition)
-            self.rows.append(_Row(number, sorted({*base, *guard}), guard, makes))
+            if makes:
+                self.rows.append(_Row(number, sorted({*base, *guard}), guard, makes))
 
 
-def _merged(effects: Iterable[ConditionalEffect]) -> dict[Cube, Ints]:
-    """The facts that each distinct condition makes true."""
-    merged: dict[Cube, set[int]] = {}
-    for effect in effects:
-        merged.setdefault(effect.condition, set()).update(effect_facts(effect.add, effect.delete))
+def _merged(operator: Operator) -> dict[Cube, Ints]:
+    """The facts that an operator makes true under each distinct condition; first those under none.
+
+    What the precondition says already is left out of the conditions.
+    """
+    merged = {Cube(): set(effect_facts(operator.add, operator.delete))}
+    given = operator.precondition
+    for (positive, negative), add, delete in operator.conditional:
+        condition = Cube(positive & ~given.positive, negative & ~given.negative)
+        merged.setdefault(condition, set()).update(effect_facts(add, delete))
     return {condition: sorted(makes) for condition, makes in merged.items()}
 
 
@@ -163,7 +172,8 @@ def offsets(lengths: Iterable[int]) -> Ints:
 
 def rows(lists: Iterable[Sequence[int]]) -> tuple[Ints, Ints]:
     """Offsets and entries of a list of lists."""
-    start, entries = [0], []
+    start: Ints = [0]
+    entries: Ints = []
     for one in lists:
         entries.extend(one)
         start.append(len(entries))
@@ -179,7 +189,7 @@ def build(task: Task) -> Tables:
     for number, operator in enumerate(operators):
         relaxation.operator(number, operator)
     relaxed = relaxation.rows + relaxation.free_rows
-    costs, _ = search_costs(operators)
+    costs = search_costs(operators)
     groups: list[Ints] = [[] for _ in range(count + 1)]
     makers: list[Ints] = [[] for _ in range(relaxation.facts)]
     for number, row in enumerate(relaxed):
@@ -201,6 +211,7 @@ def build(task: Task) -> Tables:
         atoms=atoms,
         operators=count,
         facts=relaxation.facts,
+        step=1 if len(set(costs)) <= 1 else STEP,
         cost=[*costs, 0, *costs],
         positive=flat(operator.precondition.positive for operator in operators),
         negative=flat(operator.precondition.negative for operator in operators),

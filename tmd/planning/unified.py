@@ -71,9 +71,7 @@ class UnifiedPlanner:
 
     def __init__(self, task: Task, engine: EngineSpec) -> None:
         if find_spec("unified_planning") is None:
-            raise MissingToolError(
-                "the package unified-planning is not installed", hint="pip install unified-planning"
-            )
+            raise MissingToolError("the package unified-planning is not installed", hint="pip install unified-planning")
         self.task = task
         self.engine = engine
         self._worker = _Worker(_opening(task, engine), engine)

@@ -29,9 +29,7 @@ class Engine:
         environment = get_environment()  # its reader mixes other ones with this one
         environment.credits_stream = None
         self.base: Any = PDDLReader().parse_problem_string(opening["domain"], opening["problem"])
-        self.planner: Any = environment.factory.OneshotPlanner(
-            name=opening["engine"], params=opening["parameters"]
-        )
+        self.planner: Any = environment.factory.OneshotPlanner(name=opening["engine"], params=opening["parameters"])
         self.planner.skip_checks = opening["skip_checks"]
         self.planner.error_on_failed_checks = True
         self.takes_timeout: bool = opening["takes_timeout"]

@@ -1,0 +1,223 @@
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from heapq import heappop, heappush
+from random import Random
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tmd.errors import MissingToolError, TmdError
+from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem
+from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
+from tmd.planning.result import Filled, GaveUp, Unreachable
+from tmd.planning.search import Backend, OptimalSearch
+
+FAR = 10**9
+ATOMS = 5
+
+
+def _cubes() -> st.SearchStrategy[Cube]:
+    """Small conjunctions; an atom that is drawn twice is positive."""
+    sets = st.sets(st.integers(0, ATOMS - 1), max_size=2)
+    return st.builds(lambda p, n: Cube(_mask(p), _mask(n - p)), sets, sets)
+
+
+def _mask(numbers: set[int]) -> Bits:
+    return sum(1 << number for number in numbers)
+
+
+def _operators() -> st.SearchStrategy[Operator]:
+    bits = st.integers(0, 2**ATOMS - 1)
+    few = st.sets(st.integers(0, ATOMS - 1), max_size=2).map(_mask)
+    effects = st.lists(st.builds(ConditionalEffect, _cubes(), few, few), max_size=2).map(tuple)
+    forbidden = st.lists(_cubes().filter(lambda c: c != Cube()), max_size=1).map(tuple)
+    return st.builds(
+        Operator,
+        instruction=bits.map(lambda number: Instruction("a", (str(number),))),
+        precondition=_cubes(),
+        add=few,
+        delete=few,
+        conditional=effects,
+        forbidden=forbidden,
+        cost=st.sampled_from([1, 1, 1, 0, 2, 3]),
+    )
+
+
+@st.composite
+def random_tasks(draw: st.DrawFn) -> Task:
+    """Tasks of five atoms and up to seven operators, with everything an operator may have."""
+    drawn = draw(st.lists(_operators(), min_size=1, max_size=7))
+    operators = tuple(
+        Operator(Instruction("a", (f"{i:02}",)), o.precondition, o.add, o.delete, o.conditional, o.forbidden, o.cost)
+        for i, o in enumerate(drawn)
+    )
+    atoms = tuple(GroundAtom("p", (str(i),)) for i in range(ATOMS))
+    goal = tuple(draw(st.lists(_cubes().filter(lambda c: c != Cube()), min_size=1, max_size=2)))
+    return Task(
+        problem=Problem("random", Domain("random")),
+        atoms=atoms,
+        static=frozenset(),
+        init=draw(st.integers(0, 2**ATOMS - 1)),
+        goal=goal,
+        operators=operators,
+        index={atom: i for i, atom in enumerate(atoms)},
+        by_instruction={o.instruction: o for o in operators},
+    )
+
+
+def canonical(task: Task, start: Bits, goal: Sequence[Cube]) -> tuple[int, tuple[Instruction, ...]] | None:
+    """The cheapest plan by brute force: least cost, then fewest steps, then first in the order of operators."""
+    edges, states = _graph(task, start)
+    best = _to_goal(edges, states, goal)
+    if best.get(start, (FAR, 0)) == (FAR, 0):
+        return None
+    plan, state = [], start
+    while best[state] != (0, 0):
+        for operator, after in edges[state]:
+            left = best.get(after)
+            if left and (left[0] + operator.cost, left[1] + 1) == best[state]:
+                plan.append(operator.instruction)
+                state = after
+                break
+    return best[start][0], tuple(plan)
+
+
+def _graph(task: Task, start: Bits) -> tuple[dict[Bits, list[tuple[Operator, Bits]]], list[Bits]]:
+    edges: dict[Bits, list[tuple[Operator, Bits]]] = {}
+    states = [start]
+    for state in states:
+        edges[state] = [(o, o.apply(state)) for o in task.operators if o.applicable(state)]
+        states.extend(
+            after for after in dict.fromkeys(a for _, a in edges[state]) if after not in edges and after not in states
+        )
+    return edges, states
+
+
+def _to_goal(
+    edges: dict[Bits, list[tuple[Operator, Bits]]], states: Sequence[Bits], goal: Sequence[Cube]
+) -> dict[Bits, tuple[int, int]]:
+    """Least cost and then fewest steps to the goal, for every state from which it can be reached."""
+    before: dict[Bits, list[tuple[int, Bits]]] = {state: [] for state in states}
+    for state, out in edges.items():
+        for operator, after in out:
+            before[after].append((operator.cost, state))
+    best = {state: (0, 0) for state in states if any(cube.holds(state) for cube in goal)}
+    queue = [(cost, state) for state, cost in best.items()]
+    while queue:
+        (cost, steps), state = heappop(queue)
+        if best[state] < (cost, steps):
+            continue
+        for more, earlier in before[state]:
+            new = (cost + more, steps + 1)
+            if new < best.get(earlier, (FAR, 0)):
+                best[earlier] = new
+                heappush(queue, (new, earlier))
+    return best
+
+
+@settings(max_examples=400, deadline=None)
+@given(random_tasks())
+def test_the_plan_is_the_canonical_cheapest_one(task: Task) -> None:
+    answer = OptimalSearch(task, backend="python").fill(task.init, task.goal)
+    expected = canonical(task, task.init, task.goal)
+    if expected is None:
+        assert isinstance(answer, Unreachable)
+    else:
+        assert isinstance(answer, Filled)
+        assert (answer.cost, answer.plan) == expected
+
+
+def test_costs_conditional_effects_and_disjunctions_in_the_pantry(pantry: Task) -> None:
+    answer = OptimalSearch(pantry).fill(pantry.init, pantry.goal)
+    expected = canonical(pantry, pantry.init, pantry.goal)
+    assert expected is not None
+    assert isinstance(answer, Filled)
+    assert (answer.cost, answer.plan) == expected
+    assert any(cube.holds(answer.state) for cube in pantry.goal)
+
+
+def test_every_goal_of_one_atom_in_the_pantry(pantry: Task) -> None:
+    search = OptimalSearch(pantry, backend="python")
+    for number in range(len(pantry.atoms)):
+        for goal in (Cube(1 << number, 0), Cube(0, 1 << number)):
+            answer = search.fill(pantry.init, (goal,))
+            expected = canonical(pantry, pantry.init, (goal,))
+            assert expected is not None
+            assert isinstance(answer, Filled)
+            assert (answer.cost, answer.plan) == expected
+
+
+def test_a_goal_that_holds_needs_nothing(pantry: Task) -> None:
+    assert OptimalSearch(pantry).fill(pantry.init, (Cube(),)) == Filled((), pantry.init, 0)
+
+
+def test_an_empty_disjunction_is_unreachable(pantry: Task) -> None:
+    answer = OptimalSearch(pantry).fill(pantry.init, ())
+    assert isinstance(answer, Unreachable)
+    assert "goal" in answer.reason
+
+
+def test_contradiction_names_the_atom(pantry: Task) -> None:
+    answer = OptimalSearch(pantry).fill(pantry.init, (Cube(1, 1),))
+    assert isinstance(answer, Unreachable)
+    assert str(pantry.atoms[0]) in answer.reason
+
+
+def test_unreachable_names_the_atom(any_kitchen: Callable[[str], Task]) -> None:
+    """Nothing makes the robot forget where things are."""
+    task = any_kitchen("kitchen1")
+    found = [i for i, atom in enumerate(task.atoms) if atom.predicate == "found"]
+    state = task.init | 1 << found[0]
+    answer = OptimalSearch(task).fill(state, (Cube(0, 1 << found[0]),))
+    assert answer == Unreachable(f"(not {task.atoms[found[0]]}) cannot be reached")
+
+
+@pytest.mark.parametrize("backend", ["python", "auto"])
+def test_both_forms_of_the_kernel_do_the_same(
+    backend: Backend, any_kitchen: Callable[[str], Task], walk: Callable[[Task, Random, int], list[Bits]]
+) -> None:
+    """Same answers and same amount of work, step by step."""
+    pytest.importorskip("numba", reason="numba is not installed")
+    task = any_kitchen("kitchen1")
+    fast = OptimalSearch(task, backend="numba", cap=150)
+    slow = OptimalSearch(task, backend=backend, cap=150)
+    random = Random(5)
+    for state in walk(task, random, 15):
+        operator = random.choice(task.operators)
+        goals = [operator.precondition, Cube(1 << random.randrange(len(task.atoms)), 0)]
+        for goal in goals:
+            assert slow.fill(state, (goal,)) == fast.fill(state, (goal,))
+            assert (slow.generated, slow.steps) == (fast.generated, fast.steps)
+
+
+def test_without_numba_the_answers_are_the_same(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
+    expected = OptimalSearch(pantry).fill(pantry.init, pantry.goal)
+    monkeypatch.setitem(sys.modules, "numba", None)
+    monkeypatch.setattr("tmd.planning.search.find_spec", lambda name: None)
+    search = OptimalSearch(pantry)
+    assert search.backend == "python"
+    assert search.fill(pantry.init, pantry.goal) == expected
+    with pytest.raises(MissingToolError, match="numba"):
+        OptimalSearch(pantry, backend="numba")
+
+
+def test_the_cap_is_kept_and_repeats(pantry: Task) -> None:
+    answers = [OptimalSearch(pantry, backend="python", cap=3).fill(pantry.init, pantry.goal) for _ in range(2)]
+    assert answers == [GaveUp("3 generated states")] * 2
+
+
+def test_a_larger_cap_never_changes_a_plan(pantry: Task) -> None:
+    best = OptimalSearch(pantry, backend="python").fill(pantry.init, pantry.goal)
+    for cap in (1, 5, 25, 125, 625, 3125):
+        answer = OptimalSearch(pantry, backend="python", cap=cap).fill(pantry.init, pantry.goal)
+        assert answer == best or answer == GaveUp(f"{cap} generated states")
+
+
+def test_wrong_arguments_are_refused(pantry: Task) -> None:
+    with pytest.raises(TmdError, match="at least 1"):
+        OptimalSearch(pantry, cap=0)
+    with pytest.raises(TmdError, match="no search back-end 'cython'"):
+        OptimalSearch(pantry, backend="cython")  # type: ignore[arg-type]
