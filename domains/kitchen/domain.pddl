@@ -177,7 +177,7 @@
       (forall (?y - fixture ?z - fixture ?rel - relation)
         (when (and (at ?x ?y ?rel) (drops_on ?y ?z)) (standing_at pr2 ?z)))))
 
-  ; Take x into a free hand. Things behind a closed door cannot be taken.
+  ; Take x into a free hand, out of a slot as well. Things behind a closed door cannot be taken.
   (:action grasp
     :parameters (?x - item)
     :precondition (and (near pr2 ?x) (not (holding pr2 ?x)) (not (hidden ?x)) (not (both_hands_used pr2)))
@@ -187,7 +187,9 @@
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
       (when (not (one_hand_used pr2)) (one_hand_used pr2))
       (forall (?y - thing ?rel - relation) (not (at ?x ?y ?rel)))
-      (forall (?y - fixture ?rel - relation) (when (and (single ?y) (at ?x ?y ?rel)) (not (occupied ?y))))
+      (forall (?y - fixture ?rel - relation)
+        (when (and (single ?y) (not (= ?rel next_to)) (at ?x ?y ?rel)) (not (occupied ?y))))
+      (forall (?y - appliance) (when (and (fits ?x ?y) (at ?x ?y in)) (not (loaded ?y))))
       (not (heating ?x))))
 
   ; Open the gripper: x lands where the robot stands.
@@ -220,13 +222,14 @@
       (when (and (single ?y) (not (= ?rel next_to))) (occupied ?y))
       (when (and (heats ?y ?rel) (active ?y)) (heating ?x))
       (forall (?o - outlet ?s - liquid)
-        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (contains ?x ?s)))
+        (when (and (pours_into ?o ?y ?s) (not (= ?rel next_to)) (active ?o) (receives ?x)) (contains ?x ?s)))
       (forall (?o - outlet ?s - liquid)
-        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (filled ?x)))
+        (when (and (pours_into ?o ?y ?s) (not (= ?rel next_to)) (active ?o) (receives ?x)) (filled ?x)))
       (forall (?o - outlet ?s - liquid)
-        (when (and (pours_into ?o ?y ?s) (active ?o) (receives ?x)) (not (hot ?x))))))
+        (when (and (pours_into ?o ?y ?s) (not (= ?rel next_to)) (active ?o) (receives ?x)) (not (hot ?x))))))
 
-  ; Open the door, drawer or lid x; it takes a free hand, as do closing, pressing and turning. What it hid can be seen; what must not run with x open stops.
+  ; Open the door, drawer or lid x; it takes a free hand, as do closing, pressing and turning. What it hid can be
+  ; seen; what must not run with x open stops.
   (:action open
     :parameters (?x - thing)
     :precondition (and (near pr2 ?x) (openable ?x) (not (opened ?x)) (not (both_hands_used pr2)))
@@ -268,19 +271,19 @@
         (when (and (controls ?x ?y) (heats ?y ?rel) (active ?y) (at ?z ?y ?rel)) (not (heating ?z))))
       ; one portion from a dispenser or a coffee maker
       (forall (?o - outlet ?y - fixture ?s - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
+        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (not (= ?rel next_to)) (at ?z ?y ?rel)
                    (or (not (needs_load ?y)) (loaded ?y)))
               (contains ?z ?s)))
       (forall (?o - outlet ?y - fixture ?s - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
+        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (not (= ?rel next_to)) (at ?z ?y ?rel)
                    (or (not (needs_load ?y)) (loaded ?y)))
               (filled ?z)))
       (forall (?o - outlet ?y - fixture ?s - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
+        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (not (= ?rel next_to)) (at ?z ?y ?rel)
                    (or (not (needs_load ?y)) (loaded ?y)) (serves_hot ?o))
               (hot ?z)))
       (forall (?o - outlet ?y - fixture ?s - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (allows ?y ?rel) (at ?z ?y ?rel)
+        (when (and (controls ?x ?o) (momentary ?o) (pours_into ?o ?y ?s) (not (= ?rel next_to)) (at ?z ?y ?rel)
                    (or (not (needs_load ?y)) (loaded ?y)) (not (serves_hot ?o)))
               (not (hot ?z))))
       ; a door that springs open
@@ -308,13 +311,13 @@
       (forall (?y - fixture ?z - item ?rel - relation)
         (when (and (controls ?x ?y) (heats ?y ?rel) (idle ?s) (at ?z ?y ?rel)) (not (heating ?z))))
       (forall (?o - outlet ?y - fixture ?l - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (allows ?y ?rel) (not (idle ?s)) (at ?z ?y ?rel))
+        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (not (= ?rel next_to)) (not (idle ?s)) (at ?z ?y ?rel))
               (contains ?z ?l)))
       (forall (?o - outlet ?y - fixture ?l - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (allows ?y ?rel) (not (idle ?s)) (at ?z ?y ?rel))
+        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (not (= ?rel next_to)) (not (idle ?s)) (at ?z ?y ?rel))
               (filled ?z)))
       (forall (?o - outlet ?y - fixture ?l - liquid ?z - vessel ?rel - relation)
-        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (allows ?y ?rel) (not (idle ?s)) (at ?z ?y ?rel))
+        (when (and (controls ?x ?o) (pours_into ?o ?y ?l) (not (= ?rel next_to)) (not (idle ?s)) (at ?z ?y ?rel))
               (not (hot ?z))))))
 
   ; Take a scoop of what is in y with the utensil x.
