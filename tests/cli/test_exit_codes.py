@@ -174,7 +174,7 @@ def test_unreachable(tmd: Tmd, tmp_path: Path) -> None:
 
 
 def test_gave_up(tmd: Tmd, tmp_path: Path) -> None:
-    ended = tmd("plan", *counter(tmp_path), before=LOWER_CAP)
+    ended = tmd("plan", *counter(tmp_path), "--planner", "in-process", before=LOWER_CAP)
     assert (ended.code, ended.out) == (ExitCode.GAVE_UP, "")
     assert re.fullmatch(r"no plan: the planner gave up at .*; nothing is proven\n", ended.err)
 

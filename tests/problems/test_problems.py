@@ -9,7 +9,10 @@ import pytest
 from tmd.pddl.grounding import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reader import parse_problem, read_domain, read_problem
+from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_problem
+from tmd.planning.backends import solve
+from tmd.planning.result import Filled
 from tmd.veil.corpus import Corpus
 from tmd.veil.replay import replay
 from tmd.world.compile import compile_problem
@@ -48,6 +51,15 @@ def test_a_problem_has_a_goal_that_relaxed_reachability_admits_and_words_for_it(
     assert task.goal
     assert not any(cube.holds(task.init) for cube in task.goal)
     assert path.with_suffix(".nl").read_text().strip()
+
+
+@pytest.mark.parametrize("path", PROBLEMS, ids=lambda p: p.stem)
+def test_a_problem_is_solved_and_its_plan_works(path: Path) -> None:
+    pytest.importorskip("up_fast_downward", reason="the longer problems need Fast Downward")
+    problem = read(path)
+    answer = solve(problem)
+    assert isinstance(answer, Filled)
+    assert validate(problem, answer.plan).valid
 
 
 @pytest.mark.parametrize("directory", CORPORA, ids=lambda p: p.name)

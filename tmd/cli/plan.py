@@ -14,7 +14,9 @@ from tmd.errors import ExitCode
 @click.command("plan", short_help="Find a plan for a PDDL problem.")
 @click.argument("domain")
 @click.argument("problem", type=click.Path(path_type=Path))
-@click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE.")
+@click.option(
+    "--planner", metavar="NAME", help="auto (default), in-process, fast-downward[-first], up:ENGINE."
+)
 @click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the plan to this file.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -23,16 +25,17 @@ def command(
 ) -> ExitCode:
     """Find a plan for PROBLEM, one (action argument ...) a line.
 
-    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. Ends with 0 for a plan, 10 where it is
+    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. By default the plan is the shortest where
+    that is found soon, and otherwise the first that Fast Downward finds. Ends with 0 for a plan, 10 where it is
     proven that there is none, and 20 where the planner gave up.
     """
     from tmd.atomic import write_text
     from tmd.cli.show_answer import answer_json, exit_code, plan_text, why_none
     from tmd.pddl.reader import read_problem
-    from tmd.planning.backends import IN_PROCESS, solve
+    from tmd.planning.backends import AUTO, solve
     from tmd.planning.result import Filled
 
-    name = planner or IN_PROCESS
+    name = planner or AUTO
     wanted = read_problem(problem, roots.domain(domain))
     answer = solve(wanted, name)
     if isinstance(answer, Filled) and output:

@@ -17,6 +17,9 @@ from tmd.planning.unified import EngineSpec, UnifiedPlanner
 OPTIMAL = "astar(hmax())"
 """Optimal for every domain that Fast Downward translates without axioms, and the fastest such configuration."""
 
+FIRST = "eager_greedy([ff()],preferred=[ff()])"
+"""Fast, and content with any plan."""
+
 OPTIMAL_WITH_AXIOMS = "astar(blind())"
 """Universal preconditions become axioms, under which hmax may overestimate."""
 
@@ -31,9 +34,20 @@ def fast_downward(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
     Raises:
         MissingToolError: It is not installed.
     """
+    _installed()
+    return UnifiedPlanner(task, spec(task.problem.domain, time_limit))
+
+
+def first_plan(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
+    """Fast Downward for ``task``, content with the first plan it finds; arguments and errors as above."""
+    _installed()
+    search = {"fast_downward_search_config": FIRST}
+    return UnifiedPlanner(task, EngineSpec("fast-downward", search, time_limit, skip_checks=True))
+
+
+def _installed() -> None:
     if find_spec("up_fast_downward") is None:
         raise MissingToolError("Fast Downward is not installed", hint="pip install up-fast-downward")
-    return UnifiedPlanner(task, spec(task.problem.domain, time_limit))
 
 
 def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
