@@ -122,7 +122,7 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
                     scorer.of_end(clause.verb, world.mentions.meant(clause, made.grounding.values(), state), end),
                     scorer.of_latent(answer.plan, answer.state),
                 )
-                found.append((sum(sum(part.values()) for part in parts), end))
+                found.append((sum(sum(scorer.weigh(part).values()) for part in parts), end))
         return found
 
     frontier = [(0.0, world.task.init)]

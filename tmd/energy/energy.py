@@ -1,4 +1,4 @@
-"""The energy of a choice: every factor, weighed (section VI). What is a sum over choices is the paper's Γ."""
+"""The energy of a choice: every factor with its weight (section VI). Summed over the choices it is the paper's Γ."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from tmd.pddl.task import Bits
 from tmd.veil.instantiate import Instantiation
 from tmd.veil.world import World
 
-Weighed = dict[str, float]
-"""Factors by name, each already multiplied by its weight."""
+Factors = dict[str, float]
+"""Factors by name, not yet multiplied by their weights."""
 
 
 class Energy:
@@ -33,49 +33,43 @@ class Energy:
         self.world = world
         self._surprises: dict[Instruction, tuple[float, float]] = {}
 
-    def of_template(self, instantiation: Instantiation, clause: Clause) -> Weighed:
+    def of_template(self, instantiation: Instantiation, clause: Clause) -> Factors:
         """The factors of ψ_i that do not depend on how much of the template is kept."""
         template = instantiation.template.clause
-        return self._weigh(
-            {
-                "env": factors.delta_env(instantiation),
-                "nl": factors.delta_nl(template, clause),
-                "sim": factors.delta_sim(instantiation),
-                "pcc": factors.delta_pcc(template, clause),
-            }
-        )
+        return {
+            "env": factors.delta_env(instantiation),
+            "nl": factors.delta_nl(template, clause),
+            "sim": factors.delta_sim(instantiation),
+            "pcc": factors.delta_pcc(template, clause),
+        }
 
-    def of_sequence(self, kept: Sequence[Instruction], whole: int) -> Weighed:
+    def of_sequence(self, kept: Sequence[Instruction], whole: int) -> Factors:
         """The factors of ψ_i that depend on the instructions that are kept."""
         inpr, para = self._prior(kept)
-        return self._weigh(
-            {
-                "dscpl": factors.delta_dscpl(kept),
-                "inpr": inpr,
-                "para": para,
-                "trim": factors.delta_trim(len(kept), whole),
-            }
-        )
+        return {
+            "dscpl": factors.delta_dscpl(kept),
+            "inpr": inpr,
+            "para": para,
+            "trim": factors.delta_trim(len(kept), whole),
+        }
 
-    def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Weighed:
+    def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:
         """ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
         table = self.statistics.ends.get(verb)
-        return self._weigh({"cons": self._inconsistency(table, names, end) if table is not None else 0.0})
+        return {"cons": self._inconsistency(table, names, end) if table is not None else 0.0}
 
-    def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Weighed:
+    def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Factors:
         """ψ_il and ψ'_il, for the instructions that were left unsaid; nothing where none are needed."""
         if not plan:
             return {}
         inpr, para = self._prior(plan)
         used = dict.fromkeys(a for i in plan for a in i.args if a not in self.world.profiles.constants)
-        return self._weigh(
-            {
-                "latent_dscpl": factors.delta_dscpl(plan),
-                "latent_inpr": inpr,
-                "latent_para": para,
-                "latent_cons": self._inconsistency(self.statistics.all_ends, list(used), end),
-            }
-        )
+        return {
+            "latent_dscpl": factors.delta_dscpl(plan),
+            "latent_inpr": inpr,
+            "latent_para": para,
+            "latent_cons": self._inconsistency(self.statistics.all_ends, list(used), end),
+        }
 
     def least_more(self) -> float:
         """The least that end and latent factors can add to a candidate: they are never negative but by weight."""
@@ -83,7 +77,8 @@ class Energy:
             return -math.inf
         return min(0.0, self.weights["cons"]) + min(0.0, self.weights["latent_cons"])
 
-    def _weigh(self, values: Mapping[str, float]) -> Weighed:
+    def weigh(self, values: Mapping[str, float]) -> Factors:
+        """Each factor multiplied by its weight."""
         return {name: self.weights[name] * value for name, value in values.items()}
 
     def _prior(self, instructions: Sequence[Instruction]) -> tuple[float, float]:

@@ -40,8 +40,9 @@ class _Candidate:
 
     source: str
     instructions: Sequence_
-    factors: dict[str, float]
-    names: tuple[str, ...] = ()
+    raw: dict[str, float]
+    energy: float
+    names: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +114,7 @@ class Inference:
                     Path(path.energy + choice.energy, end, (*path.choices, choice)) for path in alpha[state]
                 )
         if not found:
-            nothing = Choice(None, (), {})
+            nothing = Choice(None, (), {}, {})
             return {s: [Path(p.energy, s, (*p.choices, nothing)) for p in ways] for s, ways in alpha.items()}
         kept = {end: _cheapest(paths, self.top) for end, paths in found.items()}
         ends = sorted(kept, key=lambda end: _order(kept[end][0]))[: self.beam]
@@ -124,7 +125,7 @@ class Inference:
     ) -> list[tuple[float, Bits, _Candidate]]:
         """Every candidate in every state, by what it costs at least; the planner can only add to that."""
         queue = [
-            (ways[0].energy + sum(candidate.factors.values()), state, candidate)
+            (ways[0].energy + candidate.energy, state, candidate)
             for state, ways in alpha.items()
             for candidate in self._candidates(number, clause, state)
         ]
@@ -164,16 +165,16 @@ class Inference:
         steps = tuple(Step(i, number, latent=True) for i in filled.plan)
         steps += tuple(Step(i, number, latent=False) for i in candidate.instructions)
         verb = self.library.lexicon.canonical_verb(clause.verb)
-        weighed = {
-            **candidate.factors,
+        raw = {
+            **candidate.raw,
             **self.energy.of_end(verb, candidate.names, end),
             **self.energy.of_latent(filled.plan, filled.state),
         }
-        return Choice(candidate.source, steps, weighed), end
+        return Choice(candidate.source, steps, self.energy.weigh(raw), raw), end
 
     def _candidates(self, number: int, clause: Clause, state: Bits) -> list[_Candidate]:
         """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
-        best: dict[tuple[Sequence_, tuple[str, ...]], tuple[float, _Candidate]] = {}
+        best: dict[tuple[Sequence_, tuple[str, ...]], _Candidate] = {}
         for template in self.library.propose(clause):
             instantiation = instantiate(template, clause, self.world, state, pair_nouns=self.pair_nouns)
             if instantiation is None:
@@ -181,11 +182,10 @@ class Inference:
                 continue
             first = self._first_possible(number, template.source, instantiation.instructions)
             for candidate in self._trimmings(instantiation, clause, state, first):
-                energy = sum(candidate.factors.values())
                 key = candidate.instructions, candidate.names
-                if key not in best or energy < best[key][0]:
-                    best[key] = energy, candidate
-        return [candidate for _, candidate in best.values()]
+                if key not in best or candidate.energy < best[key].energy:
+                    best[key] = candidate
+        return list(best.values())
 
     def _first_possible(self, number: int, source: str, instructions: Sequence_) -> int:
         """The first t for which nothing in I[t..] is impossible in this environment."""
@@ -203,8 +203,9 @@ class Inference:
         most = len(whole) if self.trim is None else min(self.trim, len(whole))
         found = []
         for t in range(first, most + 1):
-            own = self.energy.of_sequence(whole[t:], len(whole))
-            found.append(_Candidate(instantiation.template.source, whole[t:], {**fixed, **own}, names))
+            raw = {**fixed, **self.energy.of_sequence(whole[t:], len(whole))}
+            energy = sum(self.energy.weigh(raw).values())
+            found.append(_Candidate(instantiation.template.source, whole[t:], raw, energy, names))
         return found
 
     def _needs(self, instructions: Sequence_, operators: Sequence[Operator]) -> tuple[Cube, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from tmd.pddl.model import Instruction
@@ -33,11 +33,13 @@ class Choice:
             the verb is in no demonstration, or nothing that was shown for it can be done here.
         steps: The latent steps, then those of the template.
         factors: The weighed factors, by name.
+        raw: The same factors before they are weighed.
     """
 
     source: str | None
     steps: tuple[Step, ...]
     factors: Mapping[str, float]
+    raw: Mapping[str, float]
 
     @property
     def energy(self) -> float:
@@ -81,16 +83,25 @@ class RankedPlan:
     @property
     def factors(self) -> dict[str, float]:
         """The weighed factors, summed over the clauses."""
-        total: dict[str, float] = {}
-        for choice in self.choices:
-            for name, value in choice.factors.items():
-                total[name] = total.get(name, 0.0) + value
-        return total
+        return _total(choice.factors for choice in self.choices)
+
+    @property
+    def raw(self) -> dict[str, float]:
+        """The factors summed over the clauses, before they are weighed: the features that weights are learned on."""
+        return _total(choice.raw for choice in self.choices)
 
     @property
     def energy(self) -> float:
         """Γ: the sum of all factors."""
         return sum(choice.energy for choice in self.choices)
+
+
+def _total(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:
+    total: dict[str, float] = {}
+    for part in parts:
+        for name, value in part.items():
+            total[name] = total.get(name, 0.0) + value
+    return total
 
 
 def why_lost(plan: RankedPlan, best: RankedPlan) -> str:

@@ -194,8 +194,8 @@ def _do(config: ExperimentConfig, part: _Part) -> _Part:
     """Train, predict, score, write."""
     data = _data(config)
     fold = _folds(config, data)[part.fold]
-    model = make_model(part.model).fit(fold.train, data)
     random = np.random.default_rng([config.seed, part.fold, zlib.crc32(part.model.encode())])
+    model = make_model(part.model).fit(fold.train, data, random)
     predictions = [(example, model.predict(example, data, random)) for example in fold.test]
     for environment in sorted({example.environment for example in fold.test}):
         own = [p for e, p in predictions if e.environment == environment]

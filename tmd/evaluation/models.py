@@ -3,33 +3,29 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from statistics import median
 from typing import Protocol, Self
 
 import numpy as np
 
-from tmd.energy.energy import Energy
 from tmd.energy.factors import delta_env, delta_nl
-from tmd.energy.infer import Inference
-from tmd.energy.statistics import count
-from tmd.energy.weights import named_weights
 from tmd.errors import TmdError
+from tmd.evaluation.crf import Crf, libraries
 from tmd.evaluation.dataset import Dataset, Example
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.syntax import nearest
-from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Planner
 from tmd.veil.instantiate import Instantiation, instantiate
-from tmd.veil.library import Library, learn, run
+from tmd.veil.library import Library, run
 from tmd.veil.world import World
 
 
 class Model(Protocol):
     """One row of the table."""
 
-    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Learn from ``examples``."""
         ...
 
@@ -41,7 +37,7 @@ class Model(Protocol):
 class Empty:
     """Predicts nothing: the floor that every metric has."""
 
-    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Nothing is learned."""
         return self
 
@@ -57,7 +53,7 @@ class Chance:
     all those that may ever apply in the environment.
     """
 
-    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Learn the length."""
         worlds = sorted({example.world for example in examples})
         self.lengths_ = {world: int(median(len(e.gold) for e in examples if e.world == world)) for world in worlds}
@@ -78,7 +74,7 @@ class NearestEnvironment:
     clause is most alike (Δ_nl) is taken, then the first of the corpus.
     """
 
-    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Build the library of each world."""
         self.libraries_ = libraries(examples, data)
         return self
@@ -105,60 +101,13 @@ class NearestEnvironment:
         )
 
 
-class HandSet:
-    """Algorithm 1 with weights set by hand: trimmed templates, gaps filled by the planner, nothing unexecutable.
-
-    Args:
-        weights: The name of the weights.
-        beam: As for :class:`~tmd.energy.infer.Inference`.
-        trim: As there.
-    """
-
-    def __init__(self, weights: str = "hand_set", beam: int = 3, trim: int | None = None) -> None:
-        self.weights = weights
-        self.beam = beam
-        self.trim = trim
-
-    def fit(self, examples: Sequence[Example], data: Dataset) -> Self:
-        """Build the library of each world, and count what it holds."""
-        self.libraries_ = libraries(examples, data)
-        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
-        self._fillers: dict[str, Planner] = {}
-        return self
-
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
-        """The plan of least energy."""
-        if example.world not in self.libraries_:
-            return ()
-        world = data.world(example.environment)
-        if example.environment not in self._fillers:
-            self._fillers[example.environment] = make(IN_PROCESS, world.task)
-        inference = Inference(
-            world,
-            self.libraries_[example.world],
-            Energy(named_weights(self.weights), self.statistics_[example.world], world),
-            self._fillers[example.environment],
-            beam=self.beam,
-            trim=self.trim,
-        )
-        clauses = parse(example.demonstration.text, data.lexicon).clauses
-        plans = inference.infer(clauses, world.task.init).plans
-        return plans[0].instructions if plans else ()
-
-
-def libraries(examples: Sequence[Example], data: Dataset) -> dict[str, Library]:
-    """A library for each kind of world."""
-    return {
-        world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
-        for world in sorted({example.world for example in examples})
-    }
-
-
 MODELS: Mapping[str, Callable[[], Model]] = {
     "empty": Empty,
     "chance": Chance,
     "nearest": NearestEnvironment,
-    "hand_set": HandSet,
+    "no_latent": partial(Crf, latent=False),
+    "full": Crf,
+    "hand_set": partial(Crf, learned=False),
 }
 """The rows by name, in the order of the table."""
 

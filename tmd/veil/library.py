@@ -35,6 +35,15 @@ class Library:
         """D^(i): every template whose verb is the clause's, in the order of the corpus."""
         return self._by_verb.get(self.lexicon.canonical_verb(clause.verb), ())
 
+    def without(self, environment: str) -> Library:
+        """The library as it would be had nobody been in ``environment``: for learning as for testing."""
+        found = Library(self.lexicon)
+        for verb in self._by_verb:
+            for template in self._by_verb[verb]:
+                if template.environment != environment:
+                    found.add(template)
+        return found
+
     def templates(self, verb: str) -> Sequence[Template]:
         """The templates of a canonical verb."""
         return self._by_verb.get(verb, ())
