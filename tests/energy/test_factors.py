@@ -46,6 +46,15 @@ def test_delta_nl_is_one_minus_jaccard_of_the_resolved_objects() -> None:
     assert factors.delta_nl(Clause("a"), Clause("a", ("cup",))) == 1.0
 
 
+def test_delta_nl_gives_part_of_a_noun_for_one_with_a_modifier() -> None:
+    syrup, raspberry = Clause("add", ("syrup",)), Clause("add", ("raspberry_syrup",))
+    assert factors.delta_nl(syrup, raspberry, akin=0.0) == 1.0
+    assert factors.delta_nl(syrup, raspberry, akin=0.75) == pytest.approx(1 - 0.75 / 1.25)
+    assert factors.delta_nl(syrup, raspberry) == factors.delta_nl(raspberry, syrup)
+    assert factors.delta_nl(Clause("add", ("syrup", "cup")), Clause("add", ("syrup", "syrup"))) == 0.5
+    assert not factors.akin_nouns("cup", "hiccup")
+
+
 def test_delta_sim_is_the_share_of_changed_objects() -> None:
     case = instantiation({"?z1": FULL, "?z2": FULL}, {"?z1": FULL, "?z2": FULL})
     assert factors.delta_sim(case) == 1.0

@@ -10,6 +10,10 @@ from tmd.veil.instantiate import Instantiation
 from tmd.veil.states import differences
 
 
+AKIN = 0.75
+"""What a noun counts that differs from another only by a modifier."""
+
+
 def delta_env(instantiation: Instantiation) -> float:
     """Environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
 
@@ -22,15 +26,29 @@ def delta_env(instantiation: Instantiation) -> float:
     return sum(differences(before[z], instantiation.profiles[z]) for z in variables) / len(variables)
 
 
-def delta_nl(template_clause: Clause, clause: Clause) -> float:
+def delta_nl(template_clause: Clause, clause: Clause, *, akin: float = AKIN) -> float:
     """Natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
 
     The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
-    without objects are alike.
+    without objects are alike. Nouns of which one is the other with a modifier (*syrup*, *raspberry syrup*) count
+    ``akin`` of a noun that both have; with 0 the index is the paper's.
     """
-    ours, theirs = set(clause.resolved()), set(template_clause.resolved())
-    union = ours | theirs
-    return 1 - len(ours & theirs) / len(union) if union else 0.0
+    ours, theirs = list(dict.fromkeys(clause.resolved())), list(dict.fromkeys(template_clause.resolved()))
+    shared = [noun for noun in ours if noun in theirs]
+    left = [noun for noun in theirs if noun not in shared]
+    common = float(len(shared))
+    for noun in ours:
+        other = next((o for o in left if noun not in shared and akin_nouns(noun, o)), None)
+        if other is not None:
+            left.remove(other)
+            common += akin
+    union = len(ours) + len(theirs) - common
+    return 1 - common / union if union else 0.0
+
+
+def akin_nouns(one: str, other: str) -> bool:
+    """Whether one noun is the other with a modifier: *ice cream* and *vanilla ice cream*."""
+    return one.endswith(f"_{other}") or other.endswith(f"_{one}")
 
 
 def delta_sim(instantiation: Instantiation) -> float:
