@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import reduce
-from itertools import product
+from itertools import combinations, product
 from math import gcd, lcm
 from operator import or_
 
@@ -75,7 +75,8 @@ class Counts:
         self.laws: list[Law] = []
         seen: set[tuple[int, ...]] = set()
         while True:
-            vectors = null_space(sorted(seen), len(self._names))
+            basis = null_space(sorted(seen), len(self._names))
+            vectors = with_combinations(basis)
             fresh = {
                 case.change
                 for case in cases
@@ -203,6 +204,23 @@ def null_space(rows: Sequence[Sequence[int]], width: int) -> list[list[int]]:
             vector[pivot] = -matrix[i][free]
         space.append(_integers(vector))
     return space
+
+
+def with_combinations(basis: Sequence[Sequence[int]]) -> list[tuple[int, ...]]:
+    """``basis``, and every pair of its vectors with a shared entry eliminated: sparser laws refute more."""
+    found = dict.fromkeys(_signed(vector) for vector in basis)
+    for one, other in combinations(basis, 2):
+        for a, b in zip(one, other, strict=True):
+            if a and b:
+                mixed = [b * x - a * y for x, y in zip(one, other, strict=True)]
+                found[_signed(_integers([Fraction(value) for value in mixed]))] = None
+    return list(found)
+
+
+def _signed(vector: Sequence[int]) -> tuple[int, ...]:
+    """The vector or its opposite, so that the first entry that counts is positive."""
+    lead = next((value for value in vector if value), 1)
+    return tuple(value if lead > 0 else -value for value in vector)
 
 
 def _integers(vector: Sequence[Fraction]) -> list[int]:

@@ -35,8 +35,8 @@ class GapFiller:
     """Fills gaps of plans for one task.
 
     Every answer depends on the question alone: the canonical cheapest plan. With ``generalise`` that is given up
-    for speed: an answer may be a plan remembered from another state. It is valid, nearly always among the cheapest,
-    and may depend on what was asked before (see :meth:`forget`).
+    for speed: an answer may be a plan remembered from another state. It is valid, may be dearer than necessary, and
+    may depend on what was asked before (see :meth:`forget`).
 
     Args:
         task: The ground problem. States may be any that its operators reach from where it was ground.

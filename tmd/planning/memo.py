@@ -6,8 +6,7 @@ remembered under the cap it happened with.
 **Generalised.** A plan that was found from one state works from every state in which its needs hold. The needs
 are computed backwards through the plan: a cube of the exact weakest precondition
 (:func:`tmd.pddl.semantics.regress`) that contains the state the plan was found in. A hit is valid from any
-matching state. It need not be the cheapest there, though it nearly always is: every plan remembered was cheapest
-where it was found, and the cheapest match is taken.
+matching state, but it need not be the cheapest there, and which plan is remembered depends on what was asked before.
 """
 
 from __future__ import annotations
