@@ -1,6 +1,7 @@
 """The gold clauses of tests/language/gold, and how a parse is scored against them.
 
-``own.yaml`` holds invented texts with clauses in the paper's notation. ``veil500.jsonl`` holds no text: for a
+``own.yaml`` holds invented texts with clauses in the paper's notation, and so does ``second_author.yaml``, by
+somebody who has not seen the parser. ``veil500.jsonl`` holds no text: for a
 point (0-based, in the order of VEIL-500's data.xml) it names tokens of the point's text by index. The tokens are
 the matches of :data:`TOKEN` in the text as it stands in the file, counted from 0. A clause is ``verb`` (token
 indexes of verb and particle), ``objects`` (a list of token indexes each) and ``relations``: token indexes of the
@@ -54,11 +55,21 @@ class Score(NamedTuple):
         return (middle - width) / (1 + z * z / n), (middle + width) / (1 + z * z / n)
 
 
-def own_items(file: str = "own.yaml") -> list[Item]:
-    """Read the invented items."""
+def own_items() -> list[Item]:
+    """Read the invented items of the author of the rules."""
+    return _invented("own", "own.yaml")
+
+
+def second_items() -> list[Item]:
+    """Read the invented items of the second author."""
+    return _invented("second", "second_author.yaml")
+
+
+def _invented(name: str, file: str) -> list[Item]:
     raw = yaml.safe_load((GOLD / file).read_text(encoding="utf-8"))
     return [
-        Item(f"own {n}", r["split"], r["text"], tuple(read_clause(c) for c in r["clauses"])) for n, r in enumerate(raw)
+        Item(f"{name} {n}", r["split"], r["text"], tuple(read_clause(c) for c in r["clauses"]))
+        for n, r in enumerate(raw)
     ]
 
 

@@ -53,6 +53,40 @@ def test_the_paper_s_example() -> None:
         ("Take the cup. Take the cup.", ["(take, [cup])", "(take, [cup])"]),
         ("take the microwav", ["(take, [microwave])"]),
         ("heat it for 10minutes", ["(heat, [it])"]),
+        ("turn it on wait till it clicks", ["(turn_on, [it])", "(wait, [])"]),
+        ("turn the tv off and the radio on", ["(turn_off, [tv])", "(turn_on, [radio])"]),
+        ("fluff up the pillows", ["(fluff_up, [pillow])"]),
+        ("fluff the pillows", ["(fluff, [pillow])"]),
+        ("screw in a new one", ["(screw_in, [one])"]),
+        ("sort the white ones", ["(sort, [white_one])"]),
+        ("give her fresh water", ["(give, [her, water], to: water -> her)"]),
+        ("get me the cup", ["(get, [me, cup], to: cup -> me)"]),
+        ("feed the cat at 6 and at 7 pm wait", ["(feed, [cat])", "(wait, [])"]),
+        ("water the plants in the morning", ["(water, [plant])"]),
+        ("get the ice cream of your choice", ["(get, [ice_cream])"]),
+        ("look to see where things are", ["(look, [])"]),
+        ("hang the towels up so they dry", ["(hang_up, [towel])"]),
+        ("So, take the cup", ["(take, [cup])"]),
+        ("1) take the cup 2) fill it", ["(take, [cup])", "(fill, [it])"]),
+        ("put it on the front left burner", ["(put, [it, front_left_burner], on: it -> front_left_burner)"]),
+        ("cut it into quarters", ["(cut, [it, quarter], into: it -> quarter)"]),
+        ("show Lena the photo", ["(show, [lena, photo], to: photo -> lena)"]),
+        ("give it to Hans", ["(give, [it, hans], to: it -> hans)"]),
+        ("open the offcie door", ["(open, [office_door])"]),
+        ("replace the light bulb", ["(replace, [light_bulb])"]),
+        ("the plates should be washed and dried", ["(wash, [plate])", "(dry, [plate])"]),
+        ("make sure the door is shut and the lamp is off", ["(shut, [door])", "(turn_off, [lamp])"]),
+        ("help me fold the sheets", ["(fold, [sheet])"]),
+        ("take the bowl that is on the shelf", ["(take, [bowl, shelf], on: bowl -> shelf)"]),
+        ("take the chair that stands there to the hall", ["(take, [chair, hall], to: chair -> hall)"]),
+        (
+            "put the forks in the drawer, the plates in the sink and the cup on the rack",
+            ["(put, [fork, drawer, plate, sink, cup, rack], in: fork -> drawer, in: plate -> sink, on: cup -> rack)"],
+        ),
+        (
+            "take the pan off the stove with the gloves",
+            ["(take, [pan, stove, glove], off: pan -> stove, with: pan -> glove)"],
+        ),
     ],
 )
 def test_forms(text: str, expected: list[str]) -> None:
@@ -122,6 +156,12 @@ def test_antecedents_are_ranked_and_never_of_the_own_clause() -> None:
     clause = parse("Take the cup from the shelf. Add water to it.").clauses[1]
     assert clause.antecedents["it"] == ("cup", "shelf")
     assert clause.resolved() == ("water", "cup")
+
+
+def test_persons_are_objects_but_nothing_to_find() -> None:
+    clause = parse("Bring me the cup.").clauses[0]
+    assert clause.objects == ("me", "cup")
+    assert clause.resolved() == ("cup",)
 
 
 def test_domain_words() -> None:

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field
 
 from lark import Tree
 
-from tmd.language.clause import Clause, Relation, Span
+from tmd.language.clause import PERSONS, Clause, Relation, Span
 from tmd.language.grammar import Leaf
 from tmd.language.morphology import singular
-from tmd.language.tokens import Kind, Token
+from tmd.language.tokens import NAME, Kind, Token
 from tmd.language.words import section
 
 _ORIGIN = frozenset({"from", "out_of", "off"})
@@ -146,10 +146,11 @@ def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[L
         elif node.data == "group":
             state.group(_phrases(node))
         else:
-            state.place(node)
+            later = sum(isinstance(n, Tree) and n.data == "place" for n in arguments[position + 1 :])
+            state.place(node, later)
     for node in front:
         state.host = []
-        state.place(node)
+        state.place(node, 0)
     state.finish()
 
 
@@ -166,13 +167,16 @@ class _Attachment:
         """Host and preposition before the last prepositional phrase."""
         self.instrument = False
         """A "with" has been read."""
+        self.paired = False
+        """The host is the second thing of a gapped pair and takes any preposition."""
         self.pending: list[tuple[str, list[Phrase]]] = []
         """Relations whose source is the direct object, which may still come."""
 
     def group(self, phrases: list[Phrase]) -> None:
         draft = self.draft
         stem = draft.verb.stem
-        dative = len(draft.direct) == 1 and not self.behind and stem in section("dative_verbs")
+        person = bool(draft.direct) and draft.direct[0].name in PERSONS
+        dative = len(draft.direct) == 1 and not self.behind and (person or stem in section("dative_verbs"))
         if dative and not draft.relations:
             receiver = draft.direct.pop()
             draft.landmarks.append(receiver)
@@ -187,7 +191,7 @@ class _Attachment:
                 self.draft.relations.append(Relation("of", phrase.name, part.name))
                 self._of([part])
 
-    def place(self, node: Tree[Leaf]) -> None:
+    def place(self, node: Tree[Leaf], later: int) -> None:
         preposition = next(_leaves(node))
         groups = [c for c in node.children if isinstance(c, Tree)]
         if not groups:
@@ -202,11 +206,14 @@ class _Attachment:
             return
         self.draft.landmarks.extend(targets)
         self._of(targets)
-        if self._hosted(name) and self.host:
+        paired, self.paired = self.paired, False
+        if self.host and (paired or self._hosted(name, targets)):
             self.draft.relations.extend(Relation(name, s.name, t.name) for s in self.host for t in targets)
         else:
             self.pending.append((name, targets))
         if preposition.form == "relative":
+            chained = later > 1 or self.draft.verb.stem not in section("placing")
+            self.host = targets if chained else self.host
             return
         self.instrument = self.instrument or name == "with"
         self.behind = name
@@ -215,35 +222,54 @@ class _Attachment:
 
     def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:
         """Read "the cups on the table and the books on the shelf": the second pair stands for itself."""
-        if node.data != "place" or following.data != "place" or self.draft.verb.stem not in section("placing"):
+        if node.data != "place" or following.data != "place":
             return False
         groups = [c for c in node.children if isinstance(c, Tree)]
         phrases = _phrases(groups[0]) if groups else []
         same = next(_leaves(node)).text == next(_leaves(following)).text
-        if len(phrases) < 2 or not same or not phrases[-1].determined or not self.draft.direct:
+        if len(phrases) < 2 or not self.draft.direct:
+            return False
+        bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
+        place = next(_leaves(following)).text in section("static") | {"into", "onto"}
+        other = self.draft.verb.stem in section("placing") and place
+        if not (phrases[-1].determined or bare) or not (same or other):
             return False
         name, moved = next(_leaves(node)).text, phrases[-1]
-        sources = list(self.draft.direct)
+        sources = list(self.host if self.paired else self.draft.direct)
         self.draft.landmarks.extend(phrases[:-1])
         self.draft.relations.extend(Relation(name, s.name, t.name) for s in sources for t in phrases[:-1])
         self._of(phrases)
         self.draft.direct.append(moved)
-        self.host, self.behind = [moved], ""
+        self._flush(sources)
+        self.host, self.behind, self.paired = [moved], "", True
         return True
 
-    def _hosted(self, name: str) -> bool:
+    def _hosted(self, name: str, targets: list[Phrase]) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
+        if name == "with" and any(_is_tool(t.name) for t in targets):
+            held = stem in section("moving") | section("placing") | section("dative_verbs")
+            return self.instrument or (held and not self.behind)
+        if name == "by" and not any(t.determined or t.pronoun for t in targets):
+            return False
         if name == "with":
-            return stem not in section("with_verbs") or self.instrument
+            return stem.partition("_")[0] not in section("with_verbs") or self.instrument
         if name not in section("static") and name != "of":
             return False
         return not (self.behind in _ORIGIN and stem in section("placing"))
 
     def finish(self) -> None:
+        self._flush(self.draft.direct)
+
+    def _flush(self, direct: list[Phrase]) -> None:
+        sources: list[str | None] = [p.name for p in direct] or [None]
         for name, targets in self.pending:
-            sources: list[str | None] = [p.name for p in self.draft.direct] or [None]
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
+        self.pending.clear()
+
+
+def _is_tool(name: str) -> bool:
+    return name in section("tools") or name.rpartition("_")[2] in section("tools")
 
 
 def _phrases(group: Tree[Leaf]) -> list[Phrase]:
@@ -277,7 +303,8 @@ def _head(node: Tree[Leaf], lead: list[Token]) -> Phrase:
     words = list(_leaves(node))
     written = "_".join(t.text for t in words)
     pronoun = words[-1].kind is Kind.PRON
-    name = written if pronoun else singular(written)
+    as_written = pronoun or words[-1].form == NAME
+    name = "one" if written == "ones" else written if as_written else singular(written)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     determined = any(t.kind is Kind.DET for t in lead)
     return Phrase(name, words[0].span.start, name != written, determined, pronoun, quantity)

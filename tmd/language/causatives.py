@@ -10,6 +10,7 @@ from tmd.language.words import section
 NEGATED = "says what not to do"
 
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.ADV, Kind.CC})
+_DUTIES = frozenset({"should", "must", "need", "needs", "has", "have", "ought"})
 _SWITCHES = {"on": "turn_on", "off": "turn_off"}
 
 
@@ -66,7 +67,9 @@ def rewrite_ensure(tokens: list[Token], at: int) -> tuple[list[Token], int]:
         return _filler(lead), begin
     if any(t.text == "no" or t.kind is Kind.NEG for t in tokens[begin : begin + 4]):
         end = begin
-        while end < len(tokens) and tokens[end].kind not in (Kind.STOP, Kind.COMMA, Kind.V):
+        while end < len(tokens) and tokens[end].kind not in (Kind.STOP, Kind.COMMA):
+            if tokens[end].kind is Kind.V and tokens[end - 1].kind not in (Kind.NEG, Kind.AUX):
+                break
             end += 1
         absent = fold(tokens[at:end], Kind.SKIP, " ")
         absent.note = NEGATED
@@ -84,6 +87,42 @@ def rewrite_ensure(tokens: list[Token], at: int) -> tuple[list[Token], int]:
     stem, used = _state_verb(tokens, state)
     sources = [ensure, *tokens[copula:used]]
     return [_verb(stem, *sources), *_filler(lead[1:]), *tokens[begin:copula]], used
+
+
+def rewrite_should(tokens: list[Token], at: int) -> tuple[list[Token], int] | None:
+    """Rewrite "the plates should be washed and dried" as "wash and dry the plates".
+
+    Returns:
+        The new tokens and the index where reading goes on, or ``None`` if nothing is asked for there.
+    """
+    copula = _nominal_end(tokens, at)
+    while copula < len(tokens) and tokens[copula].kind is Kind.P and copula > at:
+        copula = _nominal_end(tokens, copula + 1)
+    nominal = tokens[at:copula]
+    if copula >= len(tokens) or tokens[copula].text not in _DUTIES or not any(t.kind is Kind.N for t in nominal):
+        return None
+    state = copula + 1
+    while state < len(tokens) and tokens[state].kind in (Kind.AUX, Kind.ADV, Kind.TO):
+        state += 1
+    if not any(t.text == "be" for t in tokens[copula:state]):
+        return None
+    stem, used = _state_verb(tokens, state)
+    if stem == "make_sure":
+        return None
+    verbs = [_verb(stem, *tokens[copula:used])]
+    while used + 1 < len(tokens) and tokens[used].kind is Kind.CC and tokens[used + 1].form == "ed":
+        verbs += [tokens[used], _verb(tokens[used + 1].stem, tokens[used + 1])]
+        used += 2
+    return [*verbs, *nominal], used
+
+
+def states_also(tokens: list[Token], at: int) -> bool:
+    """Tell whether a second state follows: "make sure the door is shut and the lamp is off"."""
+    if at >= len(tokens) or tokens[at].kind is not Kind.CC:
+        return False
+    copula = _nominal_end(tokens, at + 1)
+    named = any(t.kind in (Kind.N, Kind.PRON) for t in tokens[at + 1 : copula])
+    return named and copula < len(tokens) and tokens[copula].text in section("be")
 
 
 def _stem(text: str) -> str:

@@ -17,8 +17,16 @@ ALSO = "also"
 """The form of a preposition after a conjunction: "near the wall and near the door"."""
 _PURE = frozenset({"up", "down", "out", "away", "back", "together", "apart", "aside", "around"})
 """Particles that stay particles even when a noun follows."""
+_FREE = frozenset({"up", "out"})
+"""Particles of any verb that acts on something, before its object."""
+_FINAL = frozenset({"up", "off", "in", "down", "away"})
+"""... and behind it."""
+_MEASURES = frozenset(
+    {"spoon", "spoonful", "tablespoon", "teaspoon", "pinch", "handful", "dash", "drop", "slice", "cube"}
+)
 _NP = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON})
 _HEADS = frozenset({Kind.N, Kind.PRON})
+_INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON, Kind.ADJ, Kind.ADV, Kind.FILLER})
 _SCALES = frozenset({"heat", "flame", "fire", "power", "speed", "volume", "temperature", "setting"})
 _ON_OFF = frozenset({"turn", "switch", "shut", "power"})
 _LINKS = frozenset({Kind.COMMA, Kind.CC})
@@ -27,7 +35,7 @@ _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.S
 
 def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the tokens the grammar sees, in order."""
-    tokens = _settings(_numbered(_partitives(tokens)))
+    tokens = _settings(_ones(_numbered(_partitives(tokens))))
     _particles(tokens, lexicon)
     for verb, modifier in pairwise(tokens):
         if verb.kind is Kind.V and modifier.kind is Kind.ADV:
@@ -48,12 +56,9 @@ def _partitives(tokens: list[Token]) -> list[Token]:
     """Read "all of the cups" as "the cups"."""
     for at, token in enumerate(tokens[:-1]):
         of = tokens[at + 1]
-        quantity = token.text in section("partitives") and token.kind in (
-            Kind.N,
-            Kind.PRON,
-            Kind.DET,
-            Kind.NUM,
-        )
+        listed = token.text in section("partitives") and token.kind in (Kind.N, Kind.PRON, Kind.DET)
+        counts = token.kind is Kind.NUM and not (at and tokens[at - 1].kind is Kind.N)
+        quantity = listed or counts
         if quantity and of.kind is Kind.P and of.text == "of":
             of.kind = Kind.FILLER
             token.kind = Kind.DET
@@ -70,7 +75,7 @@ def _numbered(tokens: list[Token]) -> list[Token]:
         each_other = at + 1 < len(tokens) and tokens[at + 1].text == "each_other"
         if token.kind is Kind.P and each_other:
             token.kind = Kind.FILLER
-        counted = following is not None and following.kind in (Kind.N, Kind.NUM)
+        counted = following is not None and (following.kind in (Kind.N, Kind.NUM) or following.text == "more")
         if token.kind is Kind.NUM and not counted:
             before = result[-1] if result else None
             if before is not None and before.kind is Kind.N:
@@ -79,9 +84,19 @@ def _numbered(tokens: list[Token]) -> list[Token]:
                 result[-1] = joined
                 continue
             of = following is not None and following.text == "of"
-            token.kind = Kind.DET if of else Kind.PRON
+            parts = token.text.endswith("s") or token.text == "dozen"
+            token.kind = Kind.DET if of else Kind.N if parts else Kind.PRON
         result.append(token)
     return result
+
+
+def _ones(tokens: list[Token]) -> list[Token]:
+    """Let "ones" carry the words that tell which: "the white ones"."""
+    for lead, before, token in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        which = before.kind is Kind.N and lead.kind in (Kind.DET, Kind.NUM, Kind.ADJ, Kind.N)
+        if token.kind is Kind.PRON and token.text in ("one", "ones") and which:
+            token.kind = Kind.N
+    return tokens
 
 
 def _settings(tokens: list[Token]) -> list[Token]:
@@ -143,7 +158,8 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             return False
         if token.kind is Kind.MOD and token.form != "setting":
             return False
-        if token.kind not in (Kind.P, Kind.ADV):
+        again = token.text == "back" and verb.stem in _ON_OFF and place + 1 < len(tokens)
+        if token.kind not in (Kind.P, Kind.ADV) or (again and tokens[place + 1].text in ("on", "off")):
             continue
         if token.text == "of" and place == at + 1 and verb.stem in _ON_OFF:
             token.text = "off"
@@ -151,12 +167,46 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             _split_up_to(verb, token)
             return True
         match = lexicon.particle(verb.stem, token.text)
+        if match is None and not preposition and _moves_object(tokens, at, place):
+            match = False
         behind = preposition and token.text not in _PURE and not match
         if match is not None and not behind and _is_particle(tokens, at, place, match):
-            _absorb(verb, [token], f"{verb.stem}_{token.text}")
+            stem = verb.stem
+            _absorb(verb, [token], f"{stem}_{token.text}")
+            _second_particle(tokens, place, stem, lexicon)
             return True
         preposition = preposition or token.kind is Kind.P
     return False
+
+
+def _second_particle(tokens: list[Token], at: int, stem: str, lexicon: Lexicon) -> None:
+    """Give "the radio on" of "turn the tv off and the radio on" a verb of its own, where the conjunction stands."""
+    link = tokens[at + 1] if at + 1 < len(tokens) else None
+    if link is None or link.kind is not Kind.CC:
+        return
+    end = at + 2
+    while end < len(tokens) and tokens[end].kind in _INSIDE and lexicon.particle(stem, tokens[end].text) is None:
+        end += 1
+    if end == at + 2 or end >= len(tokens) or lexicon.particle(stem, tokens[end].text) is None:
+        return
+    following = _following(tokens, end)
+    if following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA):
+        link.kind, link.form, link.strength = Kind.V, "base", 3
+        _absorb(link, [tokens[end]], f"{stem}_{tokens[end].text}")
+
+
+def _moves_object(tokens: list[Token], at: int, place: int) -> bool:
+    """Tell whether "up" or "out" goes with a verb of no list: "fluff up the pillows", "fluff them up"."""
+    verb, text = tokens[at], tokens[place].text
+    if text not in (_FREE if place == at + 1 else _FINAL) or verb.stem in section("intransitive") | section(
+        "chain_verbs"
+    ) | section("lead_verbs"):
+        return False
+    following = _following(tokens, place)
+    if place == at + 1:
+        return following is not None and following.kind in _NP
+    object_before = all(t.kind in _INSIDE for t in tokens[at + 1 : place])
+    return object_before and (following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA))
 
 
 def _split_up_to(verb: Token, token: Token) -> None:
@@ -179,16 +229,19 @@ def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool
 
 def _takes_particle(tokens: list[Token], at: int, place: int) -> bool:
     """Tell "put on some music" from "put on the table" by the head of the noun phrase."""
-    text, head = tokens[place].text, ""
+    text, head, fresh = tokens[place].text, "", False
     for token in tokens[place + 1 :]:
+        if token.text == "of" and singular(head) in _MEASURES:
+            continue
         if token.kind not in (Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON):
             break
+        fresh = fresh or token.text in ("new", "fresh", "another")
         if token.kind in (Kind.N, Kind.PRON):
             head = token.text
     if text not in ("on", "in"):
         return False
     if tokens[at].stem in ("put", "place"):
-        return head in section(f"put_{text}_objects")
+        return head in section(f"put_{text}_objects") or (fresh and singular(head) not in section("containers"))
     return singular(head) not in section("containers")
 
 

@@ -18,6 +18,10 @@ NOWHERE = Span(0, 0)
 """The span of a clause that comes from no text."""
 
 
+PERSONS = frozenset({"me", "us", "him", "her", "you", "yourself", "everyone", "everybody", "someone"})
+"""Words for people: objects of a clause ("bring me the cup"), but no things to be found in an environment."""
+
+
 class Relation(NamedTuple):
     """One entry of the relation matrix ρ: ``on: cup -> stove``.
 
@@ -62,9 +66,9 @@ class Clause:
     purpose: str | None = field(default=None, compare=False)
 
     def resolved(self) -> tuple[str, ...]:
-        """The objects with each pronoun replaced by its likeliest antecedents, each name once."""
+        """The objects with each pronoun replaced by its likeliest antecedents, each name once, without persons."""
         names: dict[str, None] = {}
-        for name in self.objects:
+        for name in (n for n in self.objects if n not in PERSONS):
             names.update(dict.fromkeys(self.meant(name)))
         names.update(dict.fromkeys(self.meant("") if "" in self.antecedents else ()))
         return tuple(names)

@@ -9,7 +9,7 @@ from functools import cache
 from tmd.language.clause import Clause, Skipped, Span
 from tmd.language.lexicon import Lexicon
 from tmd.language.tokens import Kind, Token
-from tmd.language.words import section
+from tmd.language.words import section, slips
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
@@ -49,6 +49,7 @@ def is_filler(word: str) -> bool:
 
 
 def _is_filler(word: str) -> bool:
+    word = slips().get(word, word)
     word = word.removesuffix("'s") if word not in section("be") else word
     if word in _JOINTS or (word.endswith("ly") and len(word) > _ADVERB) or word.endswith(("'ll", "'d", "'ve")):
         return True

@@ -6,7 +6,8 @@ introduces a verb ("you should", "try to", "remember to") becomes filler.
 
 from __future__ import annotations
 
-from tmd.language.causatives import NEGATED, rewrite_ensure, rewrite_let
+from tmd.language.causatives import NEGATED, rewrite_ensure, rewrite_let, rewrite_should, states_also
+from tmd.language.clause import PERSONS
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 from tmd.language.words import section
@@ -18,6 +19,7 @@ ASIDE = "an aside in brackets"
 ADDRESS = "addresses somebody"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
+_WHITHER = frozenset({"to", "into", "onto", "off", "out_of"})
 _AFTER_SUBJECT = frozenset({Kind.AUX, Kind.ADV, Kind.SUBJECT})
 
 
@@ -74,7 +76,13 @@ class _Folder:
         if token.kind in (Kind.CC, Kind.COMMA):
             self.start = self.start or self._kind(self._peek(at)) not in _NOMINAL
         if self.start or token.kind in (Kind.CC, Kind.COMMA, Kind.STOP):
-            end = self._statement(at if token.kind not in (Kind.CC, Kind.COMMA, Kind.STOP) else at + 1)
+            begin = at if token.kind not in (Kind.CC, Kind.COMMA, Kind.STOP) else at + 1
+            asked = rewrite_should(self.tokens, begin) if begin < len(self.tokens) else None
+            if asked:
+                if begin > at:
+                    self._emit(token)
+                return self._rewritten(asked)
+            end = self._statement(begin)
             if end is not None:
                 if token.kind in (Kind.CC, Kind.COMMA, Kind.STOP):
                     self._emit(token)
@@ -107,6 +115,11 @@ class _Folder:
         if token.kind is Kind.P and token.text == "by" and self._kind(at + 1) is Kind.ING:
             self._filler(token)
             return at + 1
+        if token.kind is Kind.PARTICIPLE and token.stem in ("call", "name", "label", "mark", "title"):
+            end = at + 1
+            while self._kind(end) in (Kind.N, Kind.ADJ, Kind.NUM):
+                end += 1
+            return self._fold(at, end, Kind.MOD, "relative")
         if token.kind in (Kind.PARTICIPLE, Kind.FINITE):
             self._filler(token)
             return at + 1
@@ -141,6 +154,8 @@ class _Folder:
                 break
             if token.kind in (Kind.SUB, Kind.PURP) and finite:
                 break
+            if token.text == "by" and self._kind(end + 1) is Kind.ING:
+                break
             follows = self._kind(self._peek(end))
             if token.kind is Kind.CC and follows in (Kind.V, Kind.SUBJECT, Kind.NEG, Kind.ENSURE, Kind.ADV):
                 break
@@ -164,13 +179,16 @@ class _Folder:
                     lead = self._peek(lead)
                 leads = self._kind(lead) is Kind.TO
                 have = self._kind(scan + 1) is Kind.AUX and self._kind(self._peek(scan + 1)) in _NOMINAL | {Kind.ING}
-                if nominal or not (noticing or have) or leads:
+                told = token.text in ("i", "we") and verb < len(self.tokens) and self.tokens[verb].form == "ed"
+                if nominal or not (noticing or have or told) or leads:
                     return None
                 break
             there = token.text == "there" and self._kind(scan + 1) is Kind.AUX
             contracted = token.kind is Kind.AUX and "'s" in token.text
             if (token.kind in (Kind.AUX, Kind.FINITE) and (nominal or contracted)) or there:
-                if token.kind is Kind.AUX and self._kind(self._peek(scan)) is Kind.TO:
+                follows = self._kind(self._peek(scan))
+                robot = scan > at and self.tokens[scan - 1].text == "robot" and follows is Kind.V
+                if token.kind is Kind.AUX and (follows is Kind.TO or robot):
                     return None
                 break
             joins = token.kind in (Kind.CC, Kind.COMMA) and self._kind(self._peek(scan)) in _NOMINAL
@@ -223,7 +241,7 @@ class _Folder:
             self._emit(event)
             return end
         lead = self._lead_before()
-        if lead is not None:
+        if lead is not None or (self.out and self.out[-1].kind is Kind.CC):
             self._filler(token)
             return at + 1
         if self.verb is not None and self.verb.stem in section("chain_verbs"):
@@ -265,13 +283,27 @@ class _Folder:
         copula = self._peek(at)
         if self._kind(copula) is Kind.AUX and self.tokens[copula].text in section("be"):
             place = self._peek(copula, frozenset({Kind.ADV, Kind.PARTICIPLE, Kind.ING}))
-            if self._kind(place) is Kind.P:
+            described = bool(self.out) and self.out[-1] is not self.verb and self.out[-1].text not in PERSONS
+            if self._kind(place) is Kind.P and described:
                 self._filler(*self.tokens[at:place])
                 self.tokens[place].form = RELATIVE
                 return place
         if self.out and self.out[-1].kind is Kind.P:
             self.out[-1].kind = Kind.FILLER
-        return self._fold(at, self.boundary(at), Kind.MOD, "relative")
+        return self._fold(at, self._relative_end(at), Kind.MOD, "relative")
+
+    def _relative_end(self, at: int) -> int:
+        """End a relative clause where the main clause says whither: "the chair that stands there to the desk"."""
+        end = self.boundary(at)
+        said = False
+        verb = False
+        for place in range(at + 1, end):
+            token = self.tokens[place]
+            if verb and said and token.kind in (Kind.P, Kind.TO) and token.text in _WHITHER and token.form != "inf":
+                return place
+            said = said or (verb and (token.kind in (Kind.N, Kind.PRON, Kind.ADJ) or token.text in ("there", "here")))
+            verb = verb or token.kind in (Kind.FINITE, Kind.AUX, Kind.PARTICIPLE)
+        return end
 
     def _negation(self, at: int) -> int:
         if self.verb is not None and not self.start and self.tokens[at].text == "not":
@@ -308,7 +340,8 @@ class _Folder:
         return at + 1
 
     def _subject(self, at: int) -> int:
-        past = self._kind(at + 1) is Kind.V and self.tokens[at + 1].form == "ed"
+        after = self.tokens[at + 1] if at + 1 < len(self.tokens) else None
+        past = after is not None and (after.form == "ed" or after.text in ("was", "were", "had", "am", "have"))
         if past and self.out and self.out[-1].kind is Kind.N:
             return self._fold(at, self.boundary(at + 1), Kind.MOD, "relative")
         self._filler(self.tokens[at])
@@ -324,7 +357,11 @@ class _Folder:
         return self._rewritten(rewrite_let(self.tokens, at))
 
     def _ensure(self, at: int) -> int:
-        return self._rewritten(rewrite_ensure(self.tokens, at))
+        end = self._rewritten(rewrite_ensure(self.tokens, at))
+        also = states_also(self.tokens, end)
+        if also:
+            self.tokens[end].kind, self.tokens[end].text = Kind.ENSURE, "make_sure"
+        return end
 
     def _rewritten(self, result: tuple[list[Token], int]) -> int:
         for token in result[0]:

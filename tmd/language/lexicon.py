@@ -11,12 +11,12 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
 
-from tmd.language.morphology import singular, verb_stem
+from tmd.language.morphology import positive, singular, verb_stem
 from tmd.language.words import data_text, section, sections
 
 _TYPO_LENGTH = 4
 """Shorter words are never corrected."""
-_TYPO_RATIO = 0.85
+_TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
 
 
@@ -142,6 +142,8 @@ class Lexicon:
             or self.is_noun(word)
             or self.verb(word) is not None
             or word in _english()
+            or positive(word) in _closed_words()
+            or (word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs)
             or singular(word) in _english()
         )
 
@@ -154,7 +156,7 @@ class Lexicon:
         if len(word) < _TYPO_LENGTH or self.knows(word):
             return None
         swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
-        if swapped:
+        if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
             return swapped[0]
         if word.endswith("s") and (stem := self.correct(word[:-1])):
             return stem + "s"
@@ -165,7 +167,14 @@ class Lexicon:
     @cached_property
     def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
         table: dict[str, list[str]] = {}
-        words = self._own_nouns | section("verbs") | section("noun_verbs") | self.verbs | _typo_closed()
+        words = (
+            self._own_nouns
+            | section("misspelt")
+            | section("verbs")
+            | section("noun_verbs")
+            | self.verbs
+            | _typo_closed()
+        )
         for word in sorted(words):
             if "_" not in word and len(word) >= _TYPO_LENGTH:
                 table.setdefault(word[0], []).append(word)
@@ -193,6 +202,11 @@ _CLOSED = (
     "subjects",
     "let_verbs",
 )
+
+
+def _swaps(word: str) -> list[str]:
+    """Return a word with each pair of neighbouring letters changed, but for the first."""
+    return [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)]
 
 
 def _is_swap(word: str, other: str) -> bool:

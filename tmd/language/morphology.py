@@ -39,6 +39,11 @@ _IRREGULAR = {
     "buses": "bus",
     "lenses": "lens",
     "batteries": "battery",
+    "hoodies": "hoodie",
+    "calories": "calorie",
+    "quiches": "quiche",
+    "canvases": "canvas",
+    "dominoes": "domino",
 }
 _VOWELS = "aeiou"
 
@@ -52,6 +57,8 @@ def singular(noun: str) -> str:
 def _singular(word: str) -> str:
     if word in _IRREGULAR:
         return _IRREGULAR[word]
+    if word.endswith(("shelves", "knives", "wives", "scarves", "loaves", "wolves", "thieves")):
+        return word[:-4] + "ife" if word.endswith("ives") else word[:-3] + "f"
     if word in section("invariant") or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
         return word
     if word.endswith("ies") and len(word) > 4:
@@ -59,6 +66,18 @@ def _singular(word: str) -> str:
     if word.endswith(("sses", "shes", "ches", "xes", "zzes")):
         return word[:-2]
     return word[:-1]
+
+
+def positive(word: str) -> str:
+    """Return the adjective of a superlative: ``biggest`` gives ``big``; other words stay."""
+    if not word.endswith("est") or len(word) < 6:
+        return word
+    root = word[:-3]
+    if root.endswith("i"):
+        return root[:-1] + "y"
+    if root[-1] == root[-2]:
+        return root[:-1] if root[-1] not in "ls" else root
+    return root
 
 
 def is_plural(noun: str) -> bool:

@@ -14,10 +14,10 @@ from tmd.language.attachment import Draft, Phrase
 from tmd.language.clause import Clause
 from tmd.language.words import section
 
-SINGULAR = frozenset({"it", "this", "that", "itself", "one"})
-PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves", "ones"})
-OPEN = frozenset({"some", "all", "each", "any", "half", "most", ""})
-"""Pronouns without number; the empty name is an elided object."""
+SINGULAR = frozenset({"it", "this", "that", "itself"})
+PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves"})
+OPEN = frozenset({"one", "some", "all", "each", "any", "half", "most", ""})
+"""Pronouns without number ("ones" is named ``one``); the empty name is an elided object."""
 
 _REACH = 5
 _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 
 from tmd.language.clause import Span
 from tmd.language.lexicon import Lexicon
-from tmd.language.tokens import Kind, Token
-from tmd.language.words import phrases, section
+from tmd.language.morphology import positive, singular
+from tmd.language.tokens import NAME, Kind, Token
+from tmd.language.words import phrases, section, slips
 
 _PHRASES = (
     ("multiword_prepositions", Kind.P, ""),
@@ -44,14 +46,34 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     while position < len(tokens):
         merged, used = _phrase(tokens, position)
         if merged is None:
-            merged, used = _measure(tokens, position, tagged)
+            merged, used = _measure(tokens, position)
+        if merged is None:
+            merged, used = _time(tokens, position)
         if merged is None:
             merged, used = tokens[position], 1
             if merged.kind is Kind.WORD:
                 _tag_word(merged, lexicon)
         tagged.append(merged)
         position += used
+    _compounds(tagged)
+    _misspelt_from(tagged)
     return tagged
+
+
+def _compounds(tokens: list[Token]) -> None:
+    """Keep the first word of "light bulb", which is dropped elsewhere, and of names ("Canada Dry")."""
+    for first, second in pairwise(tokens):
+        if f"{first.text}_{singular(second.text)}" in section("compounds"):
+            first.kind, first.stem, first.strength = Kind.N, "", 0
+        elif second.kind is Kind.ADJ and first.capital and second.capital:
+            second.kind = Kind.N
+
+
+def _misspelt_from(tokens: list[Token]) -> None:
+    """Read "get the bowl form the shelf" as "from"."""
+    for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        if token.text == "form" and before.kind in (Kind.WORD, Kind.PRON, Kind.N) and after.kind is Kind.DET:
+            token.kind, token.text, token.stem, token.strength = Kind.P, "from", "", 0
 
 
 def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
@@ -69,7 +91,27 @@ def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
     return best
 
 
-def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token | None, int]:
+def _time(tokens: list[Token], at: int) -> tuple[Token | None, int]:
+    """Fold "at 6 pm", "in the morning", "for the given time": when, and no thing."""
+    if tokens[at].text not in section("before_time"):
+        return None, 0
+    words = [t.text for t in tokens[at : at + 6]]
+    end = 1
+    while end < len(words) and words[end] in section("determiners") | section("drop_adjectives"):
+        end += 1
+    clock = words[2:3] in (["am"], ["pm"], ["o'clock"])
+    if end == 1 and len(words) > 1 and words[1][0].isdigit() and (clock or words[0] in ("at", "by")):
+        end += 1 + clock
+    elif end < len(words) and words[end] in section("time_nouns"):
+        end += 1
+    else:
+        return None, 0
+    if words[end : end + 1] and tokens[at + end].kind is Kind.WORD and words[end] in section("nouns") | {"of"}:
+        return None, 0
+    return fold(tokens[at : at + end], Kind.MOD, " ", "setting"), end
+
+
+def _measure(tokens: list[Token], at: int) -> tuple[Token | None, int]:
     """Fold "for about 3 minutes", "to 180 degrees", "two feet"; the numeral words are still undecided."""
     end, words = at, [t.text for t in tokens[at : at + 8]]
     for text in words:
@@ -82,6 +124,8 @@ def _measure(tokens: list[Token], at: int, before: list[Token]) -> tuple[Token |
     while lead + number < len(words) and _is_number(words[lead + number]):
         number += 1
     unit = lead + number
+    if number and words[unit - 1] == "half" and words[unit : unit + 1] in (["a"], ["an"]):
+        unit += 1
     if unit >= len(words):
         return None, 0
     article = number == 0 and lead < len(words) and words[lead] in ("a", "an")
@@ -134,15 +178,17 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
     if word.endswith("'s") and word not in section("be") and word != "let's":
         word = token.text = word[:-2]
         token.form = "possessive"
-    word = token.text = word.rstrip("'")
+    word = token.text = slips().get(word, word).rstrip("'")
     if word.endswith(_CONTRACTED):
         token.kind = Kind.SUBJECT
         return
-    corrected = lexicon.correct(word.replace("-", "_")) if word.isalpha() else None
+    corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
     word = token.text = (corrected or word).replace("-", "_")
     token.kind = _closed(word)
     if token.kind is Kind.WORD and word.endswith("ly") and len(word) > 5 and not lexicon.is_noun(word):
         token.kind = Kind.ADV
+    if token.capital and token.kind is Kind.WORD and not lexicon.knows(singular(word)):
+        token.form = NAME
     if token.kind in (Kind.WORD, Kind.ADJ):
         reading = lexicon.verb(word)
         if reading:
@@ -166,6 +212,8 @@ def _closed(word: str) -> Kind:
     if word in section("relatives"):
         return Kind.REL
     if word in section("drop_adjectives") and word not in section("verbs") | section("noun_verbs"):
+        return Kind.ADJ
+    if positive(word) != word and {positive(word), positive(word) + "e"} & section("drop_adjectives"):
         return Kind.ADJ
     if word in section("prepositions"):
         return Kind.P

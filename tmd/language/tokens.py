@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, field
 from enum import StrEnum
+from itertools import pairwise
 
 from tmd.language.clause import Span
 
@@ -54,6 +55,10 @@ class Kind(StrEnum):
     FILLER = "FILLER"
 
 
+NAME = "name"
+"""The form of a word of no list that is written with a capital."""
+
+
 @dataclass(slots=True)
 class Token:
     """A word or a folded run of words.
@@ -67,6 +72,7 @@ class Token:
         strength: How sure a word is a verb, 0 to 3.
         parts: Further places that belong to it (the particle of a split verb).
         note: Why it is skipped.
+        capital: Written with a capital where other words are not: a name.
     """
 
     kind: Kind
@@ -77,6 +83,7 @@ class Token:
     strength: int = 0
     parts: list[Span] = field(default_factory=list)
     note: str = ""
+    capital: bool = False
 
 
 _TOKEN = re.compile(
@@ -91,6 +98,8 @@ _RUN = 3
 _LONGEST_RUN = 120
 
 _LONG_WORD = 60
+_TITLE_SHARE = 0.4
+"""A text with more capitals than this says nothing by them."""
 
 
 def tokenise(text: str) -> list[Token]:
@@ -104,7 +113,32 @@ def tokenise(text: str) -> list[Token]:
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
         tokens.append(Token(kind, word, span))
+    _enumeration(tokens, text)
+    _capitals(tokens, text)
     return tokens
+
+
+def _enumeration(tokens: list[Token], text: str) -> None:
+    """Read the marks of a numbered list, "1) take ... 2) put ...", as stops."""
+    sign, number = "", 1
+    for token, after in pairwise(tokens):
+        if token.kind is not Kind.NUM or token.text != str(number) or after.text not in (".", ")", ":"):
+            continue
+        opens = number > 1 or not text[: token.span.start].strip(" (|\n\t")
+        if opens and sign in ("", after.text):
+            token.kind = after.kind = Kind.STOP
+            sign, number = after.text, number + 1
+
+
+def _capitals(tokens: list[Token], text: str) -> None:
+    """Mark names: capitals inside a sentence."""
+    words = [t for t in tokens if t.kind is Kind.WORD]
+    capitals = [t for t in words if text[t.span.start].isupper()]
+    if len(capitals) > _TITLE_SHARE * len(words):
+        return
+    starts = {id(after) for before, after in pairwise(tokens) if before.kind is Kind.STOP}
+    for token in capitals:
+        token.capital = token is not tokens[0] and id(token) not in starts
 
 
 def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:

@@ -41,3 +41,9 @@ def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
         words = tuple(entry.split("_"))
         table.setdefault(words[0], []).append(words)
     return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
+
+
+@cache
+def slips() -> Mapping[str, str]:
+    """Return the slips that no likeness finds, with the words they stand for."""
+    return dict(entry.split("=") for entry in sections()["slips"])
