@@ -30,7 +30,7 @@ MAX_WORDS = 1_000
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show.")
 @click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE.")
-@click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the domain's own, or else hand_set.")
+@click.option("--weights", metavar="NAME|FILE", default="hand_set", show_default=True, help="The factors' weights.")
 @click.option(
     "--beam",
     type=click.IntRange(0),
@@ -51,7 +51,7 @@ def command(
     domain_name: str | None,
     top: int,
     planner: str | None,
-    weights: str | None,
+    weights: str,
     beam: int,
     trim: int | None,
     as_json: bool,
@@ -68,10 +68,8 @@ def command(
     from tmd.veil.library import learn
 
     spoken = _short_enough(said(text, text_file))
-    factors = _weights(weights) if weights else None
+    factors = _weights(weights)
     corpus, world = load_scene(roots, environment, domain_name)
-    if factors is None:
-        factors = _weights(str(corpus.folder.weights_path or "hand_set"))
     library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
     grounded = ground(
         spoken, world, library, factors, planner=planner or IN_PROCESS, beam=beam or None, trim=trim, top=top

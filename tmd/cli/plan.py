@@ -14,9 +14,7 @@ from tmd.errors import ExitCode
 @click.command("plan", short_help="Find a plan for a PDDL problem.")
 @click.argument("domain")
 @click.argument("problem", type=click.Path(path_type=Path))
-@click.option(
-    "--planner", metavar="NAME", help="auto (default), in-process, fast-downward[-first], up:ENGINE."
-)
+@click.option("--planner", metavar="NAME", help="auto (default), in-process, fast-downward[-first], up:ENGINE.")
 @click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the plan to this file.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj

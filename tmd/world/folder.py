@@ -66,12 +66,6 @@ class DomainFolder:
         path = self.path / "lexicon.yaml"
         return path if path.is_file() else None
 
-    @property
-    def weights_path(self) -> Path | None:
-        """``weights.txt``, the weights learned for the domain, if there are any."""
-        path = self.path / "weights.txt"
-        return path if path.is_file() else None
-
 
 def find_root(kind: str, given: Path | None = None) -> Path:
     """The directory of all ``domains`` or all ``problems``.
