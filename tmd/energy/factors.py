@@ -9,7 +9,6 @@ from tmd.pddl.model import Instruction
 from tmd.veil.instantiate import Instantiation
 from tmd.veil.states import differences
 
-
 AKIN = 0.75
 """What a noun counts that differs from another only by a modifier."""
 
