@@ -25,7 +25,7 @@ from tmd.atomic import write_text
 from tmd.errors import OutputError, TmdError
 from tmd.evaluation.dataset import BundledData, Dataset, VeilDataset
 from tmd.evaluation.folds import Fold, given_fold, halves, pairs
-from tmd.evaluation.models import MODELS, make_model
+from tmd.evaluation.models import make_model
 from tmd.evaluation.summary import summarise
 
 BUNDLED = "bundled"
@@ -232,8 +232,3 @@ def _read_part(part: _Part) -> list[dict[str, Any]]:
         return [json.loads(line) for line in part.file.read_text(encoding="utf-8").splitlines()]
     except (OSError, ValueError):
         raise OutputError(f"{part.file}: damaged", hint="remove it and run again") from None
-
-
-def all_models() -> tuple[str, ...]:
-    """The names of all models."""
-    return tuple(MODELS)

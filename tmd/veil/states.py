@@ -11,15 +11,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from functools import cached_property
 
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits, Task
 
 Profile = Mapping[tuple[str, ...], bool]
 
 PART_OF = "part_of"
-ROBOT = "robot"
-"""The type of agents; what is said of them is no state of an object."""
 
 
 class Profiles:
@@ -95,13 +92,3 @@ def differences(one: Profile, other: Profile) -> float:
 def shared(one: Profile, other: Profile) -> int:
     """How many states the two have in common (rule 3 of section V-A)."""
     return sum(other.get(name) == value for name, value in one.items())
-
-
-def robots(problem: Problem) -> frozenset[str]:
-    """The agents of a problem: its objects of type ``robot``, if the domain has that type."""
-    return frozenset(universe(problem).of((ROBOT,)))
-
-
-def without_robot(state: State, agents: frozenset[str]) -> State:
-    """The atoms of ``state`` that say nothing of an agent."""
-    return frozenset(atom for atom in state if not agents.intersection(atom.args))

@@ -11,14 +11,13 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tmd.errors import TmdError
-from tmd.pddl.hierarchy import hierarchy, universe
+from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
     Domain,
     GroundAtom,
     Instruction,
-    Predicate,
     Problem,
     State,
     TypedName,
@@ -229,14 +228,3 @@ def _with_action(problem: Problem, schema: ActionSchema) -> Problem:
 
 def _vertex(name: str, part: str) -> str:
     return name if part == ROOT else f"{name}_{part}"
-
-
-def object_types(problem: Problem) -> dict[str, tuple[str, ...]]:
-    """For every object and constant its type and that type's ancestors, nearest first."""
-    kinds = hierarchy(problem.domain)
-    return {o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()}
-
-
-def state_predicates(domain: Domain) -> tuple[Predicate, ...]:
-    """The domain's predicates, sorted by name."""
-    return tuple(sorted(domain.predicates, key=lambda p: p.name))
