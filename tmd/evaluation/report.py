@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+EMPTY = "empty"
+"""The model that predicts nothing: there is nothing to show of it."""
 _SHOWN = 5
 """How many of the best and worst predictions the page shows for each model."""
 _WIDTH = 118
@@ -60,7 +62,7 @@ def write_report(directory: Path) -> Path:
         console.print(_by_task(name, row["tasks"]))
     console.rule("configuration")
     console.print_json(json.dumps(metrics["config"]))
-    for name in metrics["models"]:
+    for name in (name for name in metrics["models"] if name != EMPTY):
         own = sorted((p for p in predictions if p["model"] == name), key=lambda p: (-p["IED"], str(p["id"])))
         _examples(console, f"{name}: best", own[:_SHOWN])
         _examples(console, f"{name}: worst", own[-_SHOWN:])
