@@ -52,7 +52,7 @@ def ground(
     weights: Weights | None = None,
     *,
     planner: str = IN_PROCESS,
-    beam: int | None = 5,
+    beam: int | None = 3,
     trim: int | None = None,
     top: int = 1,
 ) -> Grounded:

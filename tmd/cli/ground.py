@@ -34,7 +34,7 @@ MAX_WORDS = 1_000
 @click.option(
     "--beam",
     type=click.IntRange(0),
-    default=5,
+    default=3,
     show_default=True,
     help="How many states to follow from clause to clause; 0 follows all.",
 )
