@@ -75,3 +75,9 @@ def test_delta_dscpl_counts_arguments_plus_one() -> None:
 def test_delta_trim_is_the_square_of_what_is_missing() -> None:
     assert factors.delta_trim(2, 5) == 9.0
     assert factors.delta_trim(5, 5) == 0.0
+
+
+def test_delta_cover_is_the_share_of_the_clause_that_is_not_touched() -> None:
+    assert factors.delta_cover(["bowl1", "stove1"], {"bowl1", "pot1"}) == 0.5
+    assert factors.delta_cover(["bowl1"], {"bowl1"}) == 0.0
+    assert factors.delta_cover([], {"bowl1"}) == 0.0

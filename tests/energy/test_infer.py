@@ -106,6 +106,7 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
             made = instantiate(template, clause, world, state, pair_nouns=True)
             assert made is not None
             whole = made.instructions
+            names = world.mentions.meant(clause, made.grounding.values(), state)
             for t in range(min(trim, len(whole)) + 1):
                 if any(i not in world.task.by_instruction for i in whole[t:]):
                     continue
@@ -118,8 +119,8 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
                     end = operator.apply(end)
                 parts = (
                     scorer.of_template(made, clause),
-                    scorer.of_sequence(whole[t:], len(whole)),
-                    scorer.of_end(clause.verb, world.mentions.meant(clause, made.grounding.values(), state), end),
+                    scorer.of_sequence(whole[t:], len(whole), names),
+                    scorer.of_end(clause.verb, names, end),
                     scorer.of_latent(answer.plan, answer.state),
                 )
                 found.append((sum(sum(scorer.weigh(part).values()) for part in parts), end))

@@ -49,9 +49,9 @@ def test_a_clause_that_turns_something_on_is_consistent_with_its_being_on(kitche
 def test_usual_instructions_cost_less_than_unusual_ones(kitchen: Corpus) -> None:
     library = learn(kitchen.demonstrations("ramen"), kitchen.world, kitchen.lexicon)
     energy = Energy(ONES, count(library), kitchen.world("kitchen1"))
-    usual = energy.of_sequence([Instruction("grasp", ("pot1",))], 1)
-    unusual = energy.of_sequence([Instruction("squeeze", ("raspberry_bottle1", "cup1", "in"))], 1)
-    odd_object = energy.of_sequence([Instruction("grasp", ("fork1",))], 1)
+    usual = energy.of_sequence([Instruction("grasp", ("pot1",))], 1, [])
+    unusual = energy.of_sequence([Instruction("squeeze", ("raspberry_bottle1", "cup1", "in"))], 1, [])
+    odd_object = energy.of_sequence([Instruction("grasp", ("fork1",))], 1, [])
     assert usual["inpr"] < unusual["inpr"]
     assert usual["para"] < odd_object["para"]
     assert usual["inpr"] == odd_object["inpr"]

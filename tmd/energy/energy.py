@@ -43,14 +43,16 @@ class Energy:
             "pcc": factors.delta_pcc(template, clause),
         }
 
-    def of_sequence(self, kept: Sequence[Instruction], whole: int) -> Factors:
-        """The factors of ψ_i that depend on the instructions that are kept."""
+    def of_sequence(self, kept: Sequence[Instruction], whole: int, names: Sequence[str]) -> Factors:
+        """The factors of ψ_i that depend on the instructions that are kept; ``names`` is what the clause speaks of."""
+        used = {unit for i in kept for argument in i.args for unit in self.world.profiles.unit(argument)}
         inpr, para = self._prior(kept)
         return {
             "dscpl": factors.delta_dscpl(kept),
             "inpr": inpr,
             "para": para,
             "trim": factors.delta_trim(len(kept), whole),
+            "cover": factors.delta_cover(names, used),
         }
 
     def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
@@ -72,3 +72,12 @@ def delta_dscpl(instructions: Sequence[Instruction]) -> float:
 def delta_trim(kept: int, whole: int) -> float:
     """Trimming cost: (|I_s| - |I_i|)²."""
     return float((whole - kept) ** 2)
+
+
+def delta_cover(names: Collection[str], used: Collection[str]) -> float:
+    """The share of the objects that the clause speaks of (``names``) which the instructions do not touch.
+
+    Not in the paper. Δ_nl compares the clause with the template's clause, not with what is done: this keeps *take
+    the bowl* from being served by what somebody did for *get it boiling*. 0 where the clause speaks of no object.
+    """
+    return sum(name not in used for name in names) / len(names) if names else 0.0

@@ -203,7 +203,7 @@ class Inference:
         most = len(whole) if self.trim is None else min(self.trim, len(whole))
         found = []
         for t in range(first, most + 1):
-            raw = {**fixed, **self.energy.of_sequence(whole[t:], len(whole))}
+            raw = {**fixed, **self.energy.of_sequence(whole[t:], len(whole), names)}
             energy = sum(self.energy.weigh(raw).values())
             found.append(_Candidate(instantiation.template.source, whole[t:], raw, energy, names))
         return found

@@ -12,7 +12,7 @@ from tmd.errors import Location, TmdError
 from tmd.pddl.syntax import nearest, read_text
 
 NAMES = (
-    *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
+    *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons", "cover"),
     *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""

@@ -45,6 +45,16 @@ class Profiles:
         return {whole: tuple(parts) for whole, parts in found.items()}
 
     @cached_property
+    def wholes(self) -> dict[str, str]:
+        """For every part the object it belongs to."""
+        return {part: whole for whole, parts in self.parts.items() for _, part in parts}
+
+    def unit(self, name: str) -> tuple[str, ...]:
+        """``name``, and the object that it is a part of."""
+        whole = self.wholes.get(name)
+        return (name,) if whole is None else (name, whole)
+
+    @cached_property
     def links(self) -> Mapping[tuple[str, str], frozenset[str]]:
         """The static relations between each two objects: which edges of the object graphs join them."""
         found: dict[tuple[str, str], set[str]] = {}
