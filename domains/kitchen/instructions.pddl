@@ -1,9 +1,8 @@
 ; The kitchen: what each instruction of a household robot needs and does.
 ;
 ; The thirteen instructions of Table I of "Tell Me Dave" (RSS 2014) and three more that people use
-; (pour, add, insert). One robot, pr2, with two hands. This file is written by hand; domain.pddl is compiled
-; from it and from objects.yaml (classes become types below, substances become constants), so change this file
-; and run `tmd compile domains/kitchen`.
+; (pour, add, insert). One robot, pr2, with two hands. instructions.pddl is written by hand; domain.pddl is
+; compiled from it and from objects.yaml (classes become types, substances become constants).
 ;
 ; Physics in one paragraph. A thing must be found before the robot can go to it, and what is behind a closed door
 ; cannot be found or taken. Standing somewhere ends standing elsewhere; what is held stays in reach. An effector

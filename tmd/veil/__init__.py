@@ -8,6 +8,9 @@ module              holds
 ``template``        generalising a demonstrated sequence: objects become variables
 ``library``         the templates of a corpus, by verb
 ``mentions``        nouns of a clause to the objects of an environment
+``world``           an environment, ground, with its objects' states and nouns
 ``instantiate``     a template in a new environment: the three rules of section V-A
+``corpus``          the bundled environments and demonstrations of a domain
+``replay``          playing a demonstration step by step
 ==================  ==============================================================================
 """
