@@ -47,7 +47,7 @@ def test_every_prediction_is_executable(data: BundledData, latent: bool) -> None
     model = Crf(learned=False, latent=latent, beam=2).fit(fold.train, data, random)
     done = 0
     for example in fold.test[:5]:
-        predicted = model.predict(example, data, random)
+        predicted = model.predict(example, data, random).instructions
         assert validate(data.world(example.environment).task.problem, predicted).valid
         done += len(predicted)
     assert done > 0
@@ -59,5 +59,5 @@ def test_latent_nodes_find_what_was_left_unsaid(data: BundledData) -> None:
     lengths = []
     for latent in (True, False):
         model = Crf(learned=False, latent=latent, beam=2).fit(fold.train, data, random)
-        lengths.append(sum(len(model.predict(e, data, random)) for e in fold.test[:5]))
+        lengths.append(sum(len(model.predict(e, data, random).instructions) for e in fold.test[:5]))
     assert lengths[0] > lengths[1]

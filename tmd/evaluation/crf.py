@@ -15,8 +15,8 @@ from tmd.energy.statistics import Statistics, count
 from tmd.energy.weights import Weights, named_weights
 from tmd.evaluation.dataset import Dataset, Example
 from tmd.evaluation.metrics import EPSILON, ied
+from tmd.evaluation.prediction import Prediction, Served
 from tmd.language import Clause, parse
-from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Answer, Filled, Planner, Unreachable
@@ -86,13 +86,13 @@ class Crf:
                 self.weights_[world] = self.learned_[world].weights
         return self
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
         if example.world not in self.libraries_:
-            return ()
+            return Prediction()
         library, statistics = self.libraries_[example.world], self.statistics_[example.world]
         plans = self._plans(example, data, library, statistics, self.weights_[example.world], top=1)
-        return plans[0].instructions if plans else ()
+        return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
 
     def _learn(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Learned:
         """Weights for one kind of world. A training example never sees templates of its own environment."""
@@ -140,6 +140,22 @@ class Crf:
         if environment not in self._fillers:
             self._fillers[environment] = make(IN_PROCESS, world.task) if self.latent else NoLatent()
         return self._fillers[environment]
+
+
+def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
+    """A plan with what it does for each clause, and why."""
+    served = tuple(
+        Served(
+            clause.text,
+            clause.verb,
+            tuple(step.instruction for step in choice.steps if step.latent),
+            tuple(step.instruction for step in choice.steps if not step.latent),
+            choice.source,
+            choice.factors,
+        )
+        for clause, choice in zip(clauses, plan.choices, strict=True)
+    )
+    return Prediction(plan.instructions, served)
 
 
 def loss(plan: RankedPlan, example: Example, world: World) -> float:

@@ -23,10 +23,12 @@ import numpy as np
 from tmd import __version__
 from tmd.atomic import write_text
 from tmd.errors import OutputError, TmdError
-from tmd.evaluation.dataset import BundledData, Dataset, VeilDataset
+from tmd.evaluation.dataset import BundledData, Dataset, Example, VeilDataset
 from tmd.evaluation.folds import Fold, given_fold, halves, pairs
 from tmd.evaluation.models import make_model
+from tmd.evaluation.prediction import Prediction
 from tmd.evaluation.summary import summarise
+from tmd.pddl.model import Instruction
 
 BUNDLED = "bundled"
 VEIL500 = "veil500"
@@ -198,29 +200,51 @@ def _do(config: ExperimentConfig, part: _Part) -> _Part:
     model = make_model(part.model).fit(fold.train, data, random)
     predictions = [(example, model.predict(example, data, random)) for example in fold.test]
     for environment in sorted({example.environment for example in fold.test}):
-        own = [p for e, p in predictions if e.environment == environment]
+        own = [p.instructions for e, p in predictions if e.environment == environment]
         data.scorer(environment).prepare(own)
-    lines = []
-    for example, predicted in predictions:
-        scores = data.scorer(example.environment).score(predicted, example.gold)
-        lines.append(
-            {
-                "id": example.id,
-                "task": example.task,
-                "environment": example.environment,
-                "model": part.model,
-                "fold": fold.name,
-                "predicted": data.written(example.environment, predicted),
-                "gold": data.written(example.environment, example.gold),
-                "executable": scores.executable == 100.0,
-                "IED": round(scores.ied, _DIGITS),
-                "END": round(scores.end, _DIGITS),
-                "EED": round(scores.eed, _DIGITS),
-                "EED_trim": round(scores.eed_trim, _DIGITS),
-            }
-        )
+    lines = [_line(data, example, prediction, part.model, fold.name) for example, prediction in predictions]
     _write_jsonl(part.file, lines)
     return part
+
+
+def _line(data: Dataset, example: Example, prediction: Prediction, model: str, fold: str) -> dict[str, Any]:
+    """What is kept of one prediction: a line of ``predictions.jsonl``."""
+
+    def written(instructions: Iterable[Instruction]) -> list[str]:
+        return data.written(example.environment, instructions)
+
+    scores = data.scorer(example.environment).score(prediction.instructions, example.gold)
+    said = example.demonstration.text
+    return {
+        "id": example.id,
+        "task": example.task,
+        "environment": example.environment,
+        "model": model,
+        "fold": fold,
+        "text": said,
+        "predicted": written(prediction.instructions),
+        "gold": written(example.gold),
+        "executable": scores.executable == 100.0,
+        "IED": round(scores.ied, _DIGITS),
+        "END": round(scores.end, _DIGITS),
+        "EED": round(scores.eed, _DIGITS),
+        "EED_trim": round(scores.eed_trim, _DIGITS),
+        "clauses": [
+            {
+                "text": served.text,
+                "verb": served.verb,
+                "latent": written(served.latent),
+                "said": written(served.said),
+                "source": served.source,
+                "factors": {name: round(value, _DIGITS) for name, value in served.factors.items()},
+            }
+            for served in prediction.served
+        ],
+        "segments": [
+            {"text": said[segment.start : segment.end], "instructions": written(segment.instructions)}
+            for segment in example.demonstration.segments
+        ],
+    }
 
 
 def _write_jsonl(path: Path, lines: Iterable[dict[str, Any]]) -> None:

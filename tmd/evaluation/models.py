@@ -13,6 +13,7 @@ from tmd.energy.factors import delta_env, delta_nl
 from tmd.errors import TmdError
 from tmd.evaluation.crf import Crf, libraries
 from tmd.evaluation.dataset import Dataset, Example
+from tmd.evaluation.prediction import Prediction, by_clause
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
@@ -29,7 +30,7 @@ class Model(Protocol):
         """Learn from ``examples``."""
         ...
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The instructions for the example's text in its environment; its own sequence is not looked at."""
         ...
 
@@ -41,9 +42,9 @@ class Empty:
         """Nothing is learned."""
         return self
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """Nothing."""
-        return ()
+        return Prediction()
 
 
 class Chance:
@@ -59,11 +60,11 @@ class Chance:
         self.lengths_ = {world: int(median(len(e.gold) for e in examples if e.world == world)) for world in worlds}
         return self
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """A random sequence."""
         operators = data.world(example.environment).task.operators
         draws = random.integers(len(operators), size=self.lengths_.get(example.world, 0))
-        return tuple(operators[int(draw)].instruction for draw in draws)
+        return Prediction(tuple(operators[int(draw)].instruction for draw in draws))
 
 
 class NearestEnvironment:
@@ -79,18 +80,20 @@ class NearestEnvironment:
         self.libraries_ = libraries(examples, data)
         return self
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> tuple[Instruction, ...]:
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The nearest template of each clause, one after the other."""
         world = data.world(example.environment)
         library = self.libraries_.get(example.world) or Library(data.lexicon)
         state = world.task.init
-        done: list[Instruction] = []
+        done: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
         for clause in parse(example.demonstration.text, data.lexicon).clauses:
             chosen = self._nearest(clause, library, world, state)
-            if chosen is not None:
-                done += chosen.instructions
+            if chosen is None:
+                done.append((clause, (), None))
+            else:
+                done.append((clause, chosen.instructions, chosen.template.source))
                 state = run(world, state, chosen.instructions)
-        return tuple(done)
+        return by_clause(done)
 
     def _nearest(self, clause: Clause, library: Library, world: World, state: int) -> Instantiation | None:
         candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
