@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from pathlib import Path
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 
 from tmd.errors import TmdError
-from tmd.evaluation.dataset import BundledData, Example
+from tmd.evaluation.dataset import BundledData, Example, VeilDataset
 from tmd.evaluation.predefined import FILE, PredefinedTemplates, load_templates
 from tmd.evaluation.prediction import Prediction
 from tmd.pddl.validator import validate
@@ -129,6 +130,28 @@ def test_what_is_in_the_hand_is_fetched_again(model: PredefinedTemplates, data: 
 def test_of_several_objects_it_takes_the_first_whatever_is_meant(model: PredefinedTemplates, data: BundledData) -> None:
     found = predict(model, data, "Open the fridge. Close the door.", "kitchen1")
     assert written(found)[-1] == "close(cupboard1_door)"
+
+
+# ---------------------------------------------------------------- classes that are no types: by name and by word
+
+
+@pytest.mark.skipif("VEIL500_DIR" not in os.environ, reason="VEIL500_DIR does not say where VEIL-500 is")
+@pytest.mark.parametrize(
+    ("text", "environment", "last"),
+    [
+        ("Turn on the television.", "living_room1", "press Tv_1PowerButton"),
+        ("Lay the cushion on the coffee table.", "living_room1", "keep Pillow_1 On CoffeeTable_1"),
+        ("Light the burner.", "kitchen1", "turn StoveKnob_1"),
+        ("Place the can on the couch.", "living_room1", "keep Coke_1 On Loveseat_1"),
+    ],
+)
+def test_names_and_words_stand_for_classes(text: str, environment: str, last: str) -> None:
+    veil = VeilDataset(Path(os.environ["VEIL500_DIR"]), "all")
+    world = environment.rstrip("0123456789")
+    said = Demonstration("said", "none", environment, text, ())
+    example = Example("said", "none", world, environment, 1, said)
+    found = PredefinedTemplates(ROOT / "domains").predict(example, veil, RANDOM)
+    assert veil.written(environment, found.instructions)[-1] == last
 
 
 # ---------------------------------------------------------------- all of it

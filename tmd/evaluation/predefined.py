@@ -19,7 +19,8 @@ The library of a domain is ``templates.yaml`` in the domain's folder::
 
 Verbs and templates are many to many: a verb has several templates, a template several verbs (and their synonyms).
 For a clause the template that says most of it is used. A variable that no noun names stands for the first object
-that fits. Nothing looks at the state of the environment or checks that a sequence can be executed.
+that fits. The state of the environment decides only what a noun may mean (*the water* is what holds water): not which
+template is used, and nothing checks that a sequence can be executed.
 """
 
 from __future__ import annotations
