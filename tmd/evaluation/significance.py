@@ -1,0 +1,131 @@
+"""Whether one row is better than another: paired tests between rows that were tested on the same examples.
+
+Examples with the same text are not independent, whatever the environment: models read the same words. So what is
+drawn, and what is flipped, is a text with all its examples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import combinations, product
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats: TypeAlias = NDArray[np.float64]
+
+RESAMPLES = 9999
+"""How many sign patterns, and how many bootstrap samples, are drawn."""
+LEVEL = 0.95
+"""The level of the intervals."""
+SEED = 0
+"""The draws do not depend on the run's seed: the same predictions have the same p."""
+_DIGITS = 4
+_SLACK = 1e-9
+"""Sums that differ by less are equal: the order of adding must not decide a tie."""
+
+
+def compare(predictions: Sequence[dict[str, Any]], models: Sequence[str], metrics: Sequence[str]) -> dict[str, Any]:
+    """Every two rows, on the examples that all rows have.
+
+    Returns:
+        ``{"examples", "texts", "resamples", "level", "pairs": [{"a", "b", METRIC: {"difference", "low", "high",
+        "p", "p_holm"}}]}``. ``difference`` is the mean over examples of a minus b, ``low`` to ``high`` its interval,
+        ``p`` of the two-sided test of no difference, ``p_holm`` the same, corrected for the number of pairs.
+    """
+    found: dict[str, Any] = {"examples": 0, "texts": 0, "resamples": RESAMPLES, "level": LEVEL, "pairs": []}
+    if len(models) < 2:
+        return found
+    rows = {model: {_key(p): p for p in predictions if p["model"] == model} for model in models}
+    keys = sorted(set.intersection(*(set(row) for row in rows.values())))
+    if not keys:
+        return found
+    texts = sorted({rows[models[0]][key]["text"] for key in keys})
+    place = {text: number for number, text in enumerate(texts)}
+    where = np.array([place[rows[models[0]][key]["text"]] for key in keys])
+    sizes = np.bincount(where, minlength=len(texts)).astype(np.float64)
+    pairs = list(combinations(models, 2))
+    tests = [(a, b, metric) for metric in metrics for a, b in pairs]
+    totals = np.array(
+        [
+            np.bincount(where, weights=[rows[a][k][metric] - rows[b][k][metric] for k in keys], minlength=len(texts))
+            for a, b, metric in tests
+        ]
+    )
+    values = sign_flip(totals)
+    low, high = intervals(totals, sizes)
+    table: dict[tuple[str, str], dict[str, Any]] = {(a, b): {"a": a, "b": b} for a, b in pairs}
+    for first in range(0, len(tests), len(pairs)):
+        chosen = slice(first, first + len(pairs))
+        for number, corrected in enumerate(holm(values[chosen].tolist()), first):
+            a, b, metric = tests[number]
+            table[a, b][metric] = {
+                "difference": _rounded(totals[number].sum() / len(keys)),
+                "low": _rounded(low[number]),
+                "high": _rounded(high[number]),
+                "p": _rounded(values[number]),
+                "p_holm": _rounded(corrected),
+            }
+    return found | {"examples": len(keys), "texts": len(texts), "pairs": list(table.values())}
+
+
+def sign_flip(totals: Floats) -> Floats:
+    """The p of the two-sided paired permutation test (Fisher's sign-flip test) of each row of ``totals``.
+
+    If two models are equally good, each difference could as well have had the other sign. p is the share of sign
+    patterns whose sum is at least as far from 0 as the one seen: of all patterns where there are few, otherwise
+    of :data:`RESAMPLES` random ones and the one seen.
+
+    Args:
+        totals: Shape (tests, texts): the sum of differences over the examples of each text.
+
+    Returns:
+        Shape (tests,).
+    """
+    count = totals.shape[1]
+    exact = 2**count <= RESAMPLES + 1
+    if exact:
+        signs = np.array(list(product((1.0, -1.0), repeat=count)))
+    else:
+        signs = np.random.default_rng(SEED).choice([1.0, -1.0], size=(RESAMPLES, count))
+    seen = np.abs(totals.sum(axis=1))
+    as_far = (np.abs(signs @ totals.T) >= seen - _SLACK * (1 + seen)).sum(axis=0)
+    p: Floats = as_far / len(signs) if exact else (1 + as_far) / (1 + len(signs))
+    return p
+
+
+def intervals(totals: Floats, sizes: Floats) -> tuple[Floats, Floats]:
+    """Percentile bootstrap intervals of the mean difference, drawing texts with all their examples.
+
+    Args:
+        totals: Shape (tests, texts): the sum of differences over the examples of each text.
+        sizes: Shape (texts,): how many examples each text has.
+
+    Returns:
+        Lower and upper ends, of shape (tests,) each.
+    """
+    count = len(sizes)
+    drawn = np.random.default_rng(SEED).multinomial(count, np.full(count, 1 / count), size=RESAMPLES)
+    means = (drawn @ totals.T) / (drawn @ sizes)[:, np.newaxis]
+    low, high = np.quantile(means, [(1 - LEVEL) / 2, (1 + LEVEL) / 2], axis=0)
+    return low, high
+
+
+def holm(values: Sequence[float]) -> list[float]:
+    """Holm's step-down correction: the p values of a family of tests, such that the least may be looked for."""
+    order = sorted(range(len(values)), key=lambda i: values[i])
+    corrected = [1.0] * len(values)
+    most = 0.0
+    for rank, i in enumerate(order):
+        most = max(most, min(1.0, (len(values) - rank) * values[i]))
+        corrected[i] = most
+    return corrected
+
+
+def _key(prediction: dict[str, Any]) -> tuple[str, str]:
+    return prediction["environment"], str(prediction["id"])
+
+
+def _rounded(value: float) -> float:
+    return round(float(value), _DIGITS) + 0.0
