@@ -1,0 +1,71 @@
+"""Table II of the paper (RSS 2014), to be printed beside a run's own numbers, and the order and names of its rows.
+
+The paper's numbers were measured on VEIL-200, which was not released: they show what kind of number each row gave
+there, and compare with no other data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+TASKS = ("coffee", "boiling_water", "ramen", "affogato")
+"""The tasks of Table II, in its order."""
+METRICS = ("IED", "EED")
+"""The metrics of Table II, normalised to 100, larger is better."""
+
+
+@dataclass(frozen=True, slots=True)
+class PaperRow:
+    """A row of Table II.
+
+    Attributes:
+        title: What the paper calls it.
+        scores: IED and EED for each of :data:`TASKS`.
+        average: IED and EED, as printed under *Average*.
+    """
+
+    title: str
+    scores: tuple[tuple[float, float], ...]
+    average: tuple[float, float]
+
+    def of(self, task: str) -> tuple[float, float]:
+        """IED and EED of one of :data:`TASKS`."""
+        return self.scores[TASKS.index(task)]
+
+
+def _row(title: str, *numbers: float) -> PaperRow:
+    pairs = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    return PaperRow(title, pairs[:-1], pairs[-1])
+
+
+TABLE_2: dict[str, PaperRow] = {
+    "chance": _row("Chance", 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2, 0.2),
+    "predefined": _row("Predefined Templates", 14.3, 22.8, 21.5, 38.8, 32.8, 28.7, 14.0, 17.0, 20.7, 26.8),
+    "tree": _row("Instruction-Tree", 14.4, 25.7, 11.2, 38.8, 26.3, 25.6, 12.5, 15.9, 16.1, 26.5),
+    "no_nlp": _row("No NL Instructions", 39.2, 43.9, 21.8, 43.3, 1.2, 15.7, 12.8, 11.5, 18.8, 28.6),
+    "nearest": _row("Nearest Environment Instantiation", 63.4, 47.3, 43.5, 50.1, 52.1, 51.4, 45.4, 49.2, 51.1, 49.5),
+    "no_domain": _row("Our model, No Domain Knowledge", 78.6, 71.7, 55.7, 55.2, 66.1, 49.5, 51.2, 51.3, 62.9, 56.9),
+    "no_latent": _row("Our model, No latent nodes", 78.9, 73.8, 57.0, 58.4, 66.3, 53.9, 51.5, 51.2, 63.4, 59.3),
+    "full": _row("Our full model", 76.5, 78.3, 54.5, 61.3, 67.3, 49.4, 53.5, 56.2, 63.0, 61.3),
+}
+"""The rows of Table II by our short names, in its order."""
+
+OURS = {
+    "hand_set": "Full model, weights set by hand",
+    "empty": "Empty prediction",
+}
+"""Titles of rows that the paper does not have."""
+
+
+def title(model: str) -> str:
+    """What a row is called on a page: as in the paper where it is there, otherwise as in :data:`OURS`, or its name."""
+    if model in TABLE_2:
+        return TABLE_2[model].title
+    return OURS.get(model, model)
+
+
+def in_order(models: Iterable[str]) -> tuple[list[str], list[str]]:
+    """The rows that the paper has, in its order, and the others, in their own."""
+    given = list(models)
+    return [name for name in TABLE_2 if name in given], [name for name in given if name not in TABLE_2]
