@@ -145,6 +145,8 @@ def test_every_part_is_there(page: str) -> None:
     assert "Other data." in said
     assert "67.0 ±1.2" in said, "mean of 60 … 74, standard error over 15 examples"
     assert "* differs from full" in said
+    assert "full − nearest +20.0 [+20.0, +20.0]" in said
+    assert "full − empty +40.0 [+40.0, +40.0]" in said
     assert "[1.5, 1.5]" in said, "learned weights"
     assert len(re.findall("<svg", page)) == 3
 

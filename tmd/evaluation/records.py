@@ -10,6 +10,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from tmd.errors import TmdError
+from tmd.evaluation.summary import METRICS
 
 
 class _Record(BaseModel):
@@ -128,6 +129,11 @@ class Difference(_Record):
     p: float
     p_holm: float
 
+    def reversed(self) -> Difference:
+        """The same, the other way round."""
+        turned = {"difference": -self.difference, "low": -self.high, "high": -self.low}
+        return self.model_copy(update=turned)
+
 
 class Pair(_Record):
     """Two rows compared."""
@@ -144,6 +150,13 @@ class Pair(_Record):
         found = getattr(self, metric)
         assert isinstance(found, Difference)
         return found
+
+    def seen_from(self, row: str) -> Pair:
+        """With ``row`` first, if it is one of the two."""
+        if row != self.b:
+            return self
+        turned = {metric: self.of(metric).reversed() for metric in METRICS}
+        return self.model_copy(update={"a": self.b, "b": self.a, **turned})
 
 
 class Significance(_Record):
