@@ -127,6 +127,7 @@ def test_nothing_is_loaded(page: str) -> None:
         assert "src" not in attributes, tag
         assert (attributes.get("href") or "#").startswith("#"), tag
     assert "default-src 'none'" in page
+    assert page.count("<style") == 1
 
 
 def test_names_of_elements_are_unique_and_links_lead_somewhere(page: str) -> None:
@@ -216,6 +217,7 @@ def test_curves_may_be_short_or_plain_numbers(tmp_path: Path, curve: list[Any]) 
     fit(finished(tmp_path, ("full",), ("ramen",)), curve=curve)
     page = write_report(tmp_path).read_text(encoding="utf-8")
     assert ("No curve was kept" in page) == (not curve)
+    assert ">objective<" not in page, "a panel for nothing"
 
 
 def test_the_same_run_has_the_same_bytes_whatever_the_user_likes(

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from tmd.evaluation.records import Fit, Means, Metrics
+from tmd.evaluation.records import CurvePoint, Fit, Means, Metrics
 from tmd.evaluation.summary import EXECUTABLE
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ _COLOURS_OF_THE_PAGE = {_INK: "currentColor", _FAINT: "var(--rule)"}
 """Written by the charts, and replaced: the page knows whether it is light or dark."""
 _BAR = "#0072b2"
 _SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+_SIDES = {"loss": "loss (0 to 1)", "objective": "objective"}
 _WIDTH = 9.0
 _STYLE: dict[Any, Any] = {
     "axes.edgecolor": _FAINT,
@@ -82,29 +83,33 @@ def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
     """Loss and objective over the epochs, a line for each training set; ``None`` where no curve was kept."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
-    sides = {"loss": "loss (0 to 1)", "objective": "objective"}
-    drawn = False
+    curves = {world: [fit.worlds[world].curve for fit in own if world in fit.worlds] for world in worlds}
+    points = [point for found in curves.values() for curve in found for point in curve]
+    sides = [side for side in _SIDES if any(getattr(point, side) is not None for point in points)]
+    if not sides:
+        return None
     with _figure(f"curve-{model}", 1, len(sides), 2.6) as (figure, axes):
-        for axis, (side, label) in zip(axes, sides.items(), strict=True):
-            for colour, world in zip(_SERIES * len(worlds), worlds, strict=False):
-                curves = [fit.worlds[world].curve for fit in own if world in fit.worlds]
-                told = world
-                for curve in curves:
-                    points = [(n, value) for n, p in enumerate(curve) if (value := getattr(p, side)) is not None]
-                    if not points:
-                        continue
-                    x, y = zip(*points, strict=True)
-                    axis.plot(x, y, color=colour, linewidth=1.1, alpha=0.75, marker=".", markersize=4, label=told)
-                    told, drawn = "_nolegend_", True
-                for edge in _round_edges(curves):
-                    axis.axvline(edge, color=_FAINT, linewidth=0.8, linestyle=":")
-            axis.set_title(label)
+        for axis, side in zip(axes, sides, strict=True):
+            for number, (world, found) in enumerate(curves.items()):
+                _lines(axis, found, side, _SERIES[number % len(_SERIES)], world)
+            axis.set_title(_SIDES[side])
             axis.set_xlabel("epoch, over all rounds")
             axis.locator_params(axis="x", integer=True)
             axis.grid(axis="y")
-        if len(worlds) > 1 and drawn:
+        if len(worlds) > 1:
             axes[-1].legend(frameon=False)
-        return _svg(figure, f"curve-{model}") if drawn else None
+        return _svg(figure, f"curve-{model}")
+
+
+def _lines(axis: Axes, curves: Sequence[Sequence[CurvePoint]], side: str, colour: str, label: str) -> None:
+    """The curves of one kind of world, and where its rounds begin."""
+    for number, curve in enumerate(curves):
+        told = [(n, value) for n, point in enumerate(curve) if (value := getattr(point, side)) is not None]
+        x, y = [n for n, _ in told], [value for _, value in told]
+        once = "_nolegend_" if number else label
+        axis.plot(x, y, color=colour, linewidth=1.1, alpha=0.75, marker=".", markersize=4, label=once)
+    for edge in _round_edges(curves):
+        axis.axvline(edge, color=_FAINT, linewidth=0.8, linestyle=":")
 
 
 def tasks_of(metrics: Metrics) -> list[str]:
@@ -133,7 +138,7 @@ def _name_rows(axis: Axes, models: Sequence[str]) -> None:
     axis.set_yticks(range(len(models)), models)
 
 
-def _round_edges(curves: Sequence[Sequence[Any]]) -> list[float]:
+def _round_edges(curves: Sequence[Sequence[CurvePoint]]) -> list[float]:
     """Between which epochs a new round begins, if that is the same everywhere and rounds have several epochs."""
     edges = [[n - 0.5 for n in range(1, len(curve)) if curve[n].round != curve[n - 1].round] for curve in curves]
     if not edges or any(edge != edges[0] for edge in edges) or len(edges[0]) >= len(curves[0]) - 1:
@@ -161,7 +166,8 @@ def _svg(figure: Figure, name: str) -> str:
     figure.savefig(drawn, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = drawn.getvalue()
     text = text[text.index("<svg") :]
-    text = re.sub(r"<metadata>.*?</metadata>", "", text, flags=re.DOTALL)
+    # a style inside the element would hold for the whole page
+    text = re.sub(r"<(metadata|style).*?</\1>", "", text, flags=re.DOTALL)
     width = re.search(r'width="([\d.]+)pt"', text)
     assert width is not None
     text = re.sub(r' (width|height)="[\d.]+pt"', "", text, count=2)
