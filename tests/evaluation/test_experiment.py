@@ -1,29 +1,26 @@
-"""Runs: folds never leak, runs resume, and the bytes are the same however many processes."""
+"""Runs: they resume, they say what is wrong, and the bytes are the same however many processes."""
 
 from __future__ import annotations
 
+import errno
 import json
+import os
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from tmd import atomic
 from tmd.errors import OutputError, TmdError
 from tmd.evaluation import experiment, models
-from tmd.evaluation.dataset import BundledData
-from tmd.evaluation.experiment import ExperimentConfig, run
-from tmd.evaluation.folds import given_fold, halves
+from tmd.evaluation.experiment import ExperimentConfig, collect, run
 from tmd.evaluation.report import write_report
 from tmd.evaluation.summary import summarise
 from tmd.pddl.plan_file import parse_instruction
 
 ROOT = Path(__file__).parents[2]
 QUICK = ("empty", "chance", "nearest")
-
-
-@pytest.fixture(scope="module")
-def data() -> BundledData:
-    return BundledData("ramen", "kitchen", ROOT / "domains", ROOT / "problems")
 
 
 def config(out: Path, **changes: object) -> ExperimentConfig:
@@ -35,41 +32,18 @@ def outcome(out: Path) -> dict[str, bytes]:
     return {name: (out / name).read_bytes() for name in ("config.json", "predictions.jsonl", "metrics.json")}
 
 
-def test_five_kitchens_make_ten_folds_that_test_everything_once(data: BundledData) -> None:
-    folds = halves(data.examples)
-    assert len(folds) == 10
-    assert sorted(e.id for f in folds for e in f.test) == sorted(e.id for e in data.examples)
-    for fold in folds:
-        assert not {e.environment for e in fold.train} & {e.environment for e in fold.test}
-        assert len(fold.train) == 40
-
-
-def test_environment_numbers_choose_the_fold(data: BundledData) -> None:
-    (fold,) = given_fold(data.examples, None, {2, 3})
-    assert {e.number for e in fold.test} == {2, 3}
-    assert {e.number for e in fold.train} == {1, 4, 5}
-    (fold,) = given_fold(data.examples, {1}, None)
-    assert {e.number for e in fold.test} == {2, 3, 4, 5}
-
-
-@pytest.mark.parametrize(("train", "test"), [({1, 2}, {2}), ({1}, {9}), ({9}, {1}), (set(range(1, 6)), None)])
-def test_folds_that_leak_or_are_empty_are_refused(data: BundledData, train: set[int], test: set[int] | None) -> None:
-    with pytest.raises(TmdError):
-        given_fold(data.examples, train, test)
-
-
 def test_a_run_writes_what_it_promises(tmp_path: Path) -> None:
-    metrics = run(config(tmp_path))
+    metrics = run(config(tmp_path, test_environments=(1, 3)))
     lines = [json.loads(line) for line in (tmp_path / "predictions.jsonl").read_text().splitlines()]
-    assert len(lines) == 50 * len(QUICK)
+    assert len(lines) == 20 * len(QUICK)
     assert {"id", "task", "environment", "model", "predicted", "gold", "executable"} <= lines[0].keys()
-    assert [line["model"] for line in lines] == [m for m in QUICK for _ in range(50)]
+    assert [line["model"] for line in lines] == [m for m in QUICK for _ in range(20)]
     for line in lines:
         assert [str(parse_instruction(step)) for step in line["gold"]] == line["gold"]
     rows = metrics["models"]
     assert json.loads((tmp_path / "metrics.json").read_text()) == metrics
     assert list(rows) == list(QUICK)
-    assert all(row["n"] == row["tasks"]["ramen"]["n"] == 50 for row in rows.values())
+    assert all(row["n"] == row["tasks"]["ramen"]["n"] == 20 for row in rows.values())
     assert rows["empty"]["IED"] == pytest.approx(0.0, abs=0.01)
     assert rows["empty"]["executable"] == 100.0
     assert rows["nearest"]["IED"] > rows["chance"]["IED"]
@@ -110,11 +84,106 @@ def test_a_directory_that_holds_another_run_is_left_alone(tmp_path: Path) -> Non
     assert outcome(tmp_path) == before
 
 
-def test_a_damaged_part_is_named(tmp_path: Path) -> None:
+def test_what_differs_is_told(tmp_path: Path) -> None:
     run(config(tmp_path, models=("empty",)))
-    part = sorted((tmp_path / "parts").iterdir())[0]
-    part.write_text("{")
-    with pytest.raises(OutputError, match=part.name):
+    with pytest.raises(OutputError, match="its seed is 0, not 5"):
+        run(config(tmp_path, models=("empty",), seed=5))
+    with pytest.raises(OutputError, match=r"its drop_sentences is 0.0, not 0.5"):
+        run(config(tmp_path, models=("empty",), drop_sentences=0.5))
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda text: "{",
+        lambda text: text[: len(text) // 2],
+        lambda text: "".join(text.splitlines(keepends=True)[:-1]),
+        lambda text: text.replace('"model": "empty"', '"model": "chance"'),
+        lambda text: text.replace('"IED"', '"IEED"'),
+        lambda text: "[1]\n",
+        lambda text: "",
+    ],
+    ids=["no JSON", "cut", "line lost", "of another model", "no score", "no object", "empty"],
+)
+def test_a_damaged_part_is_done_again(tmp_path: Path, damage: Callable[[str], str]) -> None:
+    quick = config(tmp_path, models=("empty",), test_environments=(1, 2))
+    run(quick)
+    before = outcome(tmp_path)
+    (part,) = (tmp_path / "parts").iterdir()
+    part.write_text(damage(part.read_text()))
+    run(quick)
+    assert outcome(tmp_path) == before
+    assert f"damaged, so to be done again: {part.name}" in (tmp_path / "log.txt").read_text()
+
+
+def test_parts_without_a_configuration_are_left_alone(tmp_path: Path) -> None:
+    run(config(tmp_path, models=("empty",)))
+    (tmp_path / "config.json").unlink()
+    with pytest.raises(OutputError, match=r"config\.json is missing"):
+        run(config(tmp_path, models=("empty",)))
+
+
+@pytest.mark.parametrize("text", ["{", "[]", "\udcff"])
+def test_a_damaged_configuration_is_another_run(tmp_path: Path, text: str) -> None:
+    run(config(tmp_path, models=("empty",)))
+    (tmp_path / "config.json").write_bytes(text.encode(errors="surrogateescape"))
+    with pytest.raises(OutputError, match="holds another run"):
+        run(config(tmp_path, models=("empty",)))
+
+
+def test_the_report_is_made_again_from_the_parts(tmp_path: Path) -> None:
+    quick = config(tmp_path, models=("empty", "chance"))
+    run(quick)
+    before = outcome(tmp_path)
+    (tmp_path / "metrics.json").unlink()
+    (tmp_path / "predictions.jsonl").write_text("")
+    parts = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
+    collect(quick)
+    assert outcome(tmp_path) == before
+    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()} == parts
+    next(iter(parts)).unlink()
+    with pytest.raises(TmdError, match="1 of 20 parts are not done"):
+        collect(quick)
+
+
+@pytest.mark.parametrize("kind", [errno.EROFS, errno.ENOSPC, errno.EACCES])
+def test_what_cannot_be_written_is_told_in_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: int) -> None:
+    """The file system refuses the second file: the part, after the configuration."""
+    written = atomic._write
+    calls: list[Path] = []
+
+    def refuse(path: Path, data: bytes, flags: int) -> None:
+        calls.append(path)
+        if len(calls) > 1:
+            raise OSError(kind, os.strerror(kind), str(path))
+        written(path, data, flags)
+
+    monkeypatch.setattr(atomic, "_write", refuse)
+    with pytest.raises(OutputError, match=os.strerror(kind)):
+        run(config(tmp_path, models=("empty",)))
+    monkeypatch.undo()
+    assert not list((tmp_path / "parts").iterdir())
+    run(config(tmp_path, models=("empty",)))
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+def test_a_full_disk(tmp_path: Path) -> None:
+    quick = config(tmp_path, models=("empty",), test_environments=(1,))
+    run(quick)
+    (tmp_path / "predictions.jsonl").unlink()
+    (tmp_path / "predictions.jsonl").symlink_to("/dev/full")
+    (tmp_path / "log.txt").unlink()
+    (tmp_path / "log.txt").symlink_to("/dev/full")
+    with pytest.raises(OutputError, match=r"predictions\.jsonl cannot be written: No space left"):
+        run(quick)
+
+
+def test_a_directory_that_cannot_be_made(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with pytest.raises(OutputError, match="cannot be made"):
+        run(config(tmp_path / "file" / "out", models=("empty",)))
+    (tmp_path / "log.txt").mkdir()
+    with pytest.raises(OutputError, match=r"log\.txt cannot be written"):
         run(config(tmp_path, models=("empty",)))
 
 
@@ -126,6 +195,7 @@ def test_a_damaged_part_is_named(tmp_path: Path) -> None:
         ({"data": "veil500"}, "--veil500"),
         ({"domain": "kichen"}, "kitchen"),
         ({"test_environments": (7,)}, "environments 7"),
+        ({"train_tasks": ("affogatto",)}, "affogato"),
     ],
 )
 def test_a_wrong_configuration_is_refused_before_anything_is_written(

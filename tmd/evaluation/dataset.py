@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Protocol
 
 from tmd.errors import DataError, TmdError
+from tmd.evaluation.config import VEIL500, ExperimentConfig
 from tmd.evaluation.metrics import Scorer
+from tmd.evaluation.protocol import FILE, read_protocol
 from tmd.language.lexicon import Lexicon
-from tmd.pddl.model import Instruction
+from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.syntax import nearest
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment
@@ -55,7 +57,16 @@ class Dataset(Protocol):
 
     @property
     def examples(self) -> tuple[Example, ...]:
-        """All examples of the task that was asked for, in the data set's order."""
+        """All examples of the task that was asked for, in the data set's order: what may be tested."""
+        ...
+
+    @property
+    def pool(self) -> tuple[Example, ...]:
+        """All examples of all tasks, in the data set's order: what may be trained on."""
+        ...
+
+    def trained_with(self, task: str) -> frozenset[str]:
+        """The tasks that ``task`` is trained with under the protocol of the data, itself among them."""
         ...
 
     @property
@@ -76,7 +87,7 @@ class Dataset(Protocol):
         ...
 
     def fingerprint(self) -> str:
-        """A digest of the data; two runs on different data have different ones."""
+        """A digest of the data as they were read; two runs on different data have different ones."""
         ...
 
 
@@ -98,16 +109,54 @@ class BundledData:
     ) -> None:
         folder = find_domain(domain, domains)
         self.corpus = Corpus(folder, find_root("problems", problems) / domain)
-        demonstrations = self.corpus.demonstrations(None if task == ALL else task)
-        self._examples = tuple(
-            Example(d.id, d.task, domain, d.environment, _number(d.environment), d) for d in demonstrations
+        known = self.corpus.tasks()
+        tested = frozenset(known) if task == ALL else frozenset({d.task for d in self.corpus.demonstrations(task)})
+        self._groups = read_protocol(self.corpus.directory / FILE, known)
+        self._pool = tuple(
+            Example(d.id, d.task, domain, d.environment, _number(d.environment), d)
+            for name in known
+            for d in self.corpus.demonstrations(name)
+        )
+        self._check(known)
+        self._examples = tuple(example for example in self._pool if example.task in tested)
+        self._fingerprint = _digest(
+            {
+                "domain": (folder.path, ("*.pddl", "*.yaml", "*.txt")),
+                "problems": (self.corpus.directory, ("*.jsonl", "*.yaml")),
+            }
         )
         self._scorers: dict[str, Scorer] = {}
+
+    def _check(self, known: Sequence[str]) -> None:
+        """A task is the folder it lies in, and a number stands for one environment."""
+        names: dict[int, str] = {}
+        for example in self._pool:
+            if example.task not in known:
+                raise TmdError(
+                    f"the demonstration '{example.id}' in {self.corpus.directory} is of a task '{example.task}'",
+                    hint="a task has the name of its folder",
+                )
+            other = names.setdefault(example.number, example.environment)
+            if other != example.environment:
+                raise TmdError(
+                    f"the environments {other} and {example.environment} have the same number",
+                    hint="environments are chosen by number: give each its own",
+                )
 
     @property
     def examples(self) -> tuple[Example, ...]:
         """All demonstrations of the task."""
         return self._examples
+
+    @property
+    def pool(self) -> tuple[Example, ...]:
+        """All demonstrations of the domain."""
+        return self._pool
+
+    def trained_with(self, task: str) -> frozenset[str]:
+        """Its group in ``protocol.yaml``; all tasks if it stands in none."""
+        everything = frozenset(example.task for example in self._pool)
+        return next((group for group in self._groups if task in group), everything)
 
     @property
     def lexicon(self) -> Lexicon:
@@ -131,9 +180,8 @@ class BundledData:
         return [str(instruction) for instruction in instructions]
 
     def fingerprint(self) -> str:
-        """A digest of the demonstrations, the environments and the domain."""
-        files = sorted(self.corpus.directory.rglob("*.jsonl")) + sorted(self.corpus.directory.rglob("*.yaml"))
-        return _digest([self.corpus.folder.path / "domain.pddl", *files])
+        """A digest of the demonstrations, the environments, the protocol and the domain."""
+        return self._fingerprint
 
 
 class VeilDataset:
@@ -154,15 +202,26 @@ class VeilDataset:
         tasks = sorted({point.task for point in self._data.points})
         if task != ALL and task not in tasks:
             raise DataError(f"VEIL-500 has no task '{task}'", hint=nearest(task, tasks) or ", ".join(tasks))
-        self._points = [p for p in self._data.points if task in (ALL, p.task)]
+        self._task = task
+        self._fingerprint = _digest({"": (self._data.directory, ("*.xml",))})
         self._worlds: dict[str, World] = {}
         self._scorers: dict[str, Scorer] = {}
 
     @cached_property
     def examples(self) -> tuple[Example, ...]:
-        """All points of the task; ids are places in ``data.xml``, environments go by file number."""
+        """All points of the task."""
+        return tuple(example for example in self.pool if self._task in (ALL, example.task))
+
+    def trained_with(self, task: str) -> frozenset[str]:
+        """All tasks of its world: nothing is carried from kitchens to living rooms."""
+        worlds = {example.world for example in self.pool if example.task == task}
+        return frozenset(example.task for example in self.pool if example.world in worlds)
+
+    @cached_property
+    def pool(self) -> tuple[Example, ...]:
+        """All points; ids are places in ``data.xml``, environments go by file number."""
         found = []
-        for point in self._points:
+        for point in self._data.points:
             name = f"{point.world}{point.environment}"
             segments: list[Segment] = []
             for group in point.groups:
@@ -188,7 +247,7 @@ class VeilDataset:
             from tmd.world.veil500.compile import compile_environment
 
             problem = compile_environment(self._data.environments[self._key(environment)], "sane")
-            self._worlds[environment] = make_world(environment, problem, self.lexicon)
+            self._worlds[environment] = make_world(environment, problem, self.lexicon, _kinds(problem))
         return self._worlds[environment]
 
     def scorer(self, environment: str) -> Scorer:
@@ -212,10 +271,15 @@ class VeilDataset:
 
     def fingerprint(self) -> str:
         """A digest of every file of the set."""
-        return _digest(sorted(self._data.directory.rglob("*.xml")))
+        return self._fingerprint
 
     def _key(self, environment: str) -> tuple[str, int]:
         return environment.rstrip("0123456789"), _number(environment)
+
+
+def _kinds(problem: Problem) -> dict[str, str]:
+    """VEIL-500 has no classes of things: a thing's kind is its name without the number."""
+    return {o.name: re.sub(r"_\d+$", "", o.name) for o in problem.objects}
 
 
 def _number(environment: str) -> int:
@@ -225,9 +289,41 @@ def _number(environment: str) -> int:
     return int(match[1])
 
 
-def _digest(paths: Iterable[Path]) -> str:
+def _digest(places: Mapping[str, tuple[Path, tuple[str, ...]]]) -> str:
+    """Of the names and contents of files below directories, by kind; not of where the directories are."""
     digest = hashlib.sha256()
-    for path in paths:
-        digest.update(path.name.encode())
-        digest.update(path.read_bytes())
+    for kind, (directory, patterns) in places.items():
+        for path in sorted({path for pattern in patterns for path in directory.rglob(pattern)}):
+            content = path.read_bytes()
+            digest.update(f"{kind}/{path.relative_to(directory).as_posix()} {len(content)}\n".encode())
+            digest.update(content)
     return digest.hexdigest()[:16]
+
+
+def open_dataset(config: ExperimentConfig) -> Dataset:
+    """The data of a run, read once in each process.
+
+    Raises:
+        TmdError: They are not there, or wrong.
+    """
+    if config.data == VEIL500:
+        if config.veil500 is None:
+            raise TmdError("VEIL-500 is not part of tmd", hint="say where it is: --veil500 DIR or VEIL500_DIR")
+        return _veil(config.veil500, config.task)
+    return _bundled(config.task, config.domain, config.domains, config.problems)
+
+
+def forget_datasets() -> None:
+    """Read data anew when they are asked for next: a worker may live longer than the files it has read."""
+    _veil.cache_clear()
+    _bundled.cache_clear()
+
+
+@lru_cache(maxsize=2)
+def _veil(directory: Path, task: str) -> Dataset:
+    return VeilDataset(directory, task)
+
+
+@lru_cache(maxsize=2)
+def _bundled(task: str, domain: str, domains: Path | None, problems: Path | None) -> Dataset:
+    return BundledData(task, domain, domains, problems)

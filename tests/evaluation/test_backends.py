@@ -1,0 +1,408 @@
+"""However the work is shared out, and whoever dies meanwhile: nothing is lost, and the bytes are the same."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import Ended, run_tmd
+from tmd import __version__
+from tmd.errors import DataError, ExitCode, MissingToolError, TmdError
+from tmd.evaluation import cluster, models
+from tmd.evaluation.backends import WorkerLostError
+from tmd.evaluation.config import Shard
+from tmd.evaluation.experiment import ExperimentConfig, collect, run, work
+from tmd.evaluation.units import Unit
+
+ROOT = Path(__file__).parents[2]
+FILES = ("config.json", "predictions.jsonl", "metrics.json")
+COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
+needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
+needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
+
+
+def config(out: Path, **changes: object) -> ExperimentConfig:
+    base = ExperimentConfig(
+        "ramen",
+        out,
+        train_tasks=("ramen",),
+        models=("empty", "chance"),
+        domains=ROOT / "domains",
+        problems=ROOT / "problems",
+    )
+    return replace(base, **changes)  # type: ignore[arg-type]
+
+
+def outcome(out: Path) -> dict[str, bytes]:
+    return {name: (out / name).read_bytes() for name in FILES}
+
+
+@pytest.fixture(scope="module")
+def serial(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
+    """What comes out of one process."""
+    out = tmp_path_factory.mktemp("serial") / "out"
+    run(config(out))
+    return outcome(out)
+
+
+def once(action: Callable[[], None]) -> Callable[[int, int], None]:
+    """A progress that acts when the first unit is done."""
+    done: list[int] = []
+
+    def progress(number: int, total: int) -> None:
+        if 0 < number < total and not done:
+            done.append(number)
+            action()
+
+    return progress
+
+
+def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
+    """Start ``tmd experiment`` in a process group of its own."""
+    return subprocess.Popen(
+        [sys.executable, "-m", "tmd", *COMMAND, "--out", str(out), *options],
+        cwd=out.parent,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        start_new_session=True,
+    )
+
+
+def some_part(process: subprocess.Popen[bytes], out: Path) -> None:
+    """Wait until a part is there."""
+    while process.poll() is None and not list(out.glob("parts/*.jsonl")):
+        time.sleep(0.02)
+
+
+# One machine
+
+
+def test_shards_make_the_whole(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    counts = []
+    for number in (2, 1, 3):
+        counts.append(work(config(tmp_path, shard=Shard(number, 3))))
+        assert not (tmp_path / "metrics.json").exists()
+    assert sum(counts) == 20
+    assert len(list((tmp_path / "parts").iterdir())) == 20
+    times = {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()}
+    collect(config(tmp_path))
+    assert outcome(tmp_path) == serial
+    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "parts").iterdir()} == times
+
+
+def test_every_unit_is_in_one_share() -> None:
+    for of in range(1, 9):
+        for index in range(1, 30):
+            assert sum(Shard(number, of).has(index) for number in range(1, of + 1)) == 1
+
+
+@pytest.mark.parametrize("options", [("--shard", "1/2"), ("--jobs", "1")], ids=["shards", "twins"])
+def test_two_processes_at_once_in_one_directory(
+    tmp_path: Path, serial: dict[str, bytes], options: tuple[str, str]
+) -> None:
+    """Two shards, and the same command twice, which does everything twice."""
+    out = tmp_path / "out"
+    other = ("--shard", "2/2") if options[0] == "--shard" else options
+    processes = [begin(out, *options), begin(out, *other)]
+    told = [process.communicate(timeout=300) for process in processes]
+    assert [process.returncode for process in processes] == [0, 0], told
+    run(config(out))
+    assert outcome(out) == serial
+    assert not list(out.rglob(".*")), "drafts were left behind"
+
+
+@needs_signals
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: dict[str, bytes], jobs: int) -> None:
+    out = tmp_path / "out"
+    with begin(out, "--jobs", str(jobs)) as process:
+        some_part(process, out)
+        os.killpg(process.pid, signal.SIGINT)
+        told, error = process.communicate(timeout=120)
+    assert process.returncode == ExitCode.INTERRUPTED, error
+    assert b"Traceback" not in error
+    assert error.decode().splitlines()[-1] == "error: interrupted"
+    assert told == b""
+    times = {p: p.stat().st_mtime_ns for p in (out / "parts").iterdir()}
+    assert 0 < len(times) < 20
+    run(config(out))
+    assert outcome(out) == serial
+    assert {p: p.stat().st_mtime_ns for p in times} == times
+
+
+@needs_signals
+def test_a_killed_run_goes_on(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    out = tmp_path / "out"
+    with begin(out, "--jobs", "1") as process:
+        some_part(process, out)
+        os.killpg(process.pid, signal.SIGKILL)
+    run(config(out))
+    assert outcome(out) == serial
+
+
+def workers_of(pid: int) -> list[int]:
+    """The worker processes of a process."""
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [int(child) for child in children if b"LokyProcess" in Path(f"/proc/{child}/cmdline").read_bytes()]
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are listed in another way here")
+def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    def kill() -> None:
+        for pid in workers_of(os.getpid()):
+            os.kill(pid, signal.SIGKILL)
+
+    with pytest.raises(WorkerLostError, match="the same command goes on from there") as caught:
+        run(config(tmp_path, jobs=2), once(kill))
+    assert caught.value.exit_code == ExitCode.GAVE_UP
+    assert list((tmp_path / "parts").iterdir())
+    run(config(tmp_path))
+    assert outcome(tmp_path) == serial
+
+
+# A cluster
+
+
+class Cluster:
+    """A scheduler and its workers, each a process of its own."""
+
+    def __init__(self, directory: Path) -> None:
+        self.file = directory / "scheduler.json"
+        self.directory = directory
+        self.workers: list[subprocess.Popen[bytes]] = []
+        self.scheduler = self.start("scheduler", "--port", "0", "--host", "127.0.0.1")
+        deadline = time.monotonic() + 60
+        while not self.file.exists() and time.monotonic() < deadline:
+            time.sleep(0.05)
+        self.address: str = json.loads(self.file.read_text())["address"]
+
+    def start(self, kind: str, *options: str) -> subprocess.Popen[bytes]:
+        log = (self.directory / f"{kind}-{len(self.workers)}.log").open("wb")
+        settings = {"PYTHONPATH": str(ROOT), "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}
+        command = [sys.executable, "-m", "dask", kind, "--scheduler-file", str(self.file), "--no-dashboard", *options]
+        with log:
+            return subprocess.Popen(command, cwd=self.directory, env={**os.environ, **settings}, stdout=log, stderr=log)
+
+    def work(self, count: int, *options: str) -> None:
+        for _ in range(count):
+            self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
+
+    def stop(self) -> None:
+        for process in (*self.workers, self.scheduler):
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def cluster_(tmp_path: Path) -> Iterator[Cluster]:
+    directory = tmp_path / "cluster"
+    directory.mkdir()
+    started = Cluster(directory)
+    yield started
+    started.stop()
+
+
+def on(cluster: Cluster, out: Path, **changes: object) -> ExperimentConfig:
+    return config(out, backend="dask", scheduler=cluster.address, **changes)
+
+
+@needs_dask
+@needs_signals
+def test_a_worker_that_dies_loses_nothing(tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes]) -> None:
+    cluster_.work(2)
+    run(on(cluster_, tmp_path / "out"), once(cluster_.workers[0].kill))
+    assert cluster_.workers[0].wait() == -signal.SIGKILL
+    assert cluster_.workers[1].poll() is None
+    assert outcome(tmp_path / "out") == serial
+    times = {p: p.stat().st_mtime_ns for p in (tmp_path / "out" / "parts").iterdir()}
+    run(on(cluster_, tmp_path / "out"))
+    assert {p: p.stat().st_mtime_ns for p in (tmp_path / "out" / "parts").iterdir()} == times
+
+
+@needs_dask
+@needs_signals
+def test_a_worker_that_comes_late_takes_over(
+    tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cluster_.work(1)
+
+    def replace_worker() -> None:
+        cluster_.workers[0].kill()
+        cluster_.work(1)
+
+    run(on(cluster_, tmp_path / "out"), once(replace_worker))
+    assert outcome(tmp_path / "out") == serial
+
+
+@needs_dask
+@needs_signals
+def test_a_scheduler_that_dies_is_told(tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes]) -> None:
+    cluster_.work(1)
+    out = tmp_path / "out"
+    with begin(out, "--backend", "dask", "--scheduler", cluster_.address) as process:
+        some_part(process, out)
+        cluster_.scheduler.kill()
+        told, error = process.communicate(timeout=120)
+    assert process.returncode == ExitCode.MISSING_TOOL
+    lines = [line for line in error.decode().splitlines() if "━" not in line]
+    assert lines[0] == f"error: the scheduler at {cluster_.address} is lost"
+    assert lines[1].startswith("hint: start it anew; what is done is kept")
+    assert len(lines) == 2
+    assert told == b""
+    assert 0 < len(list((out / "parts").iterdir())) < 20
+    run(config(out))
+    assert outcome(out) == serial
+
+
+@needs_dask
+@needs_signals
+def test_workers_that_stay_away_are_told(tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster, "PATIENCE", 1.0)
+    monkeypatch.setattr(cluster, "_LOOK", 0.2)
+    cluster_.work(1)
+    with pytest.raises(MissingToolError, match=r"the workers of .* are gone"):
+        run(on(cluster_, tmp_path / "out"), once(cluster_.workers[0].kill))
+    assert list((tmp_path / "out" / "parts").iterdir())
+
+
+@needs_dask
+@needs_signals
+def test_a_unit_that_kills_its_workers_is_told(
+    tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    preload = tmp_path / "killer.py"
+    preload.write_text(
+        "import os, signal\n"
+        "from tmd.evaluation import models\n"
+        "class Killer(models.Empty):\n"
+        "    def fit(self, *_):\n"
+        "        os.kill(os.getpid(), signal.SIGKILL)\n"
+        "models.MODELS['killer'] = Killer\n"
+    )
+    monkeypatch.setattr(models, "MODELS", {**models.MODELS, "killer": models.Empty})
+    cluster_.work(3, "--preload", str(preload))
+    with pytest.raises(WorkerLostError, match="brought down several workers"):
+        run(on(cluster_, tmp_path / "out", models=("killer",), test_environments=(1,)))
+
+
+@needs_dask
+def test_a_worker_with_other_code_or_data_is_told(
+    tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cluster_.work(1)
+    with monkeypatch.context() as other:
+        other.setattr(cluster, "source_digest", lambda: "0123")
+        with pytest.raises(DataError, match=rf"has another tmd: .*, and the run has {__version__} \(code 0123\)"):
+            run(on(cluster_, tmp_path / "out"))
+    problems = tmp_path / "problems"
+    problems.mkdir()
+    (problems / "kitchen").symlink_to(ROOT / "problems" / "kitchen")
+    (cluster_.directory / "problems" / "kitchen").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(DataError, match=r"the worker on tcp://.* (has other|cannot read the) data"):
+        run(on(cluster_, tmp_path / "out", problems=None))
+
+
+def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
+    here = config(tmp_path, test_environments=(1,))
+    unit = Unit("empty", "ramen_2-5", ("given",))
+    right = cluster.Expected(__version__, cluster.source_digest(), cluster.open_dataset(here).fingerprint())
+    assert cluster.remote(here, unit, right).parts.keys() == {"given"}
+    with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
+        cluster.remote(here, unit, replace(right, fingerprint="0123"))
+    with pytest.raises(DataError, match="has another tmd"):
+        cluster.remote(here, unit, replace(right, version="0"))
+
+
+def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None:
+    """It may live longer than the files it has read."""
+    folder = tmp_path / "problems" / "kitchen"
+    (folder / "ramen").mkdir(parents=True)
+    (folder / "environments").symlink_to(ROOT / "problems" / "kitchen" / "environments")
+    file = folder / "ramen" / "demonstrations.jsonl"
+    lines = (ROOT / "problems" / "kitchen" / "ramen" / "demonstrations.jsonl").read_text().splitlines(keepends=True)
+    file.write_text("".join(lines[:20]))
+    here = config(tmp_path, problems=tmp_path / "problems", test_environments=(1,))
+    before = cluster.open_dataset(here).fingerprint()
+    file.write_text("".join(lines))
+    cluster.forget_datasets()
+    after = cluster.open_dataset(here).fingerprint()
+    assert before != after
+    cluster.forget_datasets()
+    file.write_text("".join(lines[:20]))
+    assert cluster.open_dataset(here).fingerprint() == before
+    file.write_text("".join(lines))
+    unit = Unit("empty", "ramen_2-5", ("given",))
+    expected = cluster.Expected(__version__, cluster.source_digest(), after)
+    assert len(cluster.remote(here, unit, expected).parts["given"].splitlines()) == 10
+
+
+@needs_dask
+def test_a_scheduler_without_workers_is_told(
+    tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cluster, "CONNECT", 1.0)
+    with pytest.raises(MissingToolError, match=r"the scheduler at .* has no workers"):
+        run(on(cluster_, tmp_path / "out"))
+
+
+def told(tmp_path: Path, *options: str, before: str = "") -> Ended:
+    return run_tmd([*COMMAND, "--out", "out", *options], tmp_path, before=before)
+
+
+@needs_dask
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "tcp://no-such-host.invalid:8786"])
+def test_a_scheduler_out_of_reach_is_told(tmp_path: Path, address: str) -> None:
+    hurry = "import tmd.evaluation.cluster as c; c.CONNECT = 1.0"
+    ended = told(tmp_path, "--backend", "dask", "--scheduler", address, before=hurry)
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert ended.err.splitlines()[-2:][0] == f"error: no scheduler answers at {address}"
+    assert "Traceback" not in ended.err
+
+
+@needs_dask
+@pytest.mark.parametrize("address", ["", "nonsense", "tcp://", "tcp://127.0.0.1:port"])
+def test_an_address_that_is_none_is_told(tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cluster, "CONNECT", 1.0)
+    with pytest.raises(TmdError, match="scheduler"):
+        run(config(tmp_path / "out", backend="dask", scheduler=address))
+
+
+def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
+    hidden = "import sys; sys.modules['distributed'] = None"
+    ended = told(tmp_path, "--backend", "dask", "--scheduler", "tcp://127.0.0.1:9", before=hidden)
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert "distributed, which is not installed\nhint: pip install 'tmd[cluster]'" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (("--backend", "dask"), "go together"),
+        (("--scheduler", "tcp://a:1"), "go together"),
+        (("--shard", "0/2"), "no share"),
+        (("--shard", "3/2"), "no share"),
+        (("--shard", "1"), "no share"),
+        (("--shard", "1/2", "--step", "report"), "without --shard"),
+        (("--drop-sentences", "1"), "below 1"),
+        (("--drop-sentences", "-0.1"), "below 1"),
+        (("--drop-sentences", "nan"), "below 1"),
+        (("--train-tasks", " , "), "names nothing"),
+    ],
+)
+def test_a_wrong_command_is_told(tmp_path: Path, options: tuple[str, ...], message: str) -> None:
+    ended = told(tmp_path, *options)
+    assert ended.code == ExitCode.USAGE
+    assert message in ended.err
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,57 @@
+"""Who does the units: this process, processes on this machine, or a cluster."""
+
+from __future__ import annotations
+
+from collections.abc import Generator, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from pathlib import Path
+
+from tmd.errors import ExitCode, TmdError
+from tmd.evaluation.config import DASK, ExperimentConfig
+from tmd.evaluation.units import Outcome, Unit, do
+
+GO_ON = "what is done is kept: the same command goes on from there"
+
+
+class WorkerLostError(TmdError):
+    """A process that did a unit is gone, mostly because memory ran out."""
+
+    exit_code = ExitCode.GAVE_UP
+
+
+def outcomes(config: ExperimentConfig, units: Sequence[Unit], fits: Path, fingerprint: str) -> Generator[Outcome]:
+    """Do the units, and yield what came out of each as soon as it is there, in any order.
+
+    Args:
+        config: The run.
+        units: What is to be done.
+        fits: Where what is learned is kept on this machine.
+        fingerprint: Of the data, which must be the same wherever a unit is done.
+
+    Raises:
+        WorkerLostError: A process was killed.
+        TmdError: A unit cannot be done, or the cluster cannot be used.
+    """
+    if config.backend == DASK:
+        from tmd.evaluation.cluster import on_cluster
+
+        yield from on_cluster(config, units, fingerprint)
+    elif config.jobs == 1:
+        for unit in units:
+            yield do(config, unit, fits)
+    else:
+        yield from _in_processes(config, units, fits)
+
+
+def _in_processes(config: ExperimentConfig, units: Sequence[Unit], fits: Path) -> Iterator[Outcome]:
+    from joblib import Parallel, delayed, parallel_config
+
+    with parallel_config(backend="loky", inner_max_num_threads=1):
+        workers = Parallel(n_jobs=min(config.jobs, len(units)), return_as="generator_unordered", batch_size=1)
+        try:
+            yield from workers(delayed(do)(config, unit, fits) for unit in units)
+        except BrokenProcessPool:
+            raise WorkerLostError(
+                "a worker process was killed, most likely because memory ran out",
+                hint=f"take fewer --jobs; {GO_ON}",
+            ) from None

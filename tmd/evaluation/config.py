@@ -1,0 +1,99 @@
+"""What a run is asked to do, and which part of that decides its outcome."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tmd import __version__
+
+BUNDLED = "bundled"
+VEIL500 = "veil500"
+JOBLIB = "joblib"
+DASK = "dask"
+DEFAULT_MODELS = ("empty", "chance", "nearest", "hand_set")
+
+
+@dataclass(frozen=True, slots=True)
+class Shard:
+    """A share of the units of a run: those whose number leaves the same remainder as ``number`` when divided by ``of``.
+
+    Attributes:
+        number: From 1 to ``of``.
+        of: How many shares there are.
+    """
+
+    number: int
+    of: int
+
+    def has(self, index: int) -> bool:
+        """Whether the unit of that number belongs to the share."""
+        return index % self.of == self.number % self.of
+
+
+@dataclass(frozen=True, slots=True)
+class ExperimentConfig:
+    """What a run is to do.
+
+    Attributes:
+        task: A task of the data, or ``all``.
+        out: The run's directory.
+        data: ``bundled`` or ``veil500``.
+        veil500: Where VEIL-500 is.
+        train_tasks: Tasks to train on; ``None`` leaves it to the protocol of the data.
+        train_environments: Environment numbers to train in; ``None`` leaves it to the folds.
+        test_environments: Environment numbers to test in; likewise.
+        drop_sentences: With what probability each sentence of a test text is left out, in [0, 1).
+        models: The rows.
+        seed: Of everything random.
+        domain: The domain of the bundled data.
+        domains: The directory of all domains, if not the usual one.
+        problems: The directory of all problems, if not the usual one.
+        backend: ``joblib``, processes on this machine, or ``dask``, a cluster.
+        scheduler: The address of the cluster's scheduler.
+        jobs: How many processes on this machine.
+        shard: The share of the work to do; ``None`` is all of it.
+    """
+
+    task: str
+    out: Path
+    data: str = BUNDLED
+    veil500: Path | None = None
+    train_tasks: tuple[str, ...] | None = None
+    train_environments: tuple[int, ...] | None = None
+    test_environments: tuple[int, ...] | None = None
+    drop_sentences: float = 0.0
+    models: tuple[str, ...] = DEFAULT_MODELS
+    seed: int = 0
+    domain: str = "kitchen"
+    domains: Path | None = None
+    problems: Path | None = None
+    backend: str = JOBLIB
+    scheduler: str | None = None
+    jobs: int = 1
+    shard: Shard | None = None
+
+    def identity(self, fingerprint: str) -> dict[str, Any]:
+        """What decides the outcome: not the places, and not how the work is shared out.
+
+        Args:
+            fingerprint: Of the data.
+        """
+        return {
+            "task": self.task,
+            "data": self.data,
+            "domain": self.domain,
+            "train_tasks": _listed(self.train_tasks),
+            "train_environments": _listed(self.train_environments),
+            "test_environments": _listed(self.test_environments),
+            "drop_sentences": self.drop_sentences,
+            "models": list(self.models),
+            "seed": self.seed,
+            "fingerprint": fingerprint,
+            "version": __version__,
+        }
+
+
+def _listed(values: tuple[Any, ...] | None) -> list[Any] | None:
+    return None if values is None else list(values)
