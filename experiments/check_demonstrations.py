@@ -1,4 +1,4 @@
-"""Play every demonstration of a corpus and say which do not work: ``python experiments/check_demonstrations.py``.
+"""Play every demonstration of every corpus and say which do not work: ``python experiments/check_demonstrations.py``.
 
 Arguments: corpus files (default: every ``problems/*/*/demonstrations.jsonl``).
 """
@@ -6,33 +6,55 @@ Arguments: corpus files (default: every ``problems/*/*/demonstrations.jsonl``).
 from __future__ import annotations
 
 import sys
+from functools import cache
 from pathlib import Path
 
 from tmd.errors import TmdError
+from tmd.pddl.model import Problem
 from tmd.veil.demonstration import read_demonstrations
 from tmd.veil.replay import replay
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 
+ROOT = Path(__file__).resolve().parents[1]
+
+
+@cache
+def compiled(environment: Path) -> Problem:
+    """The problem of ``problems/DOMAIN/environments/NAME.yaml``."""
+    folder = DomainFolder(ROOT / "domains" / environment.parent.parent.name)
+    return compile_problem(load_environment(environment), folder)
+
+
+def check(path: Path) -> int:
+    """Play one corpus: a line for each demonstration that fails and one for the corpus; return the failures."""
+    failures = 0
+    demonstrations = read_demonstrations(path)
+    for demonstration in demonstrations:
+        place = path.resolve().parent.parent / "environments" / f"{demonstration.environment}.yaml"
+        try:
+            replay(demonstration, compiled(place))
+        except TmdError as error:
+            failures += 1
+            print(f"{path}: {demonstration.id}: {error}")
+    print(f"{path}: {len(demonstrations)} demonstrations, {failures} fail")
+    return failures
+
 
 def main(paths: list[Path]) -> int:
-    """Print one line for each demonstration that fails; return the number of failures."""
-    failures = total = 0
+    """Check each corpus; return the exit code: 1 where a demonstration fails or a corpus cannot be read."""
+    failures = 0
     for path in paths:
-        folder = DomainFolder(Path("domains") / path.parent.parent.name)
-        for demonstration in read_demonstrations(path):
-            total += 1
-            place = path.parent.parent / "environments" / f"{demonstration.environment}.yaml"
-            try:
-                replay(demonstration, compile_problem(load_environment(place), folder))
-            except TmdError as error:
-                failures += 1
-                print(f"{path}: {demonstration.id}: {error}")
-    print(f"{total} demonstrations, {failures} fail")
-    return failures
+        try:
+            failures += check(path)
+        except TmdError as error:
+            failures += 1
+            print(f"error: {error}", file=sys.stderr)
+    return 1 if failures else 0
 
 
 if __name__ == "__main__":
     given = [Path(argument) for argument in sys.argv[1:]]
-    sys.exit(1 if main(given or sorted(Path("problems").glob("*/*/demonstrations.jsonl"))) else 0)
+    here = ROOT if Path.cwd() != ROOT else Path()
+    sys.exit(main(given or sorted((here / "problems").glob("*/*/demonstrations.jsonl"))))
