@@ -82,7 +82,7 @@ class InstructionTree:
         self,
         *,
         beam: int = 5,
-        bonus: float = 0.4,
+        bonus: float = 0.5,
         slack: float = 3.0,
         certain: float = 0.95,
         rounds: int = 8,
