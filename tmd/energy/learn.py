@@ -14,17 +14,14 @@ round is among them.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from tmd.energy.journal import Journal, Vector
 from tmd.energy.plans import RankedPlan
 from tmd.energy.weights import NAMES, Weights
-
-Vector = NDArray[np.float64]
-"""A number for each of :data:`~tmd.energy.weights.NAMES`."""
 
 
 @dataclass(slots=True)
@@ -35,9 +32,8 @@ class Pool:
     losses: list[float] = field(default_factory=list)
     _known: set[tuple[object, ...]] = field(default_factory=set)
 
-    def add(self, plan: RankedPlan, loss: float) -> None:
+    def add(self, vector: Vector, loss: float) -> None:
         """Take up a plan, once."""
-        vector = vector_of(plan)
         key = (*vector.tolist(), loss)
         if key not in self._known:
             self._known.add(key)
@@ -47,10 +43,17 @@ class Pool:
 
 @dataclass(frozen=True, slots=True)
 class Learned:
-    """What learning gives: weights, and for each round the mean loss of the plans that inference chose."""
+    """What learning gives.
+
+    Attributes:
+        weights: The weights.
+        curve: For each epoch ``round``, ``epoch``, the mean ``loss`` over the examples of the plan that the weights
+            prefer among those proposed so far, and the mean hinge (``objective``). Epoch 0 is before the first step
+            of a round: there ``loss`` is that of the plans that inference itself has just chosen.
+    """
 
     weights: Weights
-    curve: tuple[float, ...]
+    curve: tuple[Mapping[str, float], ...]
 
 
 Propose = Callable[[int, Weights], Sequence[tuple[RankedPlan, float]]]
@@ -69,10 +72,12 @@ def learn_weights(
     start: Weights,
     random: np.random.Generator,
     *,
+    factors: Collection[str] = NAMES,
     rounds: int = 3,
     epochs: int = 20,
     rate: float = 0.1,
     pull: float = 1e-3,
+    journal: Journal | None = None,
 ) -> Learned:
     """Learn weights from ``examples`` training examples.
 
@@ -81,56 +86,104 @@ def learn_weights(
         examples: How many examples there are.
         start: Where to begin.
         random: The order in which examples are visited.
+        factors: The factors to be weighed; all others keep weight 0.
         rounds: How often plans are proposed anew.
         epochs: Passes over the examples in each round.
         rate: The step of the descent, in units of each factor's spread.
         pull: How strongly weights are drawn to ``start``.
+        journal: Where proposals are written down, and read again after an interruption.
     """
+    start = Weights({name: start[name] for name in NAMES if name in factors})
     pools = [Pool() for _ in range(examples)]
     weights = start
-    curve: list[float] = []
-    for _ in range(rounds):
+    curve: list[Mapping[str, float]] = []
+    for number in range(1, rounds + 1):
         chosen = []
-        for number, pool in enumerate(pools):
-            plans = propose(number, weights)
-            for plan, loss in plans:
-                pool.add(plan, loss)
-            if plans:
-                chosen.append(plans[0][1])
-        curve.append(float(np.mean(chosen)) if chosen else 0.0)
-        weights = descend(pools, start, random, epochs=epochs, rate=rate, pull=pull)
+        for example, pool in enumerate(pools):
+            proposed = journal.read(number, example) if journal else None
+            if proposed is None:
+                proposed = [(vector_of(plan), loss) for plan, loss in propose(example, weights)]
+                if journal:
+                    journal.write(number, example, proposed)
+            for vector, loss in proposed:
+                pool.add(vector, loss)
+            if proposed:
+                chosen.append(proposed[0][1])
+        descent = descend(pools, start, random, factors=factors, epochs=epochs, rate=rate, pull=pull)
+        weights = descent.weights
+        losses = [float(np.mean(chosen)) if chosen else 0.0, *descent.losses]
+        curve += [
+            {"round": number, "epoch": epoch, "loss": loss, "objective": objective}
+            for epoch, (loss, objective) in enumerate(zip(losses, descent.objectives, strict=True))
+        ]
     return Learned(weights, tuple(curve))
 
 
+@dataclass(frozen=True, slots=True)
+class Descent:
+    """The outcome of a descent: weights, for each epoch the mean loss, and before and after each the mean hinge."""
+
+    weights: Weights
+    losses: tuple[float, ...]
+    objectives: tuple[float, ...]
+
+
 def descend(
-    pools: Sequence[Pool], start: Weights, random: np.random.Generator, *, epochs: int, rate: float, pull: float
-) -> Weights:
-    """Stochastic subgradient descent on the hinge over fixed pools, returning the mean of the iterates."""
+    pools: Sequence[Pool],
+    start: Weights,
+    random: np.random.Generator,
+    *,
+    factors: Collection[str] = NAMES,
+    epochs: int,
+    rate: float,
+    pull: float,
+) -> Descent:
+    """Stochastic subgradient descent on the hinge over fixed pools, to the mean of the iterates."""
     useful = [pool for pool in pools if len(pool.losses) > 1]
     if not useful:
-        return start
+        return Descent(start, (0.0,) * epochs, (0.0,) * (epochs + 1))
     scale = _spread(useful)
+    free = np.array([name in factors for name in NAMES])
     origin = np.array([start[name] for name in NAMES]) * scale
     origin = origin / max(float(np.abs(origin).sum()), 1e-9) * len(NAMES)
     current = origin.copy()
     total = np.zeros_like(current)
-    steps = 0
     tables = [(np.array(pool.factors) / scale, np.array(pool.losses)) for pool in useful]
+    losses, objectives = [], [_judge(tables, origin)[1]]
     for epoch in range(epochs):
         step = rate / (1 + epoch)
         for index in random.permutation(len(tables)):
-            current = _step(current, origin, *tables[int(index)], step, pull)
+            current = np.where(free, _step(current, origin, *tables[int(index)], step, pull), 0.0)
             total += current
-            steps += 1
-    mean = total / steps / scale
-    return Weights({name: float(value) for name, value in zip(NAMES, mean, strict=True)})
+        loss, objective = _judge(tables, total / ((epoch + 1) * len(tables)))
+        losses.append(loss)
+        objectives.append(objective)
+    mean = total / (epochs * len(tables)) / scale
+    weights = Weights({name: float(value) for name, value in zip(NAMES, mean, strict=True) if name in factors})
+    return Descent(weights, tuple(losses), tuple(objectives))
+
+
+def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[float, float]:
+    """The mean loss of the plans that ``weights`` prefer, and the mean hinge."""
+    chosen, hinges = [], []
+    for factors, losses in tables:
+        energies = factors @ weights
+        chosen.append(float(losses[int(np.argmin(energies))]))
+        target = _target(energies, losses)
+        hinges.append(float(np.max((losses - losses[target]) - (energies - energies[target]))))
+    return float(np.mean(chosen)), float(np.mean(hinges))
+
+
+def _target(energies: Vector, losses: Vector) -> int:
+    """y*: among the plans of least loss the one of least energy."""
+    best = np.flatnonzero(losses == losses.min())
+    return int(best[np.argmin(energies[best])])
 
 
 def _step(current: Vector, origin: Vector, factors: Vector, losses: Vector, step: float, pull: float) -> Vector:
     """One subgradient step on one example; weights stay non-negative."""
     energies = factors @ current
-    best = losses == losses.min()
-    target = int(np.flatnonzero(best)[np.argmin(energies[best])])
+    target = _target(energies, losses)
     violation = (losses - losses[target]) - (energies - energies[target])
     worst = int(np.argmax(violation))
     gradient = pull * (current - origin)

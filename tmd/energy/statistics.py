@@ -114,7 +114,7 @@ def _count_template(verb: str, template: Template, found: Statistics) -> None:
 
 
 def kind_of(name: str, world: World) -> str:
-    """The class of an object; a constant is its own class."""
-    if name in world.profiles.constants or name not in world.mentions.types:
+    """The kind of an object, its class as a rule; a constant is its own."""
+    if name in world.profiles.constants:
         return name
-    return world.mentions.types[name][0]
+    return world.mentions.kinds.get(name, name)

@@ -45,11 +45,16 @@ class Universe:
         self.hierarchy = hierarchy
         self.types_of: dict[str, tuple[str, ...]] = {o.name: o.types for o in objects}
         self._of: dict[tuple[str, ...], tuple[str, ...]] = {}
+        self._is_a: dict[tuple[str, tuple[str, ...]], bool] = {}
 
     def is_a(self, name: str, types: Sequence[str]) -> bool:
         """Whether the object ``name`` exists and is of one of ``types``."""
-        given = self.types_of.get(name)
-        return given is not None and self.hierarchy.accepts(types, given)
+        key = name, tuple(types)
+        known = self._is_a.get(key)
+        if known is None:
+            given = self.types_of.get(name)
+            known = self._is_a[key] = given is not None and self.hierarchy.accepts(types, given)
+        return known
 
     def of(self, types: tuple[str, ...]) -> tuple[str, ...]:
         """The objects of any of ``types``."""

@@ -14,12 +14,16 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import NamedTuple
 
+import numpy as np
+
 from tmd.pddl.task import Bits, Cube, Operator, Task
 
 WORD = 62
 """Bits of a state in one word; two fewer than 64, so that words are never negative."""
 
 Ints = list[int]
+MANY = 32
+"""From so many bits on it is quicker to unpack a set than to take its bits one by one."""
 
 
 class Tables(NamedTuple):
@@ -82,6 +86,10 @@ def bits_of(words: Sequence[int]) -> Bits:
 
 def ones(bits: Bits) -> Ints:
     """The numbers of the bits that are set, lowest first."""
+    if bits.bit_count() > MANY:
+        octets = np.frombuffer(bits.to_bytes((bits.bit_length() + 7) // 8, "little"), np.uint8)
+        numbers: Ints = np.flatnonzero(np.unpackbits(octets, bitorder="little")).tolist()
+        return numbers
     found = []
     while bits:
         low = bits & -bits

@@ -148,7 +148,7 @@ def _by_states(
         rank = (
             shared(before, world.profiles.of(name, state)),
             _joined_alike(template, variable, name, grounding, world),
-            world.mentions.types[name][0] == template.classes[variable],
+            world.mentions.kinds[name] == template.classes[variable],
             name == template.grounding[variable],
         )
         if best is None or rank > best[0]:

@@ -13,7 +13,7 @@ from tmd.language.lexicon import Lexicon
 from tmd.language.nouns import Candidate, Match, rank
 from tmd.pddl.hierarchy import hierarchy
 from tmd.pddl.task import Bits
-from tmd.veil.states import PART_OF, Profiles
+from tmd.veil.states import Profiles
 
 CONTAINED = "contained"
 """How a :class:`Match` was found: the object contains what the noun names."""
@@ -27,19 +27,24 @@ class Mentions:
     Args:
         profiles: The environment's objects and their states.
         lexicon: The domain's words.
+        kinds: For objects whose PDDL type says less than that, what kind of thing each is.
     """
 
-    def __init__(self, profiles: Profiles, lexicon: Lexicon) -> None:
+    def __init__(self, profiles: Profiles, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> None:
         self.profiles = profiles
         self.lexicon = lexicon
         problem = profiles.task.problem
-        kinds = hierarchy(problem.domain)
-        self.types: Mapping[str, tuple[str, ...]] = {o.name: kinds.ancestors(o.types[0]) for o in problem.all_objects()}
-        wholes = {atom.args[0]: atom.args[1] for atom in profiles.task.static if atom.predicate == PART_OF}
-        self._candidates = tuple(
-            Candidate(name, types[0], types[1:], _words(name, wholes.get(name))) for name, types in self.types.items()
-        )
+        types = hierarchy(problem.domain)
+        self.types: Mapping[str, tuple[str, ...]] = {o.name: types.ancestors(o.types[0]) for o in problem.all_objects()}
+        own = {name: types[0] for name, types in self.types.items()}
+        self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
+        self._candidates = tuple(self._candidate(name) for name in self.types)
         self._known: dict[str, tuple[Match, ...]] = {}
+
+    def _candidate(self, name: str) -> Candidate:
+        types, kind = self.types[name], self.kinds[name]
+        above = types[1:] if kind == types[0] else types
+        return Candidate(name, kind, above, _words(name, self.profiles.wholes.get(name)))
 
     def of(self, noun: str, state: Bits) -> list[Match]:
         """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
@@ -78,11 +83,11 @@ class Mentions:
         return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
 
     def _containers(self, constant: str, state: Bits) -> list[str]:
-        """The objects in one of whose states ``constant`` stands, in the problem's order."""
+        """The objects in one of whose states ``constant`` stands, in the problem's order; affordances do not count."""
         return [
             name
             for name in self.profiles.objects
-            if any(constant in key[1:] and value for key, value in self.profiles.own(name, state).items())
+            if any(constant in key[1:] and value for key, value in self.profiles.variable(name, state).items())
         ]
 
 

@@ -33,6 +33,8 @@ class Profiles:
         self.objects = tuple(o.name for o in problem.objects if o.name not in self.constants)
         self._fluent = self._by_object(task.atoms)
         self._static = self._by_object(sorted(task.static))
+        self._relevant: dict[str, Bits] = {}
+        self._known: dict[tuple[str, Bits], Profile] = {}
 
     @cached_property
     def parts(self) -> dict[str, tuple[tuple[str, str], ...]]:
@@ -64,12 +66,26 @@ class Profiles:
                 found.setdefault((ends[0], ends[1]), set()).add(atom.predicate)
         return {pair: frozenset(predicates) for pair, predicates in found.items()}
 
-    def of(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
+    def of(self, name: str, state: Bits) -> Profile:
         """The profile of the object ``name`` in ``state``."""
-        profile = self.own(name, state)
-        for short, part in self.parts.get(name, ()):
-            profile |= {(short, *key): value for key, value in self.own(part, state).items()}
-        return profile
+        if name not in self._relevant:
+            self._relevant[name] = self._atoms_of(name)
+        key = name, state & self._relevant[name]
+        known = self._known.get(key)
+        if known is None:
+            profile = self.own(name, state)
+            for short, part in self.parts.get(name, ()):
+                profile |= {(short, *k): value for k, value in self.own(part, state).items()}
+            known = self._known[key] = profile
+        return known
+
+    def _atoms_of(self, name: str) -> Bits:
+        """The atoms that the profile of ``name`` depends on."""
+        bits = 0
+        for thing in (name, *(part for _, part in self.parts.get(name, ()))):
+            for atom, _ in self._fluent.get(thing, ()):
+                bits |= 1 << self.task.index[atom]
+        return bits
 
     def own(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
         """The profile of ``name`` without that of its parts."""
@@ -77,6 +93,15 @@ class Profiles:
         for atom, key in self._fluent.get(name, ()):
             profile[key] = bool(state >> self.task.index[atom] & 1)
         return profile
+
+    def variable(self, name: str, state: Bits) -> Profile:
+        """Of the profile of ``name`` without its parts, the states whose predicate some action changes."""
+        return {key: value for key, value in self.own(name, state).items() if key[0] in self._changing}
+
+    @cached_property
+    def _changing(self) -> frozenset[str]:
+        """The predicates that stand in some action's effect."""
+        return frozenset(effect.atom.predicate for a in self.task.problem.domain.actions for effect in a.effects)
 
     def _by_object(self, atoms: Iterable[GroundAtom]) -> dict[str, list[tuple[GroundAtom, tuple[str, ...]]]]:
         found: dict[str, list[tuple[GroundAtom, tuple[str, ...]]]] = {}

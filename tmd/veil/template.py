@@ -23,7 +23,7 @@ class Template:
         instructions: I_s: instructions whose objects are variables ``?z1``, ``?z2`` …; constants of the domain
             (relations, settings) stay.
         grounding: ξ_s: the object that each variable stood for.
-        classes: The type of each of those objects.
+        classes: The kind of each of those objects.
         wanted: The types that the instructions want of each variable.
         profiles: E_s, as far as it matters: the states of each of those objects when the sequence began.
         links: For each two variables, the static relations between their objects.
@@ -73,7 +73,7 @@ def generalise(
             if argument not in profiles.constants:
                 names.setdefault(argument, f"?z{len(names) + 1}")
     grounding = {variable: name for name, variable in names.items()}
-    types = mentions.types
+    kinds = mentions.kinds
     generalised = tuple(Instruction(i.name, tuple(names.get(a, a) for a in i.args)) for i in instructions)
     return Template(
         source=source,
@@ -81,7 +81,7 @@ def generalise(
         environment=environment,
         instructions=generalised,
         grounding=grounding,
-        classes={variable: types[name][0] if name in types else "" for variable, name in grounding.items()},
+        classes={variable: kinds.get(name, "") for variable, name in grounding.items()},
         wanted={variable: _wanted(generalised, variable, profiles) for variable in grounding},
         profiles={variable: profiles.of(name, before) for variable, name in grounding.items()},
         links={
@@ -92,7 +92,7 @@ def generalise(
         },
         mentions=_meant(clause, names, mentions, before),
         ends={variable: profiles.of(name, after) for variable, name in grounding.items()},
-        subjects=tuple((types[name][0], profiles.of(name, after)) for name in mentions.meant(clause, names, before)),
+        subjects=tuple((kinds[name], profiles.of(name, after)) for name in mentions.meant(clause, names, before)),
     )
 
 

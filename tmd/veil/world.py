@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tmd.language.lexicon import Lexicon
@@ -24,8 +25,15 @@ class World:
     mentions: Mentions
 
 
-def make_world(name: str, problem: Problem, lexicon: Lexicon) -> World:
-    """Ground ``problem`` and prepare its objects and nouns."""
+def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> World:
+    """Ground ``problem`` and prepare its objects and nouns.
+
+    Args:
+        name: The environment's name.
+        problem: The environment.
+        lexicon: The words of the domain.
+        kinds: For objects whose PDDL type says less than that, what kind of thing each is.
+    """
     task = ground(problem)
     profiles = Profiles(task)
-    return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon))
+    return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))
