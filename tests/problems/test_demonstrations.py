@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import re
 from collections import Counter
+from collections.abc import Callable
 from functools import cache
 from pathlib import Path
+from statistics import mean, median
 from typing import Any
 
 import pytest
@@ -158,3 +160,23 @@ def test_texts_differ_or_are_the_same_in_every_environment(path: Path) -> None:
         assert len(distinct) == PER_ENVIRONMENT
     else:
         assert len(distinct) == PER_ENVIRONMENT * len(said)
+
+
+COUNTED: dict[str, Callable[[Demonstration], int]] = {
+    "words": lambda d: len(d.text.split()),
+    "segments": lambda d: len(d.segments),
+    "instructions": lambda d: len(d.instructions),
+}
+
+
+@pytest.mark.parametrize("path", CORPORA, ids=short)
+def test_the_page_counts_what_is_there(path: Path) -> None:
+    """``| words in a text | total | mean | median | min | max |``; a text that is said in five places counts once."""
+    page = (path.parent / "README.md").read_text(encoding="utf-8")
+    once = list({d.text: d for d in corpus(path)}.values())
+    rows = re.findall(r"^\| (\w+) in a (text|demonstration)(?: \(\d+\))? \| (.*) \|$", page, re.MULTILINE)
+    assert [what for what, _, _ in rows] == list(COUNTED)
+    for what, per, figures in rows:
+        counts = [COUNTED[what](d) for d in (once if per == "text" else corpus(path))]
+        expected = [f"{sum(counts)}", f"{mean(counts):.1f}", f"{median(counts):g}", f"{min(counts)}", f"{max(counts)}"]
+        assert figures.split(" | ") == expected, what
