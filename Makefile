@@ -19,6 +19,7 @@ help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 	@echo
 	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
+	@echo "  STEP=all|report, and ARGS='…' for any other option of tmd experiment"
 	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
 
 setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
@@ -36,7 +37,7 @@ $(STAMP):
 experiment: setup ## Run the main job: train, predict, score, print the table.
 	@$(BIN)/tmd experiment --task '$(TASK)' --data '$(DATA)' --out '$(OUT)' \
 		$(if $(VEIL500),--veil500 '$(VEIL500)') $(if $(MODELS),--models '$(MODELS)') \
-		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)')
+		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)') $(if $(STEP),--step '$(STEP)') $(ARGS)
 
 test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
 	@$(BIN)/python -m pytest -n auto

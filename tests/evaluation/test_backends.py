@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -26,6 +28,7 @@ from tmd.evaluation.units import Unit
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
+SAME_CODE = "import tmd.evaluation.cluster\ntmd.evaluation.cluster.source_digest = lambda: 'tests'\n"
 COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
 needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
@@ -70,7 +73,7 @@ def once(action: Callable[[], None]) -> Callable[[int, int], None]:
 def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
     """Start ``tmd experiment`` in a process group of its own."""
     return subprocess.Popen(
-        [sys.executable, "-m", "tmd", *COMMAND, "--out", str(out), *options],
+        [sys.executable, "-c", f"{SAME_CODE}from tmd.cli import main\nmain()", *COMMAND, "--out", str(out), *options],
         cwd=out.parent,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         stdout=subprocess.PIPE,
@@ -120,6 +123,42 @@ def test_two_processes_at_once_in_one_directory(
     run(config(out))
     assert outcome(out) == serial
     assert not list(out.rglob(".*")), "drafts were left behind"
+
+
+@pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
+def test_the_script_for_slurm(tmp_path: Path) -> None:
+    """The script in the page, with the variables that Slurm sets; three shares come first, then the last."""
+    page = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
+    script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+    assert script
+    assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
+    text = script[1].replace("--task all", "--task boiling_water").replace("empty,nearest", "empty,chance")
+    text = text.replace("shards=10", "shards=4")
+    assert text.count("boiling_water") == text.count("chance") == text.count("shards=4") == 1
+    (tmp_path / "all.sh").write_text(text)
+    tmd = tmp_path / "bin" / "tmd"
+    tmd.parent.mkdir()
+    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tmd "$@"\n')
+    tmd.chmod(0o755)
+    path = {"PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
+
+    def submit(*arguments: str, number: int = 1) -> subprocess.CompletedProcess[bytes]:
+        return subprocess.run(
+            ["bash", "all.sh", *arguments],
+            cwd=tmp_path,
+            env={**os.environ, **path, "SLURM_ARRAY_TASK_ID": str(number)},
+            capture_output=True,
+            check=False,
+        )
+
+    assert [submit(number=number).returncode for number in (3, 1, 2)] == [0, 0, 0]
+    early = submit("report")
+    assert early.returncode == ExitCode.BAD_INPUT
+    assert b"4 of 20 parts are not done" in early.stderr
+    assert submit(number=4).returncode == ExitCode.OK
+    assert submit("report").returncode == ExitCode.OK
+    run(config(tmp_path / "here", task="boiling_water", train_tasks=None))
+    assert outcome(tmp_path / "runs" / "all") == outcome(tmp_path / "here")
 
 
 @needs_signals
@@ -177,11 +216,11 @@ def test_a_killed_process_is_told(tmp_path: Path, serial: dict[str, bytes]) -> N
 class Cluster:
     """A scheduler and its workers, each a process of its own."""
 
-    def __init__(self, directory: Path) -> None:
+    def __init__(self, directory: Path, *options: str) -> None:
         self.file = directory / "scheduler.json"
         self.directory = directory
         self.workers: list[subprocess.Popen[bytes]] = []
-        self.scheduler = self.start("scheduler", "--port", "0", "--host", "127.0.0.1")
+        self.scheduler = self.start("scheduler", "--port", "0", "--host", "127.0.0.1", *options)
         deadline = time.monotonic() + 60
         while not self.file.exists() and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -195,6 +234,11 @@ class Cluster:
             return subprocess.Popen(command, cwd=self.directory, env={**os.environ, **settings}, stdout=log, stderr=log)
 
     def work(self, count: int, *options: str) -> None:
+        """Start some workers."""
+        if not options:
+            preload = self.directory / "same_code.py"
+            preload.write_text(SAME_CODE)
+            options = ("--preload", str(preload))
         for _ in range(count):
             self.workers.append(self.start("worker", "--no-nanny", "--nthreads", "1", *options))
 
@@ -202,6 +246,12 @@ class Cluster:
         for process in (*self.workers, self.scheduler):
             process.kill()
             process.wait()
+
+
+@pytest.fixture(autouse=True)
+def same_code(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The digest of the code, here and on the workers, is a word: somebody may edit the code while tests run."""
+    monkeypatch.setattr(cluster, "source_digest", lambda: "tests")
 
 
 @pytest.fixture
@@ -267,6 +317,23 @@ def test_a_scheduler_that_dies_is_told(tmp_path: Path, cluster_: Cluster, serial
 
 @needs_dask
 @needs_signals
+def test_an_interruption_leaves_the_cluster_ready(tmp_path: Path, cluster_: Cluster, serial: dict[str, bytes]) -> None:
+    cluster_.work(1)
+    out = tmp_path / "out"
+    with begin(out, "--backend", "dask", "--scheduler", cluster_.address) as process:
+        some_part(process, out)
+        process.send_signal(signal.SIGINT)
+        told, error = process.communicate(timeout=120)
+    assert process.returncode == ExitCode.INTERRUPTED, error
+    assert [line for line in error.decode().splitlines() if "━" not in line] == ["error: interrupted"]
+    assert told == b""
+    assert 0 < len(list((out / "parts").iterdir())) < 20
+    run(on(cluster_, out))
+    assert outcome(out) == serial
+
+
+@needs_dask
+@needs_signals
 def test_workers_that_stay_away_are_told(tmp_path: Path, cluster_: Cluster, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(cluster, "PATIENCE", 1.0)
     monkeypatch.setattr(cluster, "_LOOK", 0.2)
@@ -283,7 +350,7 @@ def test_a_unit_that_kills_its_workers_is_told(
 ) -> None:
     preload = tmp_path / "killer.py"
     preload.write_text(
-        "import os, signal\n"
+        SAME_CODE + "import os, signal\n"
         "from tmd.evaluation import models\n"
         "class Killer(models.Empty):\n"
         "    def fit(self, *_):\n"
@@ -312,6 +379,26 @@ def test_a_worker_with_other_code_or_data_is_told(
     monkeypatch.chdir(tmp_path)
     with pytest.raises(DataError, match=r"the worker on tcp://.* (has other|cannot read the) data"):
         run(on(cluster_, tmp_path / "out", problems=None))
+
+
+@needs_dask
+def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    preload = tmp_path / "preload.py"
+    preload.write_text("import sys\nsys.modules['tmd'] = None\n")
+    directory = tmp_path / "cluster"
+    directory.mkdir()
+    started = Cluster(directory, "--preload", str(preload))
+    try:
+        started.work(1)
+        run(on(started, tmp_path / "out"))
+        assert outcome(tmp_path / "out") == serial
+        started.workers[0].terminate()
+        started.workers[0].wait()
+        started.work(1, "--preload", str(preload))
+        with pytest.raises(MissingToolError, match="a worker cannot run tmd"):
+            run(on(started, tmp_path / "other"))
+    finally:
+        started.stop()
 
 
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
@@ -406,3 +493,14 @@ def test_a_wrong_command_is_told(tmp_path: Path, options: tuple[str, ...], messa
     assert ended.code == ExitCode.USAGE
     assert message in ended.err
     assert not list(tmp_path.iterdir())
+
+
+def test_the_digest_of_the_code_tells_a_change(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.undo()
+    found = set()
+    for name, text in (("a.py", "x = 1\n"), ("a.py", "x = 2\n"), ("b/c.py", ""), ("b/notes.txt", "no code")):
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text)
+        cluster.source_digest.cache_clear()
+        found.add(cluster.source_digest(tmp_path))
+    assert len(found) == 3

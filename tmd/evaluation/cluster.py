@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import hashlib
 import logging
+import pickle
 import threading
 import time
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass, replace
@@ -28,6 +29,7 @@ from tmd.evaluation.config import ExperimentConfig
 from tmd.evaluation.dataset import forget_datasets, open_dataset
 from tmd.evaluation.units import Outcome, Unit, do
 
+PACKAGE = Path(__file__).resolve().parents[1]
 CONNECT = 20.0
 """So many seconds a scheduler has to answer, and its first worker to be there."""
 PATIENCE = 300.0
@@ -67,10 +69,11 @@ def on_cluster(config: ExperimentConfig, units: Sequence[Unit], fingerprint: str
     address = config.scheduler or ""
     client = _connect(distributed, address)
     expected = Expected(__version__, source_digest(), fingerprint)
-    sent = replace(config, out=Path(), jobs=1, shard=None)
+    sent = _sent(config)
     try:
         with _connected(address):
-            waiting = {client.submit(remote, sent, unit, expected, pure=False) for unit in units}
+            call = _caller()
+            waiting = {client.submit(call, pickle.dumps((sent, unit, expected)), pure=False) for unit in units}
         gone_since = None
         while waiting:
             with _connected(address):
@@ -81,6 +84,28 @@ def on_cluster(config: ExperimentConfig, units: Sequence[Unit], fingerprint: str
     finally:
         with suppress(Exception):
             client.close(timeout=1)
+
+
+def _caller() -> Callable[[bytes], bytes]:
+    """The function that is sent: being local it travels with its code, and what it says and is told is mere bytes.
+
+    So the scheduler needs no tmd, and a worker without it fails in the unit, with an error that can be told.
+    """
+
+    def call(said: bytes) -> bytes:
+        import pickle
+
+        from tmd.evaluation.cluster import remote
+
+        return pickle.dumps(remote(*pickle.loads(said)))
+
+    return call
+
+
+def _sent(config: ExperimentConfig) -> ExperimentConfig:
+    """What a worker is told: directories do not depend on where it was started."""
+    veil500, domains, problems = (p and p.resolve() for p in (config.veil500, config.domains, config.problems))
+    return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
 
 
 def remote(config: ExperimentConfig, unit: Unit, expected: Expected) -> Outcome:
@@ -117,13 +142,13 @@ def remote(config: ExperimentConfig, unit: Unit, expected: Expected) -> Outcome:
 
 
 @lru_cache(maxsize=1)
-def source_digest() -> str:
-    """A digest of the code of this package, as it was when this process asked for the first time."""
+def source_digest(package: Path = PACKAGE) -> str:
+    """A digest of the code below a directory, as it was when this process asked for the first time."""
     digest = hashlib.sha256()
-    package = Path(__file__).resolve().parents[1]
     for path in sorted(package.rglob("*.py")):
-        digest.update(path.relative_to(package).as_posix().encode())
-        digest.update(path.read_bytes())
+        content = path.read_bytes()
+        digest.update(f"{path.relative_to(package).as_posix()} {len(content)}\n".encode())
+        digest.update(content)
     return digest.hexdigest()[:8]
 
 
@@ -208,7 +233,7 @@ def _outcome(distributed: ModuleType, future: Any, address: str) -> Outcome:  # 
     with _connected(address):
         error = future.exception()
         if error is None:
-            outcome = future.result()
+            outcome = pickle.loads(future.result())
             assert isinstance(outcome, Outcome)
             return outcome
     if isinstance(error, distributed.KilledWorker):
