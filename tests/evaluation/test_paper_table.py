@@ -19,7 +19,7 @@ def test_the_printed_average_is_the_mean_of_the_tasks(name: str) -> None:
 def test_some_numbers_as_printed() -> None:
     assert TABLE_2["full"].of("ramen") == (67.3, 49.4)
     assert TABLE_2["full"].average == (63.0, 61.3)
-    assert TABLE_2["no_nlp"].of("coffee") == (39.2, 43.9)
+    assert TABLE_2["no_nl"].of("coffee") == (39.2, 43.9)
     assert TABLE_2["nearest"].of("affogato") == (45.4, 49.2)
 
 

@@ -137,7 +137,7 @@ def test_two_variables_never_share_an_object(kitchen: Corpus, tmp_path: Path) ->
 def aligned(text: str, *pieces: str) -> list[tuple[str | None, list[str]]]:
     segments = [Segment(text.index(p), text.index(p) + len(p), ()) for p in pieces]
     found = align(parse(text).clauses, segments)
-    return [(c.verb if c else None, [text[s.start : s.end] for s in own]) for c, own in found]
+    return [(clauses[0].verb if clauses else None, [text[s.start : s.end] for s in own]) for clauses, own in found]
 
 
 def test_a_clause_belongs_to_the_segment_it_lies_in() -> None:

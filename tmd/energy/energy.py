@@ -25,12 +25,14 @@ class Energy:
         weights: What each factor counts for.
         statistics: The tables of the training data.
         world: The environment.
+        akin: As for :func:`~tmd.energy.factors.delta_nl`.
     """
 
-    def __init__(self, weights: Weights, statistics: Statistics, world: World) -> None:
+    def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = factors.AKIN) -> None:
         self.weights = weights
         self.statistics = statistics
         self.world = world
+        self.akin = akin
         self._surprises: dict[Instruction, tuple[float, float]] = {}
 
     def of_template(self, instantiation: Instantiation, clause: Clause) -> Factors:
@@ -38,7 +40,7 @@ class Energy:
         template = instantiation.template.clause
         return {
             "env": factors.delta_env(instantiation),
-            "nl": factors.delta_nl(template, clause),
+            "nl": factors.delta_nl(template, clause, akin=self.akin),
             "sim": factors.delta_sim(instantiation),
             "pcc": factors.delta_pcc(template, clause),
         }

@@ -65,6 +65,8 @@ class Inference:
         trim: How many leading instructions may be trimmed; ``None`` is any number.
         top: How many plans are wanted; each α keeps as many ways to each environment.
         pair_nouns: The extension of :mod:`tmd.veil.instantiate`; without it the rules are the paper's own.
+        knowledge: Whether the robot knows what its instructions need and do. Without it (*No Domain Knowledge*) every
+            candidate counts as executable, nothing is added to it, and the environment stays as it was.
     """
 
     def __init__(
@@ -78,6 +80,7 @@ class Inference:
         trim: int | None = None,
         top: int = 1,
         pair_nouns: bool = True,
+        knowledge: bool = True,
     ) -> None:
         self.world = world
         self.library = library
@@ -87,6 +90,7 @@ class Inference:
         self.trim = trim
         self.top = top
         self.pair_nouns = pair_nouns
+        self.knowledge = knowledge
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
         self._refused: dict[tuple[int, str, str], Refusal] = {}
 
@@ -145,6 +149,9 @@ class Inference:
 
     def _reach(self, number: int, clause: Clause, candidate: _Candidate, state: Bits) -> tuple[Choice, Bits] | None:
         """Ask the planner for what the candidate needs; ``None`` where it cannot be executed."""
+        if not self.knowledge:
+            steps = tuple(Step(i, number, latent=False) for i in candidate.instructions)
+            return Choice(candidate.source, steps, self.energy.weigh(candidate.raw), candidate.raw), state
         operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
         answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
         match answer:
@@ -180,7 +187,7 @@ class Inference:
             if instantiation is None:
                 self._refuse(number, template.source, "there is no object for one of its variables")
                 continue
-            first = self._first_possible(number, template.source, instantiation.instructions)
+            first = self._first_possible(number, template.source, instantiation.instructions) if self.knowledge else 0
             for candidate in self._trimmings(instantiation, clause, state, first):
                 key = candidate.instructions, candidate.names
                 if key not in best or candidate.energy < best[key].energy:

@@ -16,6 +16,8 @@ NAMES = (
     *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
+OURS = ("cover",)
+"""Those of them that are not in the paper."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +71,7 @@ def read_weights(path: Path) -> Weights:
 
 
 def named_weights(name: str) -> Weights:
-    """The weights that come with the package, by name: ``hand_set`` or ``nearest``.
+    """The weights that come with the package, by name: ``hand_set``, ``original`` or ``nearest``.
 
     Raises:
         TmdError: There are none of that name.

@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import Self
+from collections.abc import Callable, Sequence
+from functools import partial
+from pathlib import Path
+from statistics import median
+from typing import Any, Self
+from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from tmd.energy.energy import Energy
+from tmd.energy.factors import AKIN
 from tmd.energy.infer import Inference
+from tmd.energy.journal import Journal
 from tmd.energy.learn import Learned, learn_weights
 from tmd.energy.plans import RankedPlan
 from tmd.energy.statistics import Statistics, count
-from tmd.energy.weights import Weights, named_weights
+from tmd.energy.weights import NAMES, OURS, Weights, named_weights
 from tmd.evaluation.dataset import Dataset, Example
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
@@ -20,11 +26,13 @@ from tmd.language import Clause, parse
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Answer, Filled, Planner, Unreachable
-from tmd.veil.library import Library, learn, run
+from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
 
-START = "hand_set"
-"""The weights that learning begins with."""
+_SPOKEN = ("nl", "pcc", "cons", "cover")
+"""The factors that read the clause."""
+_BLIND = ("cons", "latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+"""The factors that need to know what instructions do."""
 
 
 class NoLatent:
@@ -37,70 +45,127 @@ class NoLatent:
         return Unreachable("it would need instructions that nobody said")
 
 
+_PLANNERS: WeakKeyDictionary[Dataset, dict[str, Planner]] = WeakKeyDictionary()
+"""One planner for each environment of a data set: what one model has asked, no other has to ask again."""
+
+
+def planner_for(data: Dataset, environment: str) -> Planner:
+    """The planner of an environment."""
+    known = _PLANNERS.setdefault(data, {})
+    if environment not in known:
+        known[environment] = make(IN_PROCESS, data.world(environment).task)
+    return known[environment]
+
+
 class Crf:
     """The energy and its inference.
 
     Args:
-        learned: Whether the weights are learned; otherwise they are those set by hand.
+        learned: Whether the weights are learned; otherwise they are those named by ``start``.
+        start: The weights that learning begins with.
         latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
-        pair_nouns: The extension of :mod:`tmd.veil.instantiate`.
+        knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*.
+        language: Whether the robot hears what is said; without it *No NL Instructions*: as many steps as the median
+            of the demonstrations has, each by any template.
+        extended: Our extensions: nouns paired in order of mention, akin nouns, Δ_cover.
         beam: As for :class:`~tmd.energy.infer.Inference`.
         trim: As there.
         proposals: How many plans are looked at for each training example.
         most_examples: At most so many training examples of each world are learned from, drawn at random.
         rounds: How often plans are proposed anew.
+        journal: Where ``fit`` writes down how far it is, and goes on from; may be set later.
     """
 
     def __init__(
         self,
         *,
         learned: bool = True,
+        start: str = "original",
         latent: bool = True,
-        pair_nouns: bool = True,
+        knowledge: bool = True,
+        language: bool = True,
+        extended: bool = False,
         beam: int = 3,
         trim: int | None = None,
         proposals: int = 10,
-        most_examples: int = 60,
+        most_examples: int = 40,
         rounds: int = 2,
+        journal: Path | None = None,
     ) -> None:
         self.learned = learned
+        self.start = start
         self.latent = latent
-        self.pair_nouns = pair_nouns
+        self.knowledge = knowledge
+        self.language = language
+        self.extended = extended
         self.beam = beam
         self.trim = trim
         self.proposals = proposals
         self.most_examples = most_examples
         self.rounds = rounds
+        self.journal = journal
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """The factors that this model weighs."""
+        absent = (
+            *(() if self.extended else OURS),
+            *(() if self.language else _SPOKEN),
+            *(() if self.knowledge else _BLIND),
+        )
+        return tuple(name for name in NAMES if name not in absent)
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Build a library for each kind of world, and learn its weights."""
-        self.libraries_ = libraries(examples, data)
-        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
-        self._fillers: dict[str, Planner] = {}
-        self.learned_: dict[str, Learned] = {}
-        self.weights_ = dict.fromkeys(self.libraries_, named_weights(START))
-        if self.learned:
-            for world in self.libraries_:
-                own = [e for e in examples if e.world == world]
-                self.learned_[world] = self._learn(own, data, random)
-                self.weights_[world] = self.learned_[world].weights
+        self._prepare(examples, data)
+        for world in self.libraries_ if self.learned else ():
+            own = [e for e in examples if e.world == world]
+            self.learned_[world] = self._learn(world, own, data, random)
+            self.weights_[world] = self.learned_[world].weights
+        return self
+
+    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Self:
+        """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``."""
+        self._prepare(examples, data)
+        for world in self.libraries_ if self.learned else ():
+            kept = saved["worlds"][world]
+            self.learned_[world] = Learned(Weights(kept["weights"]), tuple(kept["curve"]))
+            self.weights_[world] = self.learned_[world].weights
         return self
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
-        if example.world not in self.libraries_:
-            return Prediction()
-        library, statistics = self.libraries_[example.world], self.statistics_[example.world]
-        plans = self._plans(example, data, library, statistics, self.weights_[example.world], top=1)
+        plans = self.plans(example, data, top=1)
         return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
 
-    def _learn(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Learned:
+    def plans(self, example: Example, data: Dataset, *, top: int) -> tuple[RankedPlan, ...]:
+        """The best plans, cheapest first; none in a world that was not learned."""
+        if example.world not in self.libraries_:
+            return ()
+        library, statistics = self.libraries_[example.world], self.statistics_[example.world]
+        return self._plans(example, data, library, statistics, self.weights_[example.world], top=top)
+
+    def _prepare(self, examples: Sequence[Example], data: Dataset) -> None:
+        self.libraries_ = libraries(examples, data)
+        if not self.language:
+            self.libraries_ = {world: whole(library) for world, library in self.libraries_.items()}
+            self.steps_ = {world: _usual_steps(examples, world) for world in self.libraries_}
+            self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
+        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
+        self.learned_: dict[str, Learned] = {}
+        start = named_weights(self.start)
+        mine = Weights({name: start[name] for name in self.factors})
+        self.weights_ = dict.fromkeys(self.libraries_, mine)
+
+    def _learn(self, name: str, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Learned:
         """Weights for one kind of world. A training example never sees templates of its own environment."""
         order = random.permutation(len(examples))[: self.most_examples]
         chosen = [examples[int(i)] for i in sorted(order)]
-        whole = self.libraries_[chosen[0].world]
-        held_out = {name: whole.without(name) for name in sorted({e.environment for e in chosen})}
-        tables = {name: count(library) for name, library in held_out.items()}
+        full = self.libraries_[name]
+        held_out = {place: full.without(place) for place in sorted({e.environment for e in chosen})}
+        if not self.language:
+            held_out = {place: whole(library) for place, library in held_out.items()}
+        tables = {place: count(library) for place, library in held_out.items()}
 
         def propose(number: int, weights: Weights) -> list[tuple[RankedPlan, float]]:
             example = chosen[number]
@@ -108,9 +173,32 @@ class Crf:
             plans = self._plans(example, data, library, statistics, weights, top=self.proposals)
             return [(plan, loss(plan, example, data.world(example.environment))) for plan in plans]
 
-        return learn_weights(propose, len(chosen), named_weights(START), random, rounds=self.rounds)
+        journal = Journal(self.journal, name) if self.journal else None
+        start = named_weights(self.start)
+        return learn_weights(
+            propose, len(chosen), start, random, factors=self.factors, rounds=self.rounds, journal=journal
+        )
 
     def _plans(
+        self,
+        example: Example,
+        data: Dataset,
+        library: Library,
+        statistics: Statistics,
+        weights: Weights,
+        *,
+        top: int,
+    ) -> tuple[RankedPlan, ...]:
+        """What inference finds. Told nothing it finds the same for every example in an environment."""
+        infer = partial(self._infer, example, data, library, statistics, weights, top=top)
+        if self.language:
+            return infer()
+        key = example.environment, len(library), tuple(weights.values.items()), top
+        if key not in self._told_nothing:
+            self._told_nothing[key] = infer()
+        return self._told_nothing[key]
+
+    def _infer(
         self,
         example: Example,
         data: Dataset,
@@ -124,22 +212,20 @@ class Crf:
         inference = Inference(
             world,
             library,
-            Energy(weights, statistics, world),
-            self._filler(example.environment, world),
+            Energy(weights, statistics, world, akin=AKIN if self.extended else 0.0),
+            planner_for(data, example.environment) if self.latent else NoLatent(),
             beam=self.beam,
             trim=self.trim,
             top=top,
-            pair_nouns=self.pair_nouns,
+            pair_nouns=self.extended,
+            knowledge=self.knowledge,
         )
         return inference.infer(self._clauses(example, data), world.task.init).plans
 
     def _clauses(self, example: Example, data: Dataset) -> Sequence[Clause]:
+        if not self.language:
+            return [Clause("")] * self.steps_[example.world]
         return parse(example.demonstration.text, data.lexicon).clauses
-
-    def _filler(self, environment: str, world: World) -> Planner:
-        if environment not in self._fillers:
-            self._fillers[environment] = make(IN_PROCESS, world.task) if self.latent else NoLatent()
-        return self._fillers[environment]
 
 
 def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
@@ -161,7 +247,7 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
 def loss(plan: RankedPlan, example: Example, world: World) -> float:
     """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules."""
     first = world.task.init
-    mine, gold = first ^ plan.state, first ^ run(world, first, example.gold)
+    mine, gold = (first ^ run(world, first, done) for done in (plan.instructions, example.gold))
     same = (mine & gold).bit_count() / ((mine | gold).bit_count() + EPSILON) if mine or gold else 1.0
     return 1 - (ied(plan.instructions, example.gold) / 100 + same) / 2
 
@@ -172,3 +258,21 @@ def libraries(examples: Sequence[Example], data: Dataset) -> dict[str, Library]:
         world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
         for world in sorted({example.world for example in examples})
     }
+
+
+def _usual_steps(examples: Sequence[Example], world: str) -> int:
+    """The median number of segments with instructions in the demonstrations of a world."""
+    done = [sum(bool(s.instructions) for s in e.demonstration.segments) for e in examples if e.world == world]
+    return int(median(done)) if done else 0
+
+
+ROWS: dict[str, Callable[[], Crf]] = {
+    "no_nl": partial(Crf, language=False),
+    "no_domain": partial(Crf, knowledge=False),
+    "no_latent": partial(Crf, latent=False),
+    "full": Crf,
+    "hand_set": partial(Crf, learned=False),
+    "extended": partial(Crf, extended=True, start="hand_set"),
+    "extended_hand_set": partial(Crf, learned=False, extended=True, start="hand_set"),
+}
+"""The model of the paper, its ablations, and our variants."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
 from statistics import median
 from typing import Protocol, Self
 
@@ -11,9 +10,11 @@ import numpy as np
 
 from tmd.energy.factors import delta_env, delta_nl
 from tmd.errors import TmdError
-from tmd.evaluation.crf import Crf, libraries
+from tmd.evaluation.crf import ROWS, libraries
 from tmd.evaluation.dataset import Dataset, Example
+from tmd.evaluation.predefined import PredefinedTemplates
 from tmd.evaluation.prediction import Prediction, by_clause
+from tmd.evaluation.tree import InstructionTree
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
@@ -107,10 +108,11 @@ class NearestEnvironment:
 MODELS: Mapping[str, Callable[[], Model]] = {
     "empty": Empty,
     "chance": Chance,
+    "templates": PredefinedTemplates,
+    "tree": InstructionTree,
+    "no_nl": ROWS["no_nl"],
     "nearest": NearestEnvironment,
-    "no_latent": partial(Crf, latent=False),
-    "full": Crf,
-    "hand_set": partial(Crf, learned=False),
+    **{name: row for name, row in ROWS.items() if name != "no_nl"},
 }
 """The rows by name, in the order of the table."""
 

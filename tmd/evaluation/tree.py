@@ -30,7 +30,7 @@ from tmd.evaluation.tree_reward import Made, ascend, likelihood, log_probabiliti
 from tmd.evaluation.tree_syntax import Syntax, Things, learn_syntax
 from tmd.language import Clause, parse
 from tmd.pddl.model import Instruction
-from tmd.veil.library import align
+from tmd.veil.library import lessons
 
 _WORD = re.compile(r"[a-z0-9']+")
 _COVER = 0.99
@@ -216,10 +216,9 @@ def _lessons(examples: Sequence[Example], data: Dataset) -> list[_Lesson]:
         if example.environment not in known:
             known[example.environment] = Things(data.world(example.environment))
         things = known[example.environment]
-        clauses = parse(example.demonstration.text, data.lexicon).clauses
         pairs: list[tuple[Clause | None, tuple[Instruction, ...]]] = [
-            (clause, tuple(i for s in segments for i in s.instructions if things.well_formed(i)))
-            for clause, segments in align(clauses, example.demonstration.segments)
+            (lesson.clause, tuple(i for i in lesson.instructions if things.well_formed(i)))
+            for lesson in lessons(example.demonstration, data.world(example.environment), data.lexicon)
         ]
         found.append(_Lesson(things, pairs))
     return found

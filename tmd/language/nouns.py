@@ -1,7 +1,8 @@
 """Which things of an environment a noun may name, with the kind of evidence for each.
 
 The order of evidence is fixed: the thing's own name, an alias of the domain, an alias learned in training, WordNet
-similarity, nothing. A weaker kind is only asked where all stronger ones are silent.
+similarity, nothing. A weaker kind is only asked where all stronger ones are silent; but where a name agrees only in
+part, an alias of the whole noun goes before it.
 """
 
 from __future__ import annotations
@@ -94,9 +95,15 @@ def rank(
         candidates' names. Empty if the noun names nothing here.
     """
     parsed = _parse(noun)
+    aliases = (lexicon or builtin()).nouns
+    named = _by_name(parsed, candidates)
+    if max((match.score for match in named), default=0.0) < 1.0:
+        # an alias of the whole noun says more than a name that shares its head only
+        spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
+        named = _by_alias(noun, parsed, candidates, spelled) or named
     for found in (
-        _by_name(parsed, candidates),
-        _by_alias(noun, parsed, candidates, (lexicon or builtin()).nouns),
+        named,
+        _by_alias(noun, parsed, candidates, aliases),
         _by_learned(noun, parsed, candidates, learned or {}),
         _by_wordnet(parsed, candidates, threshold),
     ):

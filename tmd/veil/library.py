@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
 from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
 from tmd.veil.demonstration import Demonstration, Segment
+from tmd.veil.split import split
 from tmd.veil.template import Template, generalise
 from tmd.veil.world import World
 
@@ -56,6 +58,23 @@ class Library:
         return sum(map(len, self._by_verb.values()))
 
 
+class WholeLibrary(Library):
+    """A library that proposes all it has, whatever the clause: for a robot that was told nothing."""
+
+    def propose(self, clause: Clause) -> Sequence[Template]:
+        """Every template, verb by verb."""
+        return [template for verb in self.verbs() for template in self.templates(verb)]
+
+
+def whole(library: Library) -> WholeLibrary:
+    """The same templates, proposed for anything."""
+    found = WholeLibrary(library.lexicon)
+    for verb in library.verbs():
+        for template in library.templates(verb):
+            found.add(template)
+    return found
+
+
 def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon) -> Library:
     """Build the library of a corpus.
 
@@ -67,50 +86,84 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
     library = Library(lexicon)
     for demonstration in demonstrations:
         world = world_of(demonstration.environment)
-        state = world.task.init
-        for clause, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
-            instructions = tuple(i for segment in segments for i in segment.instructions)
-            end = run(world, state, instructions)
-            if instructions and clause is None:
-                library.unaligned.append((demonstration.id, demonstration.text[segments[0].start : segments[-1].end]))
-            elif instructions and clause is not None:
+        for lesson in lessons(demonstration, world, lexicon):
+            if lesson.clause is None:
+                library.unaligned.append((demonstration.id, lesson.text))
+            else:
                 template = generalise(
                     demonstration.id,
-                    clause,
+                    lesson.clause,
                     demonstration.environment,
-                    instructions,
-                    (state, end),
+                    lesson.instructions,
+                    lesson.states,
                     world.profiles,
                     world.mentions,
                 )
                 library.add(template)
-            state = end
     return library
 
 
-def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[Clause | None, list[Segment]]]:
-    """The segments in their order, each with the first clause that has most of its words there.
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """What was done for one clause.
+
+    Attributes:
+        clause: The clause; ``None`` where none was found for the text.
+        text: The text of the segments.
+        instructions: What was done; at least one instruction.
+        states: The states before and after.
+    """
+
+    clause: Clause | None
+    text: str
+    instructions: tuple[Instruction, ...]
+    states: tuple[Bits, Bits]
+
+
+def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Iterator[Lesson]:
+    """What a demonstration shows, clause by clause, in order."""
+    state = world.task.init
+    for clauses, segments in align(parse(demonstration.text, lexicon).clauses, demonstration.segments):
+        instructions = tuple(i for segment in segments for i in segment.instructions)
+        text = demonstration.text[segments[0].start : segments[-1].end]
+        parts = split(clauses, instructions, world.profiles, world.mentions, state) if clauses else [instructions]
+        owners: Sequence[Clause | None] = clauses or [None]
+        for clause, own in zip(owners, parts, strict=True):
+            if own:
+                end = run(world, state, own)
+                yield Lesson(clause, text, own, (state, end))
+                state = end
+
+
+def align(clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[tuple[list[Clause], list[Segment]]]:
+    """The segments in their order, each with the clauses that have most of their words there.
 
     A segment without a clause joins its neighbour if the neighbour's clause begins or ends in it: in *when it
-    boils, add the ramen* the waiting serves the adding. Otherwise it stands alone, with ``None``.
+    boils, add the ramen* the waiting serves the adding. Otherwise it stands alone, with no clause.
     """
-    owners: list[Clause | None] = [None] * len(segments)
+    owners: list[list[Clause]] = [[] for _ in segments]
     for clause in clauses:
         overlaps = [_overlap(clause, segment) for segment in segments]
         if overlaps and max(overlaps) > 0:
-            best = overlaps.index(max(overlaps))
-            owners[best] = owners[best] or clause
-    for index, segment in enumerate(segments):
-        if owners[index] is None:
-            near = [owners[i] for i in (index + 1, index - 1) if 0 <= i < len(segments)]
-            owners[index] = next((c for c in near if c and _touches(c, segment)), None)
-    grouped: list[tuple[Clause | None, list[Segment]]] = []
-    for owner, segment in zip(owners, segments, strict=True):
-        if grouped and owner is not None and grouped[-1][0] is owner:
+            owners[overlaps.index(max(overlaps))].append(clause)
+    joined = [_neighbour(index, owners, segments) for index in range(len(segments))]
+    grouped: list[tuple[list[Clause], list[Segment]]] = []
+    for owner, segment in zip(joined, segments, strict=True):
+        if grouped and owner and grouped[-1][0] is owner:
             grouped[-1][1].append(segment)
         else:
             grouped.append((owner, [segment]))
     return grouped
+
+
+def _neighbour(index: int, owners: Sequence[list[Clause]], segments: Sequence[Segment]) -> list[Clause]:
+    """The clauses of a segment: its own, or those of a neighbour that reach into it."""
+    if owners[index]:
+        return owners[index]
+    for near, nearest in ((index + 1, 0), (index - 1, -1)):
+        if 0 <= near < len(segments) and owners[near] and _touches(owners[near][nearest], segments[index]):
+            return owners[near]
+    return []
 
 
 def _overlap(clause: Clause, segment: Segment) -> int:
