@@ -61,11 +61,13 @@ def test_objects_become_variables_and_constants_stay(kitchen: Corpus) -> None:
 
 def test_every_template_of_the_corpus_gives_its_demonstration_back(kitchen: Corpus) -> None:
     library = learn(kitchen.demonstrations(), kitchen.world, kitchen.lexicon)
-    shown = {d.id: ";".join(map(str, d.instructions)) for d in kitchen.demonstrations()}
+    shown = {d.id: d.instructions for d in kitchen.demonstrations()}
     templates = [t for verb in library.verbs() for t in library.propose(Clause(verb))]
     assert len(templates) == len(library) > 100
     for made in templates:
-        assert ";".join(map(str, replace(made.instructions, made.grounding))) in shown[made.source]
+        # in the same order; detours are left out
+        rest = iter(shown[made.source])
+        assert all(instruction in rest for instruction in replace(made.instructions, made.grounding))
         assert not any(name in kitchen.world(made.environment).profiles.constants for name in made.grounding)
 
 

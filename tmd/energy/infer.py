@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from tmd.energy.constraints import get_constraints
 from tmd.energy.energy import Energy
@@ -23,6 +24,8 @@ from tmd.veil.library import Library
 from tmd.veil.world import World
 
 Sequence_ = tuple[Instruction, ...]
+GENERATED = "policy"
+"""The source of a sequence that was made from no demonstration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,6 +35,26 @@ class Path:
     energy: float
     state: Bits
     choices: tuple[Choice, ...] = ()
+
+
+class Policy(Protocol):
+    """A learned distribution over instruction sequences given the words of a clause: not in the paper."""
+
+    def best(
+        self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int
+    ) -> Sequence[tuple[float, Sequence_]]:
+        """The ``count`` likeliest sequences for a clause, each after its score, likeliest first."""
+        ...
+
+    def surprise(
+        self,
+        clause: Clause,
+        earlier: Sequence[Clause],
+        done: Sequence[Instruction],
+        instructions: Sequence[Instruction],
+    ) -> float:
+        """The mean of -ln P over a sequence and its end, never negative."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +90,8 @@ class Inference:
         pair_nouns: The extension of :mod:`tmd.veil.instantiate`; without it the rules are the paper's own.
         knowledge: Whether the robot knows what its instructions need and do. Without it (*No Domain Knowledge*) every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
+        policy: Proposes sequences of its own beside the templates, and judges all (Δ_words).
+        generated: How many sequences of the policy are looked at for each clause and environment.
     """
 
     def __init__(
@@ -81,6 +106,8 @@ class Inference:
         top: int = 1,
         pair_nouns: bool = True,
         knowledge: bool = True,
+        policy: Policy | None = None,
+        generated: int = 5,
     ) -> None:
         self.world = world
         self.library = library
@@ -91,12 +118,15 @@ class Inference:
         self.top = top
         self.pair_nouns = pair_nouns
         self.knowledge = knowledge
+        self.policy = policy
+        self.generated = generated
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
         self._refused: dict[tuple[int, str, str], Refusal] = {}
 
     def infer(self, clauses: Sequence[Clause], state: Bits) -> Inferred:
         """The best plans for ``clauses`` from ``state``."""
         self._refused.clear()
+        self._clauses = tuple(clauses)
         alpha = {state: [Path(0.0, state)]}
         for number, clause in enumerate(clauses):
             alpha = self._forward(number, clause, alpha)
@@ -111,7 +141,8 @@ class Inference:
         for bound, state, candidate in self._queue(number, clause, alpha):
             if self._settled(found, bound):
                 break
-            reached = self._reach(number, clause, candidate, state)
+            done = _instructions(alpha[state][0])
+            reached = self._reach(number, clause, candidate, state, done)
             if reached is not None:
                 choice, end = reached
                 found.setdefault(end, []).extend(
@@ -131,7 +162,7 @@ class Inference:
         queue = [
             (ways[0].energy + candidate.energy, state, candidate)
             for state, ways in alpha.items()
-            for candidate in self._candidates(number, clause, state)
+            for candidate in self._candidates(number, clause, state, _instructions(ways[0]))
         ]
         return sorted(queue, key=lambda item: item[0])
 
@@ -147,7 +178,9 @@ class Inference:
         cheaper = [sum(path.energy < least for path in paths) for paths in found.values()]
         return sum(map(bool, cheaper)) >= self.beam and sum(cheaper) >= self.top
 
-    def _reach(self, number: int, clause: Clause, candidate: _Candidate, state: Bits) -> tuple[Choice, Bits] | None:
+    def _reach(
+        self, number: int, clause: Clause, candidate: _Candidate, state: Bits, done: Sequence_
+    ) -> tuple[Choice, Bits] | None:
         """Ask the planner for what the candidate needs; ``None`` where it cannot be executed."""
         if not self.knowledge:
             steps = tuple(Step(i, number, latent=False) for i in candidate.instructions)
@@ -156,7 +189,7 @@ class Inference:
         answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
         match answer:
             case Filled():
-                return self._choice(number, clause, candidate, answer, operators)
+                return self._choice(number, clause, candidate, answer, operators, done)
             case Unreachable(reason):
                 self._refuse(number, candidate.source, reason)
             case GaveUp(limit):
@@ -164,7 +197,13 @@ class Inference:
         return None
 
     def _choice(
-        self, number: int, clause: Clause, candidate: _Candidate, filled: Filled, operators: Sequence[Operator]
+        self,
+        number: int,
+        clause: Clause,
+        candidate: _Candidate,
+        filled: Filled,
+        operators: Sequence[Operator],
+        done: Sequence_,
     ) -> tuple[Choice, Bits]:
         end = filled.state
         for operator in operators:
@@ -177,9 +216,12 @@ class Inference:
             **self.energy.of_end(verb, candidate.names, end),
             **self.energy.of_latent(filled.plan, filled.state),
         }
+        if self.policy is not None:
+            whole = (*filled.plan, *candidate.instructions)
+            raw["words"] = self.policy.surprise(clause, self._clauses[:number], done, whole)
         return Choice(candidate.source, steps, self.energy.weigh(raw), raw), end
 
-    def _candidates(self, number: int, clause: Clause, state: Bits) -> list[_Candidate]:
+    def _candidates(self, number: int, clause: Clause, state: Bits, done: Sequence_) -> list[_Candidate]:
         """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
         best: dict[tuple[Sequence_, tuple[str, ...]], _Candidate] = {}
         for template in self.library.propose(clause):
@@ -192,7 +234,20 @@ class Inference:
                 key = candidate.instructions, candidate.names
                 if key not in best or candidate.energy < best[key].energy:
                     best[key] = candidate
-        return list(best.values())
+        return [*best.values(), *self._generated(number, clause, state, done)]
+
+    def _generated(self, number: int, clause: Clause, state: Bits, done: Sequence_) -> list[_Candidate]:
+        """The sequences that the policy proposes, without what can never be done here."""
+        if self.policy is None:
+            return []
+        found: dict[Sequence_, _Candidate] = {}
+        for _, proposed in self.policy.best(clause, self._clauses[:number], done, self.generated):
+            kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
+            names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], state)
+            raw = {"generated": 1.0, **self.energy.of_sequence(kept, len(kept), names)}
+            energy = sum(self.energy.weigh(raw).values())
+            found.setdefault(kept, _Candidate(GENERATED, kept, raw, energy, names))
+        return list(found.values())
 
     def _first_possible(self, number: int, source: str, instructions: Sequence_) -> int:
         """The first t for which nothing in I[t..] is impossible in this environment."""

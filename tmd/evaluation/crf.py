@@ -22,6 +22,7 @@ from tmd.energy.weights import NAMES, OURS, Weights, named_weights
 from tmd.evaluation.dataset import Dataset, Example
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
+from tmd.evaluation.tree import InstructionTree
 from tmd.language import Clause, parse
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.backends import IN_PROCESS, make
@@ -68,6 +69,8 @@ class Crf:
         language: Whether the robot hears what is said; without it *No NL Instructions*: as many steps as the median
             of the demonstrations has, each by any template.
         extended: Our extensions: nouns paired in order of mention, akin nouns, Δ_cover.
+        generate: A log-linear policy, learned from the same demonstrations, proposes sequences as well and judges all
+            candidates by the words of the clause (Δ_words).
         beam: As for :class:`~tmd.energy.infer.Inference`.
         trim: As there.
         proposals: How many plans are looked at for each training example.
@@ -85,6 +88,7 @@ class Crf:
         knowledge: bool = True,
         language: bool = True,
         extended: bool = False,
+        generate: bool = False,
         beam: int = 3,
         trim: int | None = None,
         proposals: int = 10,
@@ -98,6 +102,7 @@ class Crf:
         self.knowledge = knowledge
         self.language = language
         self.extended = extended
+        self.generate = generate
         self.beam = beam
         self.trim = trim
         self.proposals = proposals
@@ -110,6 +115,7 @@ class Crf:
         """The factors that this model weighs."""
         absent = (
             *(() if self.extended else OURS),
+            *(() if self.generate else ("words", "generated")),
             *(() if self.language else _SPOKEN),
             *(() if self.knowledge else _BLIND),
         )
@@ -153,6 +159,11 @@ class Crf:
             self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
         self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
         self.learned_: dict[str, Learned] = {}
+        # its own seed: a model that is restored has the same policy
+        trained = (
+            InstructionTree(grounded=True).fit(examples, data, np.random.default_rng(0)) if self.generate else None
+        )
+        self.tree_: InstructionTree | None = trained
         start = named_weights(self.start)
         mine = Weights({name: start[name] for name in self.factors})
         self.weights_ = dict.fromkeys(self.libraries_, mine)
@@ -219,6 +230,7 @@ class Crf:
             top=top,
             pair_nouns=self.extended,
             knowledge=self.knowledge,
+            policy=self.tree_.policy(example.environment, example.world, data) if self.tree_ else None,
         )
         return inference.infer(self._clauses(example, data), world.task.init).plans
 
@@ -273,6 +285,7 @@ ROWS: dict[str, Callable[[], Crf]] = {
     "full": Crf,
     "hand_set": partial(Crf, learned=False),
     "extended": partial(Crf, extended=True, start="hand_set"),
+    "generating": partial(Crf, learned=False, extended=True, generate=True, start="generating"),
     "extended_hand_set": partial(Crf, learned=False, extended=True, start="hand_set"),
 }
 """The model of the paper, its ablations, and our variants."""

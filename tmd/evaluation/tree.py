@@ -38,6 +38,8 @@ _COVER = 0.99
 _DIGITS = 9
 """Rewards are rounded before they are compared, so that equal ones stay equal whatever the order of a sum."""
 _NO_STATE = 0
+MOST = 12.0
+"""The surprise of what training makes impossible."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,6 +57,86 @@ class Reward:
     theta: Floats
     before: float
     after: float
+
+
+class Policy:
+    """A learned reward in one environment.
+
+    Args:
+        reward: What was learned.
+        menu: The environment's instructions of a seen shape.
+        grounded: As for :class:`InstructionTree`; so are the rest.
+        beam: How many sequences of a length are looked at further.
+        bonus: Reward for each instruction.
+        slack: How far below the best complete sequence one is still looked at.
+    """
+
+    def __init__(self, reward: Reward, menu: Menu, *, grounded: bool, beam: int, bonus: float, slack: float) -> None:
+        self.reward = reward
+        self.menu = menu
+        self.grounded = grounded
+        self.beam = beam
+        self.bonus = bonus
+        self.slack = slack
+
+    def best(
+        self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int = 1
+    ) -> list[tuple[float, tuple[Instruction, ...]]]:
+        """The ``count`` sequences of the greatest reward for a clause, by beam search, greatest first.
+
+        Args:
+            clause: The clause.
+            earlier: The clauses before it.
+            done: The instructions that were chosen for those.
+            count: How many are wanted; at least one is found, perhaps the empty one.
+        """
+        features = self.reward.features
+        menu, words, levels = self._read(clause, earlier)
+        found: list[tuple[float, tuple[Instruction, ...]]] = []
+        beam: list[tuple[float, tuple[Instruction, ...]]] = [(0.0, ())]
+        for _ in range(features.syntax.longest + 1):
+            at = steps(menu, words, levels, [Node(tuple(done), own) for _, own in beam])
+            logs = np.round(log_probabilities(features, self.reward.theta, at), _DIGITS)
+            longer = []
+            for (total, own), row in zip(beam, logs, strict=True):
+                found.append((float(total + row[-1]), own))
+                following = np.argsort(-row[:-1], kind="stable")[: self.beam].tolist()
+                longer += [
+                    (round(total + float(row[i]) + self.bonus, _DIGITS), (*own, menu.choices[i])) for i in following
+                ]
+            found = sorted(found, key=lambda node: -node[0])[:count]
+            worst = found[-1][0] if len(found) == count else -np.inf
+            longer.sort(key=lambda node: -node[0])
+            beam = [node for node in longer[: self.beam] if node[0] >= worst - self.slack and np.isfinite(node[0])]
+            if not beam:
+                break
+        return found
+
+    def surprise(
+        self,
+        clause: Clause,
+        earlier: Sequence[Clause],
+        done: Sequence[Instruction],
+        instructions: Sequence[Instruction],
+    ) -> float:
+        """The mean of -ln P over ``instructions`` and the end of the sequence; each is at most :data:`MOST`."""
+        menu, words, levels = self._read(clause, earlier)
+        own = tuple(instructions)
+        nodes = [Node(tuple(done), own[:length]) for length in range(len(own) + 1)]
+        logs = log_probabilities(self.reward.features, self.reward.theta, steps(menu, words, levels, nodes))
+        each = [
+            min(MOST, -float(logs[row, menu.index[choice]])) if choice in menu.index else MOST
+            for row, choice in enumerate((*own, STOP))
+        ]
+        return round(sum(each) / len(each), _DIGITS)
+
+    def _read(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
+        """The choices, the clause's words, and how far it mentions things."""
+        words = self.reward.features.known(bag(clause, grounded=self.grounded))
+        if not self.grounded:
+            return self.menu, words, nothing(self.menu.things)
+        levels = mentioned(clause, earlier, self.menu.things)
+        return _with_mentioned(self.menu, levels), words, levels
 
 
 class InstructionTree:
@@ -76,6 +158,8 @@ class InstructionTree:
         rounds: How often the training data are gone through.
         rate: Step size of the ascent.
         ridge: Weight of the squared weights.
+        grounded: Whether the reward also knows which objects the clause's nouns may mean. The paper's baseline has
+            the words alone; with this it is a row of ours.
     """
 
     def __init__(
@@ -88,6 +172,7 @@ class InstructionTree:
         rounds: int = 8,
         rate: float = 0.2,
         ridge: float = 3.0,
+        grounded: bool = False,
     ) -> None:
         self.beam = beam
         self.bonus = bonus
@@ -96,10 +181,11 @@ class InstructionTree:
         self.rounds = rounds
         self.rate = rate
         self.ridge = ridge
+        self.grounded = grounded
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
         """Learn constraints, features and weights for each kind of world."""
-        self._menus: dict[str, Menu] = {}
+        self._policies: dict[str, Policy] = {}
         self.rewards_: dict[str, Reward] = {}
         for world in sorted({example.world for example in examples}):
             lessons = _lessons([e for e in examples if e.world == world], data)
@@ -108,66 +194,46 @@ class InstructionTree:
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The sequence of the greatest reward for each clause, one clause after the other."""
-        reward = self.rewards_.get(example.world)
-        if reward is None:
+        policy = self.policy(example.environment, example.world, data)
+        if policy is None:
             return Prediction()
-        menu = self._menu(example.environment, reward, data)
         earlier: list[Clause] = []
         served: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
         for clause in parse(example.demonstration.text, data.lexicon).clauses:
             done = tuple(i for _, made, _ in served for i in made)
-            served.append((clause, self._search(reward, menu, clause, earlier, done), None))
+            served.append((clause, policy.best(clause, earlier, done)[0][1], None))
             earlier.append(clause)
         return by_clause(served)
 
     def _learn(self, lessons: Sequence[_Lesson], random: np.random.Generator) -> Reward:
         sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
         syntax = learn_syntax(sequences, certain=self.certain, cover=_COVER)
-        features = _number(lessons, syntax)
+        features = _number(lessons, syntax, grounded=self.grounded)
         menus: dict[Things, Menu] = {}
         data = []
         for lesson in lessons:
             if lesson.things not in menus:
                 menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
-            data += _steps_made(lesson, menus[lesson.things])
+            data += _steps_made(lesson, menus[lesson.things], grounded=self.grounded)
         theta = ascend(features, data, random, rounds=self.rounds, rate=self.rate, ridge=self.ridge)
         choices = max(sum(len(made.choices) for made in data), 1)
         before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
         return Reward(features, theta, before, after)
 
-    def _menu(self, environment: str, reward: Reward, data: Dataset) -> Menu:
-        """The environment's instructions of a seen shape."""
-        world = data.world(environment)
-        menu = self._menus.get(environment)
-        if menu is None or menu.things.world is not world:
-            things = Things(world)
-            menu = self._menus[environment] = Menu(reward.features, things, reward.features.syntax.menu(things))
-        return menu
-
-    def _search(
-        self, reward: Reward, menu: Menu, clause: Clause, earlier: Sequence[Clause], done: tuple[Instruction, ...]
-    ) -> tuple[Instruction, ...]:
-        """Beam search; of equally good sequences the one that was found first."""
-        features = reward.features
-        levels = mentioned(clause, earlier, menu.things)
-        menu = _with_mentioned(menu, levels)
-        words = features.known(bag(clause))
-        found: tuple[float, tuple[Instruction, ...]] = (-np.inf, ())
-        beam: list[tuple[float, tuple[Instruction, ...]]] = [(0.0, ())]
-        for length in range(features.syntax.longest + 1):
-            at = steps(menu, words, levels, [Node(done, own) for _, own in beam])
-            logs = np.round(log_probabilities(features, reward.theta, at), _DIGITS)
-            longer = []
-            for (total, own), row in zip(beam, logs, strict=True):
-                if total + row[-1] > found[0]:
-                    found = (float(total + row[-1]), own)
-                best = np.argsort(-row[:-1], kind="stable")[: self.beam].tolist()
-                longer += [(round(total + float(row[i]) + self.bonus, _DIGITS), (*own, menu.choices[i])) for i in best]
-            longer.sort(key=lambda node: -node[0])
-            beam = [node for node in longer[: self.beam] if node[0] >= found[0] - self.slack and np.isfinite(node[0])]
-            if not beam or length == features.syntax.longest:
-                break
-        return found[1]
+    def policy(self, environment: str, world: str, data: Dataset) -> Policy | None:
+        """What was learned, ready for one environment; ``None`` in a kind of world that training did not have."""
+        reward = self.rewards_.get(world)
+        if reward is None:
+            return None
+        ground = data.world(environment)
+        policy = self._policies.get(environment)
+        if policy is None or policy.menu.things.world is not ground:
+            things = Things(ground)
+            menu = Menu(reward.features, things, reward.features.syntax.menu(things))
+            policy = self._policies[environment] = Policy(
+                reward, menu, grounded=self.grounded, beam=self.beam, bonus=self.bonus, slack=self.slack
+            )
+        return policy
 
 
 class _Lesson(NamedTuple):
@@ -177,9 +243,16 @@ class _Lesson(NamedTuple):
     clauses: list[tuple[Clause | None, tuple[Instruction, ...]]]
 
 
-def bag(clause: Clause) -> list[str]:
-    """The words of a clause, its verb, what its pronouns stand for, and one that every clause has."""
-    return ["", *_WORD.findall(clause.text.lower()), f"verb {clause.verb}", *clause.resolved()]
+def bag(clause: Clause, *, grounded: bool) -> list[str]:
+    """The words of a clause, its verb, and one that every clause has; ``grounded`` with what its pronouns stand for."""
+    resolved = clause.resolved() if grounded else ()
+    return ["", *_WORD.findall(clause.text.lower()), f"verb {clause.verb}", *resolved]
+
+
+def nothing(things: Things) -> Ints:
+    """The levels of :func:`mentioned` where nothing is."""
+    levels: Ints = np.zeros(len(things.kinds) + 1, np.int64)
+    return levels
 
 
 def mentioned(clause: Clause, earlier: Sequence[Clause], things: Things) -> Ints:
@@ -224,14 +297,14 @@ def _lessons(examples: Sequence[Example], data: Dataset) -> list[_Lesson]:
     return found
 
 
-def _number(lessons: Sequence[_Lesson], syntax: Syntax) -> Features:
+def _number(lessons: Sequence[_Lesson], syntax: Syntax, *, grounded: bool) -> Features:
     """Number the features that the training data have."""
     words: set[str] = set()
     seen: set[tuple[str, ...]] = set()
     for things, clauses in lessons:
         before: Instruction | None = None
         for clause, made in clauses:
-            words.update(bag(clause) if clause is not None else ())
+            words.update(bag(clause, grounded=grounded) if clause is not None else ())
             for position, instruction in enumerate(made):
                 words.update(followers(before, position, things))
                 seen.update(properties(instruction, things))
@@ -240,7 +313,7 @@ def _number(lessons: Sequence[_Lesson], syntax: Syntax) -> Features:
     return Features(words, seen, syntax)
 
 
-def _steps_made(lesson: _Lesson, menu: Menu) -> list[Made]:
+def _steps_made(lesson: _Lesson, menu: Menu, *, grounded: bool) -> list[Made]:
     """The sequence of each clause as choices from the menu, with the STOP at its end."""
     found = []
     done: tuple[Instruction, ...] = ()
@@ -248,7 +321,8 @@ def _steps_made(lesson: _Lesson, menu: Menu) -> list[Made]:
     for clause, made in lesson.clauses:
         if clause is not None and made:
             nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
-            at = steps(menu, menu.features.known(bag(clause)), mentioned(clause, earlier, lesson.things), nodes)
+            levels = mentioned(clause, earlier, lesson.things) if grounded else nothing(lesson.things)
+            at = steps(menu, menu.features.known(bag(clause, grounded=grounded)), levels, nodes)
             choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
             # the constraints are only almost always kept; what was done was possible
             at.allowed[np.arange(len(choices)), choices] = True

@@ -13,6 +13,7 @@ from tmd.pddl.task import Bits
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.split import split
 from tmd.veil.template import Template, generalise
+from tmd.veil.tidy import tidy
 from tmd.veil.world import World
 
 
@@ -110,7 +111,7 @@ class Lesson:
     Attributes:
         clause: The clause; ``None`` where none was found for the text.
         text: The text of the segments.
-        instructions: What was done; at least one instruction.
+        instructions: What was done, without detours; at least one instruction.
         states: The states before and after.
     """
 
@@ -131,7 +132,9 @@ def lessons(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Ite
         for clause, own in zip(owners, parts, strict=True):
             if own:
                 end = run(world, state, own)
-                yield Lesson(clause, text, own, (state, end))
+                useful = tidy(own, world, state)
+                if useful:
+                    yield Lesson(clause, text, useful, (state, end))
                 state = end
 
 
