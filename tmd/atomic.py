@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import platform
 import stat
 from contextlib import suppress
 from pathlib import Path
+from zlib import crc32
 
 from tmd.errors import OutputError
 
@@ -34,7 +36,7 @@ def write_bytes(path: str | Path, data: bytes) -> None:
         if mode is not None and not stat.S_ISREG(mode):
             _write(target, data, os.O_WRONLY)
             return
-        draft = target.with_name(f".{target.name}.{os.getpid()}.part")
+        draft = target.with_name(_draft(target.name))
         try:
             _write(draft, data, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
             if mode is not None:
@@ -65,6 +67,14 @@ def make_directory(path: str | Path) -> Path:
             f"{target} cannot be made: {error.strerror or error}", hint="name a directory you may write to"
         ) from error
     return target
+
+
+def _draft(name: str) -> str:
+    """A name for the new file that no other writer uses: two machines that share a directory may share process ids.
+
+    The host is in it as a checksum, so that a long host name does not make the file name too long.
+    """
+    return f".{name}.{crc32(platform.node().encode()):08x}.{os.getpid()}.part"
 
 
 def _mode(path: Path) -> int | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import platform
 import stat
 from pathlib import Path
 
@@ -90,6 +91,25 @@ def test_an_interrupt_leaves_no_draft(tmp_path: Path, monkeypatch: pytest.Monkey
     with pytest.raises(KeyboardInterrupt):
         write_text(tmp_path / "out.txt", "x")
     assert names(tmp_path) == []
+
+
+@pytest.mark.parametrize("other", ["host", "process"])
+def test_two_writers_never_share_a_draft(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, other: str) -> None:
+    """Machines that share a directory may give two writers the same process id."""
+    drafts: list[str] = []
+
+    def note(_: int) -> None:
+        (draft,) = names(tmp_path)
+        drafts.append(draft)
+
+    monkeypatch.setattr(os, "fsync", note)
+    for number in (1, 2):
+        monkeypatch.setattr(platform, "node", lambda n=number: f"{'n' * 64}{n}" if other == "host" else "same")
+        monkeypatch.setattr(os, "getpid", lambda n=number: 4_194_303 if other == "host" else n)
+        write_text(tmp_path / "out.txt", "x")
+        (tmp_path / "out.txt").unlink()
+    assert drafts[0] != drafts[1]
+    assert all(draft.startswith(".out.txt.") and len(draft) < 64 for draft in drafts)
 
 
 def test_directories(tmp_path: Path) -> None:
