@@ -22,7 +22,10 @@ FLOORS = {
     "evaluation": 5,
     "cli": 6,
 }
-HEAVY = {"unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib"}
+HEAVY = {
+    "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
+    "matplotlib", "jinja2", "scipy", "distributed", "dask",
+}  # fmt: skip
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 

@@ -10,7 +10,8 @@ import pytest
 from tmd.cli.program import COMMANDS
 
 HEAVY = {
-    "hypothesis", "joblib", "lark", "llvmlite", "numba", "numpy", "pddl", "pydantic", "rich", "unified_planning", "yaml"
+    "dask", "distributed", "hypothesis", "jinja2", "joblib", "lark", "llvmlite", "matplotlib", "numba", "numpy", "pddl",
+    "pydantic", "rich", "scipy", "unified_planning", "yaml",
 }  # fmt: skip
 PROBE = """
 import sys
