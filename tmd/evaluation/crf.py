@@ -26,13 +26,16 @@ from tmd.evaluation.tree import InstructionTree
 from tmd.language import Clause, parse
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.filler import QUICK
 from tmd.planning.result import Answer, Filled, Planner, Unreachable
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
 
 _SPOKEN = ("nl", "pcc", "cons", "cover")
 """The factors that read the clause."""
-_BLIND = ("cons", "latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+_LATENT = ("latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+"""The factors of what was left unsaid."""
+_BLIND = ("cons", *_LATENT)
 """The factors that need to know what instructions do."""
 
 
@@ -47,14 +50,17 @@ class NoLatent:
 
 
 _PLANNERS: WeakKeyDictionary[Dataset, dict[str, Planner]] = WeakKeyDictionary()
-"""One planner for each environment of a data set: what one model has asked, no other has to ask again."""
+"""One planner for each environment of a data set: what one model has asked, no other has to ask again.
+
+Its searches are short: what people leave unsaid is, and a candidate that needs more is not the best one.
+"""
 
 
 def planner_for(data: Dataset, environment: str) -> Planner:
     """The planner of an environment."""
     known = _PLANNERS.setdefault(data, {})
     if environment not in known:
-        known[environment] = make(IN_PROCESS, data.world(environment).task)
+        known[environment] = make(IN_PROCESS, data.world(environment).task, cap=QUICK)
     return known[environment]
 
 
@@ -118,6 +124,7 @@ class Crf:
             *(() if self.generate else ("words", "generated")),
             *(() if self.language else _SPOKEN),
             *(() if self.knowledge else _BLIND),
+            *(() if self.latent else _LATENT),
         )
         return tuple(name for name in NAMES if name not in absent)
 

@@ -100,7 +100,7 @@ class NearestEnvironment:
         candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
         return min(
             (c for c in candidates if c is not None),
-            key=lambda c: (delta_env(c), delta_nl(c.template.clause, clause)),
+            key=lambda c: (delta_env(c), delta_nl(c.template.clause, clause, akin=0.0)),
             default=None,
         )
 

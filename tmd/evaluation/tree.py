@@ -78,6 +78,7 @@ class Policy:
         self.beam = beam
         self.bonus = bonus
         self.slack = slack
+        self._last: tuple[tuple[object, ...], tuple[Menu, Ints, Ints]] | None = None
 
     def best(
         self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int = 1
@@ -131,7 +132,13 @@ class Policy:
         return round(sum(each) / len(each), _DIGITS)
 
     def _read(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
-        """The choices, the clause's words, and how far it mentions things."""
+        """The choices, the clause's words, and how far it mentions things; that of the last clause is remembered."""
+        key = tuple((c.text, c.verb, c.resolved()) for c in (clause, *earlier))
+        if self._last is None or self._last[0] != key:
+            self._last = key, self._reading(clause, earlier)
+        return self._last[1]
+
+    def _reading(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
         words = self.reward.features.known(bag(clause, grounded=self.grounded))
         if not self.grounded:
             return self.menu, words, nothing(self.menu.things)

@@ -16,8 +16,10 @@ from tmd.planning.memo import Memo
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search import DEFAULT_CAP, Backend, OptimalSearch, replayed
 
-SHORT = 2_000
+BRIEF = 100
 """Generated states after which a search stops to ask whether its goal is impossible."""
+QUICK = 2_000
+"""A filler with no greater cap does not look further for the reason when it gives up."""
 
 
 @dataclass
@@ -98,7 +100,7 @@ class GapFiller:
     def _searched(self, state: Bits, goal: tuple[Cube, ...]) -> tuple[Answer, Sequence[int]]:
         self.counters.searched += 1
         search = self._search
-        answer = search.fill(state, goal, min(SHORT, search.cap))
+        answer = search.fill(state, goal, min(BRIEF, search.cap))
         self.counters.generated += search.generated
         if not isinstance(answer, GaveUp):
             return answer, search.steps

@@ -55,7 +55,7 @@ class Mentions:
             if match.name not in self.profiles.constants:
                 found.setdefault(match.name, match)
                 continue
-            for name in self._containers(match.name, state):
+            for name in self.profiles.containers(match.name, state):
                 better = Match(name, match.score * _CONTAINED_SHARE, CONTAINED)
                 if name not in found or found[name].score < better.score:
                     found[name] = better
@@ -81,14 +81,6 @@ class Mentions:
     def _edges(self, name: str, used: Collection[str]) -> int:
         links = self.profiles.links
         return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
-
-    def _containers(self, constant: str, state: Bits) -> list[str]:
-        """The objects in one of whose states ``constant`` stands, in the problem's order; affordances do not count."""
-        return [
-            name
-            for name in self.profiles.objects
-            if any(constant in key[1:] and value for key, value in self.profiles.variable(name, state).items())
-        ]
 
 
 def _words(name: str, whole: str | None) -> tuple[str, ...]:

@@ -94,9 +94,25 @@ class Profiles:
             profile[key] = bool(state >> self.task.index[atom] & 1)
         return profile
 
-    def variable(self, name: str, state: Bits) -> Profile:
-        """Of the profile of ``name`` without its parts, the states whose predicate some action changes."""
-        return {key: value for key, value in self.own(name, state).items() if key[0] in self._changing}
+    def containers(self, constant: str, state: Bits) -> list[str]:
+        """The objects that have ``constant`` in a state of theirs now (*contains mug1 water*), in the problem's order.
+
+        Only states that some action changes count: an affordance contains nothing.
+        """
+        found = self._about.get(constant, ())
+        return list(dict.fromkeys(name for name, bit in found if bit is None or state >> bit & 1))
+
+    @cached_property
+    def _about(self) -> dict[str, list[tuple[str, int | None]]]:
+        """For every constant the objects that may have it in a state, each with its atom; ``None`` is always true."""
+        found: dict[str, list[tuple[str, int | None]]] = {}
+        for name in self.objects:
+            states = [(key, None) for _, key in self._static.get(name, ())]
+            for key, bit in [*states, *((key, self.task.index[atom]) for atom, key in self._fluent.get(name, ()))]:
+                if key[0] in self._changing:
+                    for constant in dict.fromkeys(key[1:]):
+                        found.setdefault(constant, []).append((name, bit))
+        return found
 
     @cached_property
     def _changing(self) -> frozenset[str]:
