@@ -107,10 +107,10 @@ class GapFiller:
         reason = self._impossible.reason(state, goal)
         if reason is not None:
             return Unreachable(reason), ()
-        if search.cap > SHORT:
+        if search.cap > BRIEF:
             answer = search.fill(state, goal)
             self.counters.generated += search.generated
-        if isinstance(answer, GaveUp):
+        if isinstance(answer, GaveUp) and search.cap > QUICK:
             reason = self._impossible.reason_from(state, goal)
             if reason is not None:
                 return Unreachable(reason), ()
