@@ -19,6 +19,7 @@ from tmd.energy.learn import Learned, learn_weights
 from tmd.energy.plans import RankedPlan
 from tmd.energy.statistics import Statistics, count
 from tmd.energy.weights import NAMES, OURS, Weights, named_weights
+from tmd.errors import TmdError
 from tmd.evaluation.dataset import Dataset, Example
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
@@ -138,13 +139,30 @@ class Crf:
         return self
 
     def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Self:
-        """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``."""
+        """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
+
+        Raises:
+            TmdError: What was saved is not what this model learns.
+        """
         self._prepare(examples, data)
         for world in self.libraries_ if self.learned else ():
-            kept = saved["worlds"][world]
-            self.learned_[world] = Learned(Weights(kept["weights"]), tuple(kept["curve"]))
+            self.learned_[world] = self._kept(world, saved)
             self.weights_[world] = self.learned_[world].weights
         return self
+
+    def _kept(self, world: str, saved: dict[str, Any]) -> Learned:
+        try:
+            kept = saved["worlds"][world]
+            weights = {str(name): float(value) for name, value in kept["weights"].items()}
+            curve = tuple(dict(point) for point in kept["curve"])
+        except (KeyError, TypeError, ValueError, AttributeError):
+            raise TmdError(
+                f"what was learned for the world '{world}' is damaged", hint="remove fits/ of the run and run again"
+            ) from None
+        if not weights.keys() <= set(self.factors):
+            strange = ", ".join(sorted(weights.keys() - set(self.factors)))
+            raise TmdError(f"weights of another model: {strange}", hint="remove fits/ of the run and run again")
+        return Learned(Weights(weights), curve)
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
@@ -264,7 +282,10 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
 
 
 def loss(plan: RankedPlan, example: Example, world: World) -> float:
-    """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules."""
+    """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules.
+
+    The one who judges knows those rules, whatever the robot knows.
+    """
     first = world.task.init
     mine, gold = (first ^ run(world, first, done) for done in (plan.instructions, example.gold))
     same = (mine & gold).bit_count() / ((mine | gold).bit_count() + EPSILON) if mine or gold else 1.0

@@ -196,6 +196,7 @@ class VeilDataset:
     """
 
     def __init__(self, directory: Path, task: str) -> None:
+        from tmd.world.veil500.compile import domain_path
         from tmd.world.veil500.data import load
 
         self._data = load(directory)
@@ -203,7 +204,12 @@ class VeilDataset:
         if task != ALL and task not in tasks:
             raise DataError(f"VEIL-500 has no task '{task}'", hint=nearest(task, tasks) or ", ".join(tasks))
         self._task = task
-        self._fingerprint = _digest({"": (self._data.directory, ("*.xml",))})
+        self._fingerprint = _digest(
+            {
+                "data": (self._data.directory, ("*.xml",)),
+                "domains": (domain_path("sane").parent, ("*.pddl", "*.yaml")),
+            }
+        )
         self._worlds: dict[str, World] = {}
         self._scorers: dict[str, Scorer] = {}
 
@@ -270,7 +276,7 @@ class VeilDataset:
         return [to_veil(instruction, names) for instruction in instructions]
 
     def fingerprint(self) -> str:
-        """A digest of every file of the set."""
+        """A digest of every file of the set, and of what the domain says of it."""
         return self._fingerprint
 
     def _key(self, environment: str) -> tuple[str, int]:
