@@ -99,7 +99,7 @@ class Crf:
         beam: int = 3,
         trim: int | None = None,
         proposals: int = 10,
-        most_examples: int = 40,
+        most_examples: int = 20,
         rounds: int = 2,
         journal: Path | None = None,
     ) -> None:

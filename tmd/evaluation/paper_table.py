@@ -55,6 +55,7 @@ OURS = {
     "hand_set": "Full model, weights set by hand",
     "extended": "Extended model: Δ_cover, akin nouns, nouns paired in order",
     "extended_hand_set": "Extended model, weights set by hand",
+    "generating": "Extended model with a policy that proposes and judges",
     "empty": "Empty prediction",
 }
 """Titles of rows that the paper does not have."""
