@@ -9,6 +9,7 @@ from tmd.errors import TmdError
 from tmd.language.lexicon import Lexicon
 from tmd.pddl.syntax import nearest
 from tmd.veil.demonstration import Demonstration, read_demonstrations
+from tmd.veil.replay import check_executable
 from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
@@ -27,6 +28,7 @@ class Corpus:
         self.folder = folder
         self.directory = directory
         self._worlds: dict[str, World] = {}
+        self._demonstrations: dict[str, list[Demonstration]] = {}
 
     @cached_property
     def lexicon(self) -> Lexicon:
@@ -63,7 +65,7 @@ class Corpus:
         """The demonstrations of one task, or of all, in the order of the files.
 
         Raises:
-            TmdError: There is no such task, or a file is wrong.
+            TmdError: There is no such task, a file is wrong, or a demonstration cannot be executed.
         """
         if task is not None and task not in self.tasks():
             raise TmdError(
@@ -71,8 +73,13 @@ class Corpus:
                 hint=nearest(task, self.tasks()),
             )
         tasks = self.tasks() if task is None else [task]
-        return [
-            demonstration
-            for name in tasks
-            for demonstration in read_demonstrations(self.directory / name / "demonstrations.jsonl")
-        ]
+        return [demonstration for name in tasks for demonstration in self._of_task(name)]
+
+    def _of_task(self, task: str) -> list[Demonstration]:
+        """The demonstrations of one task, read and checked once."""
+        if task not in self._demonstrations:
+            found = read_demonstrations(self.directory / task / "demonstrations.jsonl")
+            for demonstration in found:
+                check_executable(demonstration, self.world(demonstration.environment))
+            self._demonstrations[task] = found
+        return self._demonstrations[task]

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from tmd.errors import Location, TmdError
@@ -37,7 +37,7 @@ class Segment:
 
 @dataclass(frozen=True, slots=True)
 class Demonstration:
-    """One demonstration, as described in the module's docstring."""
+    """One demonstration, as described in the module's docstring; ``location`` is where it was read."""
 
     id: str
     task: str
@@ -45,6 +45,7 @@ class Demonstration:
     text: str
     segments: tuple[Segment, ...]
     end_state: tuple[str, ...] = ()
+    location: Location | None = field(default=None, compare=False, repr=False)
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
@@ -107,6 +108,7 @@ class _Line:
             data["text"],
             tuple(self._segments(data["text"], data["segments"])),
             tuple(end_state),
+            Location(str(self.path), self.number, 1),
         )
 
     def _segments(self, text: str, segments: object) -> Iterator[Segment]:

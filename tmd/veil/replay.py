@@ -6,6 +6,7 @@ from tmd.errors import TmdError
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.pddl.semantics import apply, first_broken
 from tmd.veil.demonstration import Demonstration
+from tmd.veil.world import World
 
 
 def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
@@ -25,6 +26,38 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
         if not _literal_holds(literal, states[-1]):
             raise TmdError(f"the stated end {literal} is not reached")
     return states
+
+
+def check_executable(demonstration: Demonstration, world: World) -> None:
+    """Make sure that a demonstration can be done in its environment: what cannot teaches nothing true.
+
+    Raises:
+        TmdError: An instruction is not executable; with the demonstration's place, and the first broken precondition.
+    """
+    state = world.task.init
+    for number, instruction in enumerate(demonstration.instructions, start=1):
+        operator = world.task.by_instruction.get(instruction)
+        if operator is None or not operator.applicable(state):
+            raise TmdError(
+                f"'{demonstration.id}' cannot be executed in {world.name}: {_broken(demonstration, number, world)}",
+                location=demonstration.location,
+                hint="mend the demonstration, or the domain or environment if they are what changed",
+            )
+        state = operator.apply(state)
+
+
+def _broken(demonstration: Demonstration, number: int, world: World) -> str:
+    """What is wrong with step ``number``, the first that cannot be executed."""
+    problem = world.task.problem
+    state = problem.init
+    for instruction in demonstration.instructions[: number - 1]:
+        state = apply(instruction, state, problem)
+    wrong = demonstration.instructions[number - 1]
+    try:
+        broken = first_broken(wrong, state, problem)
+    except TmdError as error:
+        return f"step {number}, {wrong}: {error.message}"
+    return f"step {number}, {wrong}: {broken.text if broken else 'it'} does not hold"
 
 
 def _literal_holds(literal: str, state: State) -> bool:

@@ -1,0 +1,51 @@
+"""A demonstration that cannot be executed (any more) is named: file, line, step, and what is broken."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from tmd.errors import TmdError
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture
+def corpus(tmp_path: Path) -> Corpus:
+    shutil.copytree(ROOT / "problems" / "kitchen", tmp_path / "kitchen")
+    return Corpus(DomainFolder(ROOT / "domains" / "kitchen"), tmp_path / "kitchen")
+
+
+@pytest.mark.parametrize(
+    ("was", "is_now", "said"),
+    [
+        ('"grasp(pot1)"', '"release(pot1)"', r"step 3, release\(pot1\): .* does not hold"),
+        ('"grasp(pot1)"', '"fly(pot1)"', 'step 3, fly.*unknown action "fly"'),
+        ('"grasp(pot1)"', '"grasp(stove1)"', "step 3, grasp.*is of type"),
+    ],
+)
+def test_the_step_and_its_place_are_named(corpus: Corpus, was: str, is_now: str, said: str) -> None:
+    file = corpus.directory / "ramen" / "demonstrations.jsonl"
+    first, rest = file.read_text(encoding="utf-8").split("\n", 1)
+    assert was in first
+    file.write_text(first.replace(was, is_now, 1) + "\n" + rest, encoding="utf-8")
+    with pytest.raises(TmdError, match=said) as caught:
+        corpus.demonstrations("ramen")
+    assert caught.value.location is not None
+    assert (caught.value.location.file, caught.value.location.line) == (str(file), 1)
+
+
+def test_an_environment_that_changed_is_found_by_its_demonstrations(corpus: Corpus) -> None:
+    place = corpus.directory / "environments" / "kitchen1.yaml"
+    text = place.read_text(encoding="utf-8")
+    place.write_text(text.replace("ramen1", "ramen9"), encoding="utf-8")
+    with pytest.raises(TmdError, match=r"cannot be executed in kitchen1: step \d+, \w+\(.*ramen1"):
+        corpus.demonstrations("ramen")
+
+
+def test_the_bundled_demonstrations_can_be_executed(corpus: Corpus) -> None:
+    assert len(corpus.demonstrations("ramen")) == 50
