@@ -128,8 +128,9 @@ def command(
     if shard and step == "report":
         raise click.UsageError("a report is made of the whole run: give --step report without --shard")
 
-    from tmd.evaluation.config import DEFAULT_MODELS, ExperimentConfig, Shard
+    from tmd.evaluation.config import DEFAULT_MODELS, ExperimentConfig, Shard, usual_models
 
+    usual = DEFAULT_MODELS if data == "veil500" else usual_models(roots.folder(domain).path)
     config = ExperimentConfig(
         task=task,
         out=out,
@@ -139,7 +140,7 @@ def command(
         train_environments=train_environments,
         test_environments=test_environments,
         drop_sentences=drop_sentences,
-        models=models or DEFAULT_MODELS,
+        models=models or usual,
         seed=seed,
         domain=domain,
         domains=roots.domains,

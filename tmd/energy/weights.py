@@ -72,7 +72,7 @@ def read_weights(path: Path) -> Weights:
 
 
 def named_weights(name: str) -> Weights:
-    """The weights that come with the package, by name: ``hand_set``, ``original`` or ``nearest``.
+    """The weights that come with the package, by name: ``hand_set``, ``original``, ``generating`` or ``nearest``.
 
     Raises:
         TmdError: There are none of that name.

@@ -19,6 +19,12 @@ DEFAULT_MODELS = (
 """Table II, and what is measured beside it."""
 
 
+def usual_models(folder: Path) -> tuple[str, ...]:
+    """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
+    written = (folder / "templates.yaml").is_file()
+    return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
+
+
 @dataclass(frozen=True, slots=True)
 class Shard:
     """A share of the units of a run: those whose number leaves the same remainder as ``number`` when divided by ``of``.

@@ -244,7 +244,7 @@ def _text(path: Path) -> str:
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
-        raise TmdError(f"{path}: damaged: not UTF-8", hint=_AGAIN) from None
+        raise TmdError(f"{path}: damaged: not UTF-8", hint=_remedy(path)) from None
 
 
 def _parse(kind: type[_T], path: Path, text: str, line: int | None = None) -> _T:
@@ -254,4 +254,9 @@ def _parse(kind: type[_T], path: Path, text: str, line: int | None = None) -> _T
         first = error.errors(include_url=False, include_input=False)[0]
         field = ".".join(map(str, first["loc"]))
         place = f"{path}:{line}" if line else str(path)
-        raise TmdError(f"{place}: damaged: {f'{field}: ' if field else ''}{first['msg']}", hint=_AGAIN) from None
+        raise TmdError(f"{place}: damaged: {f'{field}: ' if field else ''}{first['msg']}", hint=_remedy(path)) from None
+
+
+def _remedy(path: Path) -> str:
+    """What to do about a damaged file. What was learned is written only when something is left to learn."""
+    return "remove that file; the page will lack its curve" if path.parent.name == "fits" else _AGAIN
