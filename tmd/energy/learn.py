@@ -138,7 +138,11 @@ def descend(
     rate: float,
     pull: float,
 ) -> Descent:
-    """Stochastic subgradient descent on the hinge over fixed pools, to the mean of the iterates."""
+    """Stochastic subgradient descent on the hinge over fixed pools.
+
+    What is returned is the mean of the iterates up to that epoch whose preferred plans have the least mean loss, the
+    start among them, the latest of equals: the hinge bounds the loss, but what is wanted is a small loss.
+    """
     useful = [pool for pool in pools if len(pool.losses) > 1]
     if not useful:
         return Descent(start, (0.0,) * epochs, (0.0,) * (epochs + 1))
@@ -149,17 +153,22 @@ def descend(
     current = origin.copy()
     total = np.zeros_like(current)
     tables = [(np.array(pool.factors) / scale, np.array(pool.losses)) for pool in useful]
-    losses, objectives = [], [_judge(tables, origin)[1]]
+    first, hinge = _judge(tables, origin)
+    losses, objectives = [], [hinge]
+    least, kept = first, origin
     for epoch in range(epochs):
         step = rate / (1 + epoch)
         for index in random.permutation(len(tables)):
             current = np.where(free, _step(current, origin, *tables[int(index)], step, pull), 0.0)
             total += current
-        loss, objective = _judge(tables, total / ((epoch + 1) * len(tables)))
+        mean = total / ((epoch + 1) * len(tables))
+        loss, objective = _judge(tables, mean)
         losses.append(loss)
         objectives.append(objective)
-    mean = total / (epochs * len(tables)) / scale
-    weights = Weights({name: float(value) for name, value in zip(NAMES, mean, strict=True) if name in factors})
+        if loss <= least:
+            least, kept = loss, mean
+    learned = zip(NAMES, kept / scale, strict=True)
+    weights = Weights({name: float(value) for name, value in learned if name in factors})
     return Descent(weights, tuple(losses), tuple(objectives))
 
 
