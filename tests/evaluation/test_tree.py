@@ -282,3 +282,19 @@ def test_parameters_are_kept_as_they_were_given() -> None:
     model = InstructionTree(beam=2, bonus=0.1, ridge=9.0)
     assert (model.beam, model.bonus, model.ridge) == (2, 0.1, 9.0)
     assert not [name for name in vars(model) if name.endswith("_")]
+
+
+def test_actions_that_training_never_had_surprise_and_break_nothing() -> None:
+    data = BundledData("boiling_water")
+    examples = [e for e in data.examples if e.environment == "kitchen1"]
+    tree = InstructionTree(grounded=True, rounds=1).fit(examples, data, np.random.default_rng(0))
+    policy = tree.policy("kitchen2", examples[0].world, data)
+    assert policy is not None
+    assert "squeeze" not in policy.reward.features.actions
+    things = sorted(name for name in policy.menu.things.kinds if name.endswith("1"))
+    unseen = Instruction("squeeze", (things[0], things[1]))
+    (clause,) = parse("fill the kettle", data.lexicon).clauses
+    (score, found), *_ = policy.best(clause, (), (unseen,))
+    assert np.isfinite(score)
+    assert found
+    assert policy.surprise(clause, (), (unseen,), (unseen, *found)) > policy.surprise(clause, (), (unseen,), found)

@@ -182,7 +182,8 @@ def _look(menu: Menu, levels: Ints, node: Node) -> tuple[Ints, Ints, Floats, Mas
     recent: Ints = np.zeros(none + 1, np.int64)
     last: Ints = np.full(none + 1, n, np.int64)
     named: Mask = np.zeros((n, none + 1), np.bool_)
-    sequence = node.earlier + node.own
+    # an action that training never had tells nothing
+    sequence = [instruction for instruction in node.earlier + node.own if instruction.name in features.actions]
     for instruction in sequence:
         action, args = features.actions[instruction.name], [menu.numbers[arg] for arg in instruction.args]
         recent[args], last[args], named[action, args] = _NAMED, action, True
