@@ -89,7 +89,7 @@ def lessons() -> list[Example]:
 
 @pytest.fixture(scope="module")
 def tree(data: Kitchens, lessons: list[Example]) -> InstructionTree:
-    return InstructionTree().fit(lessons, data, np.random.default_rng(3))
+    return InstructionTree(grounded=True).fit(lessons, data, np.random.default_rng(3))
 
 
 def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "kitchen1") -> tuple[Instruction, ...]:
@@ -99,9 +99,9 @@ def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "k
 def prepared(data: Kitchens, examples: Sequence[Example]) -> tuple[Features, list[Made]]:
     found = _lessons(examples, data)
     syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found], certain=0.95, cover=0.99)
-    features = _number(found, syntax)
+    features = _number(found, syntax, grounded=True)
     menus = {x.things: Menu(features, x.things, syntax.menu(x.things)) for x in found}
-    return features, [made for x in found for made in _steps_made(x, menus[x.things])]
+    return features, [made for x in found for made in _steps_made(x, menus[x.things], grounded=True)]
 
 
 @pytest.mark.parametrize("x", THINGS)
@@ -123,6 +123,12 @@ def test_clauses_are_put_together_anew(tree: InstructionTree, data: Kitchens) ->
 
 def test_an_object_never_seen_is_taken_if_it_is_mentioned(tree: InstructionTree, data: Kitchens) -> None:
     assert Instruction("grasp", ("pot1",)) in said(tree, data, "Take the pot.")
+
+
+def test_without_grounding_only_the_words_count(data: Kitchens, lessons: list[Example]) -> None:
+    words = InstructionTree().fit(lessons, data, np.random.default_rng(3))
+    assert Instruction("grasp", ("pot1",)) not in said(words, data, "Take the pot.")
+    assert said(words, data, "Take the bowl.") == instructions(TAKE, "bowl1")
 
 
 def test_it_works_in_another_environment(tree: InstructionTree, data: Kitchens) -> None:
@@ -202,7 +208,7 @@ def test_how_far_things_are_mentioned(data: Kitchens) -> None:
     names = list(things.kinds)
     levels = dict(zip([*names, None], mentioned(second, [first], things).tolist(), strict=True))
     assert levels["bowl1"] == FIRST > levels["microwave1"] > levels["mug1"] > levels["pot1"] == levels[None] == 0
-    assert {"put", "bowl", "verb put", ""} <= set(bag(second))
+    assert {"put", "bowl", "verb put", ""} <= set(bag(second, grounded=True))
 
 
 def test_the_gradient_is_that_of_the_likelihood(data: Kitchens, lessons: list[Example]) -> None:

@@ -159,9 +159,11 @@ class Crf:
             raise TmdError(
                 f"what was learned for the world '{world}' is damaged", hint="remove fits/ of the run and run again"
             ) from None
-        if not weights.keys() <= set(self.factors):
-            strange = ", ".join(sorted(weights.keys() - set(self.factors)))
-            raise TmdError(f"weights of another model: {strange}", hint="remove fits/ of the run and run again")
+        strange = sorted(name for name, value in weights.items() if value and name not in self.factors)
+        if strange:
+            raise TmdError(
+                f"weights of another model: {', '.join(strange)}", hint="remove fits/ of the run and run again"
+            )
         return Learned(Weights(weights), curve)
 
     def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
