@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
@@ -46,7 +47,9 @@ def outcomes(config: ExperimentConfig, units: Sequence[Unit], fits: Path, finger
 def _in_processes(config: ExperimentConfig, units: Sequence[Unit], fits: Path) -> Iterator[Outcome]:
     from joblib import Parallel, delayed, parallel_config
 
-    with parallel_config(backend="loky", inner_max_num_threads=1):
+    with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
+        # a worker that has grown is replaced between two units: nothing is lost by it
+        warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
         workers = Parallel(n_jobs=min(config.jobs, len(units)), return_as="generator_unordered", batch_size=1)
         try:
             yield from workers(delayed(do)(config, unit, fits) for unit in units)
