@@ -88,6 +88,11 @@ def some_part(process: subprocess.Popen[bytes], out: Path) -> None:
         time.sleep(0.02)
 
 
+def said(error: bytes) -> list[str]:
+    """What was told, without the lines of the progress."""
+    return [line for line in error.decode().splitlines() if not re.search(r" \d+/\d+ \d+:\d\d", line)]
+
+
 # One machine
 
 
@@ -305,7 +310,7 @@ def test_a_scheduler_that_dies_is_told(tmp_path: Path, cluster_: Cluster, serial
         cluster_.scheduler.kill()
         told, error = process.communicate(timeout=120)
     assert process.returncode == ExitCode.MISSING_TOOL
-    lines = [line for line in error.decode().splitlines() if "━" not in line]
+    lines = said(error)
     assert lines[0] == f"error: the scheduler at {cluster_.address} is lost"
     assert lines[1].startswith("hint: start it anew; what is done is kept")
     assert len(lines) == 2
@@ -325,7 +330,7 @@ def test_an_interruption_leaves_the_cluster_ready(tmp_path: Path, cluster_: Clus
         process.send_signal(signal.SIGINT)
         told, error = process.communicate(timeout=120)
     assert process.returncode == ExitCode.INTERRUPTED, error
-    assert [line for line in error.decode().splitlines() if "━" not in line] == ["error: interrupted"]
+    assert said(error) == ["error: interrupted"]
     assert told == b""
     assert 0 < len(list((out / "parts").iterdir())) < 20
     run(on(cluster_, out))
@@ -504,3 +509,23 @@ def test_the_digest_of_the_code_tells_a_change(tmp_path: Path, monkeypatch: pyte
         cluster.source_digest.cache_clear()
         found.add(cluster.source_digest(tmp_path))
     assert len(found) == 3
+
+
+@needs_dask
+@pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "nonsense"])
+def test_a_client_that_could_not_connect_is_gone_at_once(
+    tmp_path: Path, address: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Collected later, while another one starts, it would block both."""
+    import gc
+
+    from distributed import Client
+
+    monkeypatch.setattr(cluster, "CONNECT", 0.5)
+    gc.disable()
+    try:
+        with pytest.raises(TmdError):
+            run(config(tmp_path / "out", backend="dask", scheduler=address))
+        assert not any(isinstance(thing, Client) for thing in gc.get_objects())
+    finally:
+        gc.enable()

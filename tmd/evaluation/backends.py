@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import signal
 import warnings
 from collections.abc import Generator, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
 from pathlib import Path
 
 from tmd.errors import ExitCode, TmdError
@@ -52,9 +54,24 @@ def _in_processes(config: ExperimentConfig, units: Sequence[Unit], fits: Path) -
         warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
         workers = Parallel(n_jobs=min(config.jobs, len(units)), return_as="generator_unordered", batch_size=1)
         try:
-            yield from workers(delayed(do)(config, unit, fits) for unit in units)
+            with _deaf_to_interruptions():
+                found = workers(delayed(do)(config, unit, fits) for unit in units)
+            yield from found
         except BrokenProcessPool:
             raise WorkerLostError(
                 "a worker process was killed, most likely because memory ran out",
                 hint=f"take fewer --jobs; {GO_ON}",
             ) from None
+
+
+@contextmanager
+def _deaf_to_interruptions() -> Iterator[None]:
+    """Processes and threads started here never hear of Ctrl-C: this process does, afterwards, and ends them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

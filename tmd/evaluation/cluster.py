@@ -7,6 +7,7 @@ by another; a unit that brings down one worker after the other ends the run.
 
 from __future__ import annotations
 
+import gc
 import hashlib
 import logging
 import pickle
@@ -182,14 +183,20 @@ def _distributed() -> ModuleType:
 
 def _connect(distributed: ModuleType, address: str) -> Any:  # noqa: ANN401 - distributed is imported late
     hint = f"start one with `dask scheduler`, and give the address that it shows; {GO_ON}"
+    client, failure = None, None
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             client = distributed.Client(address, timeout=CONNECT, set_as_default=False)
     except ValueError as error:
-        raise TmdError(f"--scheduler {address}: {error}", hint="an address looks like tcp://host:8786") from None
+        failure = TmdError(f"--scheduler {address}: {error}", hint="an address looks like tcp://host:8786")
     except Exception:  # whatever the transport raises
-        raise MissingToolError(f"no scheduler answers at {address}", hint=hint) from None
+        failure = MissingToolError(f"no scheduler answers at {address}", hint=hint)
+    if client is None:
+        # The half-made client is part of a cycle. Collected later it would stop its event loop, and were that to
+        # happen while another client starts one, both would wait for the same lock for ever.
+        gc.collect()
+        raise failure or MissingToolError(f"no scheduler answers at {address}", hint=hint)
     try:
         client.wait_for_workers(1, timeout=CONNECT)
     except Exception:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 from tmd.language import wordnet
@@ -69,6 +70,7 @@ class _Noun:
         return (*self.modifiers, self.head)
 
 
+@lru_cache(maxsize=4096)
 def split_name(name: str) -> tuple[str, ...]:
     """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``."""
     return tuple(part.lower() for part in _CAMEL.findall(name))
@@ -129,11 +131,12 @@ def _parse(noun: str) -> _Noun:
     return _Noun(words[-1], tuple(words[:-1]), number, ordinal)
 
 
-def _vocabulary(candidate: Candidate) -> list[tuple[str, ...]]:
+@lru_cache(maxsize=4096)
+def _vocabulary(candidate: Candidate) -> tuple[tuple[str, ...], ...]:
     """Return the ways to name a candidate, each as its words without numbers, nearest first."""
     names = (candidate.name, candidate.class_name, *candidate.ancestors)
     spelled = [tuple(singular(w) for w in split_name(name) if not w.isdigit()) for name in names]
-    return [words for words in spelled if words]
+    return tuple(words for words in spelled if words)
 
 
 def _by_name(noun: _Noun, candidates: Sequence[Candidate]) -> list[Match]:

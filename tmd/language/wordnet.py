@@ -57,6 +57,7 @@ def known(noun: str) -> bool:
     return bool(_senses(noun))
 
 
+@cache
 def _senses(noun: str) -> list[tuple[int, int]]:
     taxonomy = _taxonomy()
     found = taxonomy.senses.get(noun) or taxonomy.senses.get(singular(noun)) or []
@@ -73,10 +74,14 @@ def similarity(first: str, second: str) -> float:
     taxonomy = _taxonomy()
     best = 0.0
     for _, one in _senses(first):
-        above = taxonomy.ancestors(one)
         for _, other in _senses(second):
-            best = max(best, _wu_palmer(taxonomy, above, taxonomy.ancestors(other)))
+            best = max(best, _wu_palmer(taxonomy, _above(one), _above(other)))
     return best
+
+
+@cache
+def _above(number: int) -> dict[int, int]:
+    return _taxonomy().ancestors(number)
 
 
 def _wu_palmer(taxonomy: _Taxonomy, first: dict[int, int], second: dict[int, int]) -> float:
