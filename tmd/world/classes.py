@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Annotated, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -23,10 +23,39 @@ ROOT = "root"
 """The vertex that stands for the whole object."""
 SELF = "self"
 """In a fact of a class: the vertex itself."""
+COLOUR = r"^([a-z][a-z_]*|#[0-9a-f]{6})$"
 MAX_DEPTH = 32
+Length: TypeAlias = Annotated[float, Field(gt=0.0, le=10.0)]
+"""Metres."""
 
 StateValue: TypeAlias = bool | str | list[str]
 """``true``/``false`` for ``(p x)``; a name or names for ``(p x name)``."""
+
+
+class Shape(BaseModel):
+    """What a thing looks like, for the robot's scene; PDDL knows nothing of it (``docs/scenes.md``).
+
+    Attributes:
+        kind: Which of the kinds of :mod:`tmd.robot.shapes` builds it.
+        size: Depth (to the front), width and height in metres; the kind's own where it is not said.
+        colour: A colour's name or ``#rrggbb``; also the second colour, ``accent``.
+        mass: Of an item, in kilograms.
+        settings: Of a knob: the names of its settings, in the order of its angle.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    kind: str = Field(pattern=NAME)
+    size: tuple[Length, Length, Length] | None = None
+    colour: str | None = Field(default=None, pattern=COLOUR)
+    accent: str | None = Field(default=None, pattern=COLOUR)
+    mass: float | None = Field(default=None, gt=0.0, le=100.0)
+    settings: tuple[str, ...] = ()
+
+    def over(self, inherited: Shape | None) -> Shape:
+        """This shape, with what it leaves open from ``inherited`` if that is of the same kind."""
+        if inherited is None or inherited.kind != self.kind:
+            return self
+        return inherited.model_copy(update={name: getattr(self, name) for name in self.model_fields_set})
 
 
 class PartEntry(BaseModel):
@@ -37,6 +66,7 @@ class PartEntry(BaseModel):
     facts: list[str] = []
     init: list[str] = []
     states: dict[str, StateValue] = {}
+    shape: Shape | None = None
 
 
 class ClassEntry(BaseModel):
@@ -49,6 +79,7 @@ class ClassEntry(BaseModel):
     states: dict[str, StateValue] = {}
     parts: dict[str, PartEntry] = {}
     edges: list[str] = []
+    shape: Shape | None = None
 
 
 class ObjectsFile(BaseModel):
@@ -64,7 +95,7 @@ class ObjectsFile(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class Vertex:
-    """A part of an object: its class, what always holds of it, and the states it starts in.
+    """A part of an object: its class, what always holds of it, the states it starts in, and what it looks like.
 
     ``facts`` and ``init`` are atoms as tuples, with ``self`` for the vertex, ``root`` and part names for others.
     """
@@ -74,6 +105,7 @@ class Vertex:
     facts: tuple[tuple[str, ...], ...] = ()
     init: tuple[tuple[str, ...], ...] = ()
     states: Mapping[str, StateValue] = field(default_factory=dict)
+    shape: Shape | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +206,7 @@ class Classes:
         states: dict[str, StateValue] = {}
         parts: dict[str, Vertex] = {}
         edges: list[tuple[str, ...]] = []
+        shape: Shape | None = None
         for ancestor in reversed(self._line(name)):
             entry = self.entries.classes.get(ancestor)
             if entry is None:
@@ -181,11 +214,12 @@ class Classes:
             facts += [_words(fact) for fact in entry.facts]
             init += [_words(fact) for fact in entry.init]
             states |= entry.states
+            shape = shape if entry.shape is None else entry.shape.over(shape)
             for part, said in entry.parts.items():
                 parts[part] = self._part(ancestor, part, said)
             for index, edge in enumerate(entry.edges):
                 edges.append(self._edge(ancestor, index, edge, parts))
-        root = Vertex(ROOT, name, tuple(facts), tuple(init), states)
+        root = Vertex(ROOT, name, tuple(facts), tuple(init), states, shape)
         return ObjectClass(name, self._line(name)[1], {ROOT: root} | parts, tuple(edges))
 
     def _part(self, owner: str, part: str, said: PartEntry) -> Vertex:
@@ -210,6 +244,7 @@ class Classes:
             base.facts + tuple(map(_words, said.facts)),
             base.init + tuple(map(_words, said.init)),
             {**base.states, **said.states},
+            base.shape if said.shape is None else said.shape.over(base.shape),
         )
 
     def _edge(self, owner: str, index: int, edge: str, parts: Mapping[str, Vertex]) -> tuple[str, ...]:
