@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from tmd.errors import TmdError
+from tmd.errors import Location, TmdError
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import (
     TRUE,
@@ -98,7 +98,8 @@ class _Compiler:
             self._object(name, self.folder.classes.get(entry.class_name))
             self._where(name, entry.at)
         self._stated()
-        return replace(shell, init=self._derive(replace(shell, init=frozenset(self.init))))
+        init = frozenset(self.init)
+        return replace(shell, init=derive(replace(shell, init=init), self.folder, init))
 
     def _objects(self) -> Iterable[TypedName]:
         constants = {c.name for c in self.domain.constants}
@@ -205,20 +206,31 @@ class _Compiler:
                 raise source.error(path, f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}")
         self.init.add(GroundAtom(words[0], tuple(words[1:])))
 
-    def _derive(self, problem: Problem) -> State:
-        """The initial state with the ``derive`` rules applied, in their order."""
-        classes = self.folder.classes
-        state = problem.init
-        for index, rule in enumerate(classes.entries.derive):
-            location = classes.source.locate(("derive", index))
-            document = parse(rule, str(classes.source.path))
-            try:
-                effects = tuple(read_effects(document.groups[0], document.source).flat)
-                schema = ActionSchema(_DERIVE, (), TRUE, effects)
-                state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
-            except (TmdError, IndexError) as error:
-                raise TmdError(f"derive: {rule}: {error}", location=location) from error
-        return state
+
+def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
+    """``state`` with the ``derive`` rules of ``objects.yaml`` applied, in their order.
+
+    Raises:
+        TmdError: A rule is wrong; with its place.
+    """
+    for schema, location, rule in _rules(folder):
+        try:
+            state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
+        except TmdError as error:
+            raise TmdError(f"derive: {rule}: {error}", location=location) from error
+    return state
+
+
+def _rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location, str]]:
+    classes = folder.classes
+    for index, rule in enumerate(classes.entries.derive):
+        location = classes.source.locate(("derive", index))
+        document = parse(rule, str(classes.source.path))
+        try:
+            effects = tuple(read_effects(document.groups[0], document.source).flat)
+        except (TmdError, IndexError) as error:
+            raise TmdError(f"derive: {rule}: {error}", location=location) from error
+        yield ActionSchema(_DERIVE, (), TRUE, effects), location, rule
 
 
 def _with_action(problem: Problem, schema: ActionSchema) -> Problem:
