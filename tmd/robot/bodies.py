@@ -112,7 +112,9 @@ class Bodies(Engine):
                 lower, upper = (-inf, inf) if info[8] > info[9] else (info[8], info[9])
                 name = info[1].decode()
                 kind = kinds.get(info[2], "other")
-                found[name] = Joint(index, name, kind, lower, upper, info[13], info[12].decode())
+                turned = bullet.getDynamicsInfo(body, index, physicsClientId=self._client)[4]
+                axis = Pose((0.0, 0.0, 0.0), turned).rotate(info[13])  # given in the frame of the mass
+                found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
             self._names[body] = found
         return self._names[body]
 

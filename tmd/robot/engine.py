@@ -133,17 +133,18 @@ class Engine:
         bullet = self._bullet
         view = bullet.computeViewMatrix(eye, target, (0, 0, 1))
         projection = bullet.computeProjectionMatrixFOV(fov, width / height, 0.05, 30.0)
-        image = bullet.getCameraImage(
-            width,
-            height,
-            view,
-            projection,
-            shadow=int(shadow),
-            lightDirection=(2.0, -3.0, 6.0),
-            renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
-            flags=bullet.ER_NO_SEGMENTATION_MASK,
-            physicsClientId=self._client,
-        )
+        with quiet():  # EGL says hello at the first picture
+            image = bullet.getCameraImage(
+                width,
+                height,
+                view,
+                projection,
+                shadow=int(shadow),
+                lightDirection=(2.0, -3.0, 6.0),
+                renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
+                flags=bullet.ER_NO_SEGMENTATION_MASK,
+                physicsClientId=self._client,
+            )
         pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
         return np.ascontiguousarray(pixels[:, :, :3])
 

@@ -48,19 +48,22 @@ def _advice() -> str:
 
 @contextmanager
 def quiet() -> Iterator[None]:
-    """Keep what C code prints off standard output, which belongs to the results of the program."""
+    """Drop what C code prints: standard output belongs to the results, standard error to the remarks of the program."""
     sys.stdout.flush()
+    sys.stderr.flush()
     library = ctypes.CDLL(None)
     library.fflush(None)
-    kept = os.dup(1)
+    kept = [os.dup(stream) for stream in (1, 2)]
     sink = os.open(os.devnull, os.O_WRONLY)
     try:
-        os.dup2(sink, 1)
+        for stream in (1, 2):
+            os.dup2(sink, stream)
         yield
     finally:
         library.fflush(None)  # what C still buffers would come out later
-        os.dup2(kept, 1)
-        os.close(kept)
+        for stream, copy in zip((1, 2), kept, strict=True):
+            os.dup2(copy, stream)
+            os.close(copy)
         os.close(sink)
 
 
