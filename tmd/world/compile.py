@@ -213,7 +213,7 @@ def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
     Raises:
         TmdError: A rule is wrong; with its place.
     """
-    for schema, location, rule in _rules(folder):
+    for schema, location, rule in derive_rules(folder):
         try:
             state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
         except TmdError as error:
@@ -221,7 +221,12 @@ def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
     return state
 
 
-def _rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location, str]]:
+def derive_rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location, str]]:
+    """The ``derive`` rules of ``objects.yaml`` as actions without parameters, each with its place and its text.
+
+    Raises:
+        TmdError: A rule is wrong; with its place.
+    """
     classes = folder.classes
     for index, rule in enumerate(classes.entries.derive):
         location = classes.source.locate(("derive", index))

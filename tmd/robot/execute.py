@@ -1,0 +1,173 @@
+"""Carrying out a plan: do an instruction, look, compare with Φ, and mend the plan where the two differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Protocol
+
+from tmd.energy.constraints import get_constraints
+from tmd.pddl.grounding import ground
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.task import Cube
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Filled, Unreachable
+from tmd.robot.observe import Mismatch, Observer
+from tmd.robot.outcome import Execution, SkillError, Status, Step
+
+MOST_REPAIRS = 6
+"""So often a plan is mended before the robot stops."""
+
+
+class Performer(Protocol):
+    """What does instructions: a robot in a simulation."""
+
+    @property
+    def clock(self) -> int:
+        """The simulation's step."""
+        ...
+
+    def perform(self, instruction: Instruction, attempt: int) -> str:
+        """Do it; ``attempt`` counts from 0. Gives the evidence that its event happened.
+
+        Raises:
+            SkillError: It could not be done.
+        """
+        ...
+
+
+Watcher = Callable[[Step], None]
+
+
+class Executor:
+    """Executes plans and checks each step.
+
+    Args:
+        problem: The environment.
+        observer: Reads the state back.
+        performer: Does the instructions.
+        planner: Which planner mends plans.
+        most_repairs: How often.
+        watch: Is told each step when it is over.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        observer: Observer,
+        performer: Performer,
+        *,
+        planner: str = IN_PROCESS,
+        most_repairs: int = MOST_REPAIRS,
+        watch: Watcher | None = None,
+    ) -> None:
+        self.problem = problem
+        self.observer = observer
+        self.performer = performer
+        self.planner = planner
+        self.most_repairs = most_repairs
+        self.watch = watch
+
+    def execute(self, plan: Sequence[Instruction]) -> Execution:
+        """Carry out ``plan``."""
+        self._steps: list[Step] = []
+        self._repairs = 0
+        state = self.observer.now(self.problem.init)
+        wanted = self._wanted(plan, state)
+        waiting = [(instruction, False) for instruction in plan]
+        attempt = 0
+        tried: Instruction | None
+        while waiting or not _satisfied(wanted, state):
+            if waiting and first_broken(waiting[0][0], state, self.problem) is None:
+                done, state = self._do(*waiting[0], state, attempt)
+                if not done.mismatches and not done.failure:
+                    waiting.pop(0)
+                    attempt = 0
+                    continue
+                tried, attempt = waiting[0][0], attempt + 1
+                if not done.failure and not any(m.expected for m in done.mismatches):
+                    waiting.pop(0)  # it did what it is for; something else is not as it was
+                    attempt = 0
+            else:
+                tried = waiting[0][0] if waiting else None
+            if self._repairs >= self.most_repairs:
+                return self._stopped(f"mended {self._repairs} times, and then {self._last()}", state)
+            self._repairs += 1
+            waiting = [(instruction, False) for instruction, repair in waiting if not repair]
+            mended = self._mend(state, [i for i, _ in waiting], wanted)
+            if isinstance(mended, str):
+                return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
+            waiting = [(instruction, True) for instruction in mended] + waiting
+        status = Status.RECOVERED if self._repairs else Status.DONE
+        return Execution(status, "", tuple(self._steps), self._repairs, state)
+
+    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[Step, State]:
+        predicted = apply(instruction, state, self.problem)
+        begin, failure, evidence = self.performer.clock, "", ""
+        try:
+            evidence = self.performer.perform(instruction, attempt)
+        except SkillError as error:
+            failure = str(error)
+        now = self.observer.after(state, instruction, happened=not failure)
+        mismatches = self.observer.mismatches(predicted, now)
+        confirmed = tuple(sorted((predicted - state) & now))
+        step = Step(instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock)
+        self._steps.append(step)
+        if self.watch is not None:
+            self.watch(step)
+        return step, now
+
+    def _mend(self, state: State, waiting: Sequence[Instruction], wanted: _Wanted) -> list[Instruction] | str:
+        """Instructions that make what is waiting executable, or bring about what is missing; or why not."""
+        task = ground(replace(self.problem, init=state))
+        operators = [task.by_instruction.get(instruction) for instruction in waiting]
+        known = [operator for operator in operators if operator is not None]
+        if len(known) < len(operators):
+            lost = next(i for i, o in zip(waiting, operators, strict=True) if o is None)
+            return f"{lost} can no longer be done"
+        if waiting:
+            goal = get_constraints(known)[0]
+        else:
+            needed, spoiled = (task.encode(frozenset(atoms)) for atoms in wanted)
+            goal = (Cube(needed, spoiled),)
+        answer = make(self.planner, task).fill(task.init, goal)
+        if isinstance(answer, Filled):
+            return list(answer.plan)
+        if isinstance(answer, Unreachable):
+            return f"the plan cannot be mended: {answer.reason}"
+        return f"no way to mend the plan was found: {answer.limit}"
+
+    def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
+        """What the plan is for: the facts that it brings about, and those that it ends."""
+        end = state
+        for instruction in plan:
+            end = apply(instruction, end, self.problem)
+        aside = self.observer.skills.confirmed
+        gained = frozenset(a for a in end - state if a.predicate not in aside)
+        return gained, frozenset(a for a in state - end if a.predicate not in aside)
+
+    def _stopped(self, reason: str, state: State) -> Execution:
+        return Execution(Status.STOPPED, reason, tuple(self._steps), self._repairs, state)
+
+    def _last(self) -> str:
+        """What went wrong last."""
+        for step in reversed(self._steps):
+            if step.failure:
+                return f"{step.instruction} failed: {step.failure}"
+            if step.mismatches:
+                return f"{step.instruction}: {_first(step.mismatches)}"
+        return "the environment was not as described"
+
+
+_Wanted = tuple[frozenset[GroundAtom], frozenset[GroundAtom]]
+
+
+def _first(mismatches: Sequence[Mismatch]) -> str:
+    """What was expected and is missing goes before what is there unexpectedly."""
+    return str(min(mismatches, key=lambda m: not m.expected))
+
+
+def _satisfied(wanted: _Wanted, state: State) -> bool:
+    gained, ended = wanted
+    return gained <= state and not ended & state
