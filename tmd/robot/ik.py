@@ -30,6 +30,8 @@ _ROUNDS = 60
 _DAMPING = 0.03
 _STRIDE = 0.4
 _ROLL = 2
+_DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+_LEAP = 0.5
 _ENDLESS = (4, 6)
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
@@ -54,6 +56,7 @@ class ArmKinematics:
         arm = {link.joint: link for link in self._chain if link.joint in self.joints}
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
+        self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * MARGIN) / (ROLLS - 1)
 
     def tool(self, torso: float, arms: Array) -> Array:
         """The tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
@@ -104,24 +107,51 @@ class ArmKinematics:
         closed = None if numeric else _closed_form(self.side)
         if numeric is False and closed is None:
             raise ValueError("pr2-ikfast is not installed")
-        found = self._numeric(tool, torso, seed) if closed is None else self._grid(closed, tool, torso)
-        arms = self.near(found, seed)
-        arms = arms[self.inside(arms)]
-        arms = arms[self._exact(arms, tool, torso)]
+        if closed is None:
+            arms = self._kept(self._numeric(tool, torso, seed), tool, torso, seed)
+        else:
+            arms = self._kept(self._grid(closed, tool, torso, 0.0), tool, torso, seed)
+            if not len(arms):  # a narrow family can lie between two points of the grid
+                arms = self._kept(self._grid(closed, tool, torso, 0.5), tool, torso, seed)
         far = np.abs(arms - np.asarray(seed, dtype=float))
         order = np.lexsort((far.sum(axis=1), np.round(far.max(axis=1), 6)))
         return [tuple(float(value) for value in arm) for arm in arms[order]]
 
-    def _exact(self, arms: Array, tool: Pose, torso: float) -> Array:
-        """Which configurations reach the pose; another PR2 than the solver was made for may not."""
+    def track(
+        self, tool: Pose, torso: float, seed: Sequence[float], *, numeric: bool | None = None
+    ) -> tuple[float, ...] | None:
+        """The solution next to ``seed``, for a tool that moves in small steps; None if there is none nearby.
+
+        The arguments are those of :meth:`solve`.
+        """
+        closed = None if numeric else _closed_form(self.side)
+        start = np.asarray(seed, dtype=float)
+        if closed is None:
+            found = self._descend(start[None], tool, torso)
+        else:
+            found = self._closed(closed, tool, torso, seed[_ROLL] + _DETOURS)
+        arms = self._kept(found, tool, torso, seed)
+        far = np.abs(arms - start).max(axis=1, initial=0.0)
+        if not len(arms) or far.min() > _LEAP:
+            return None
+        return tuple(float(value) for value in arms[int(np.argmin(far))])
+
+    def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
+        """Those within the limits that reach the pose: another PR2 than the solver was made for may not."""
+        arms = self.near(arms, seed)
+        arms = arms[self.inside(arms)]
         away = np.abs(_error(tool.homogeneous(), self.tool(torso, arms)))
-        result: Array = (away[:, :3].max(axis=1) < ACCURACY[0]) & (away[:, 3:].max(axis=1) < ACCURACY[1])
+        result: Array = arms[(away[:, :3].max(axis=1) < ACCURACY[0]) & (away[:, 3:].max(axis=1) < ACCURACY[1])]
         return result
 
-    def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float) -> Array:
+    def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float, shift: float) -> Array:
+        rolls = np.linspace(self.lower[_ROLL] + MARGIN, self.upper[_ROLL] - MARGIN, ROLLS) + shift * self._pitch
+        return self._closed(closed, tool, torso, rolls)
+
+    def _closed(self, closed: Callable[..., Any], tool: Pose, torso: float, rolls: Array) -> Array:
         position, rotation = list(tool.position), tool.matrix().tolist()
         found: list[Sequence[float]] = []
-        for roll in np.linspace(self.lower[_ROLL] + MARGIN, self.upper[_ROLL] - MARGIN, ROLLS):
+        for roll in rolls:
             found += [row[1:] for row in closed(position, rotation, [torso, float(roll)]) or ()]
         arms = np.array(found, dtype=float).reshape(-1, len(ARM))
         # a full turn more or less brings some joints back between their limits
@@ -133,7 +163,10 @@ class ArmKinematics:
         lower = np.where(np.isinf(self.lower), -pi, self.lower + MARGIN)
         upper = np.where(np.isinf(self.upper), pi, self.upper - MARGIN)
         starts = lower + (upper - lower) * _halton(STARTS - 1)
-        arms = np.vstack([np.asarray(seed, dtype=float), starts])
+        return self._descend(np.vstack([np.asarray(seed, dtype=float), starts]), tool, torso)
+
+    def _descend(self, arms: Array, tool: Pose, torso: float) -> Array:
+        """Damped least squares from every row at once, always within the limits."""
         target = tool.homogeneous()
         for _ in range(_ROUNDS):
             frame, jacobian = self._tool_and_jacobian(torso, arms)

@@ -1,0 +1,323 @@
+"""What the PR2 would touch if its joints were elsewhere.
+
+Two phases. Boxes around links are moved in numpy, for a whole batch of configurations: most are free after that. Only
+where boxes overlap are the joints set in the simulator and distances asked for, link by link; afterwards everything
+is put back to the bit. No step is made, so physics does not notice.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from collections.abc import Collection, Mapping, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+import numpy as np
+
+from tmd.robot.kinematics import Array, Tree, motion, origin
+from tmd.robot.pose import Pose, Vector
+from tmd.robot.pr2_urdf import TOOL
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2 import Pr2
+
+Collision: TypeAlias = tuple[str, int, int, float]
+"""The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep."""
+Ignored: TypeAlias = Collection[tuple[int, int | None]]
+"""Bodies and links that may be touched; None: all links of the body."""
+_TOUCH = 1e-4
+"""Metres: surfaces that are not deeper in each other than this do not collide."""
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """A body in a hand.
+
+    Attributes:
+        body: The body.
+        side: The hand.
+        grip: The body's frame in the tool frame.
+    """
+
+    body: int
+    side: str
+    grip: Pose
+
+
+@dataclass(frozen=True, slots=True)
+class Box:
+    """A box in the frame of a link: centre and half of the edges, (3,) each."""
+
+    centre: Array
+    half: Array
+
+
+class Checker:
+    """Collision checks for configurations that differ in some joints.
+
+    Use it as a context: when it is left, the robot is where it was. The other bodies must not move meanwhile.
+
+    Args:
+        robot: The robot.
+        vary: Names of the joints that the configurations give, in order; each below the one before.
+        positions: Of other joints that are to be elsewhere than they are.
+        arm: Check only the links of this arm (and what it holds); else all links.
+        helds: What is in the hands; None: what the robot holds.
+        ignore: What may be touched.
+        margin: Metres to keep away.
+    """
+
+    def __init__(
+        self,
+        robot: Pr2,
+        vary: Sequence[str],
+        *,
+        positions: Mapping[str, float] | None = None,
+        arm: str | None = None,
+        helds: Sequence[Held] | None = None,
+        ignore: Ignored = (),
+        margin: float = 0.0,
+    ) -> None:
+        self._robot = robot
+        self._sim = robot.sim
+        self._margin = margin
+        self._ignore = frozenset(ignore)
+        self._vary = tuple(vary)
+        self._helds = [held for held in (robot.helds() if helds is None else helds) if arm in (None, held.side)]
+        self._undo = ExitStack()
+        self.allowed: dict[tuple[str, int, int], float] = {}
+        """How deep pairs may be in each other; those that are not named here: not at all."""
+        tree = robot.tree
+        top = tree.root if arm is None else f"{arm[0]}_shoulder_pan_link"
+        below = [name for name in tree.below(top) if name in robot.boxes]
+        self._positions = robot.positions() | dict(positions or {})
+        frames = tree.forward(self._positions, tree.links, {tree.root: np.eye(4)})
+        self._chain(tree, frames, below)
+        self._links = below
+        self._boxes = [robot.boxes[name] for name in below]
+        for held in self._helds:
+            self._add_held(held, tree, frames)
+        self._centres = np.array([box.centre for box in self._boxes])
+        self._halves = np.array([box.half for box in self._boxes])
+        self._obstacles = self._find_obstacles()
+        self._lower = np.array([lower for _, _, lower, _ in self._obstacles]).reshape(-1, 3)
+        self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
+        self._pairs = self._self_pairs(frames)
+
+    def __enter__(self) -> Checker:
+        sim, body, joints = self._sim, self._robot.body, self._robot.movable
+        positions, velocities = sim.joint_states(body, joints)
+        for held in self._helds:
+            self._undo.callback(sim.set_motion, held.body, sim.motion(held.body))
+        self._undo.callback(sim.set_joints, body, joints, positions, velocities)
+        self._set(self._positions)
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._undo.close()
+
+    # set-up
+
+    def _chain(self, tree: Tree, frames: Mapping[str, Array], below: Sequence[str]) -> None:
+        """Split the tree at the joints that vary: what lies between two of them is rigid."""
+        carriers = [next(link for link in tree.links.values() if link.joint == joint) for joint in self._vary]
+        self._carriers = carriers
+        self._fixed = []  # from the frame of one varying link to the joint of the next
+        previous = np.eye(4)
+        for link in carriers:
+            self._fixed.append(np.linalg.inv(previous) @ frames[link.parent] @ link.origin)
+            previous = frames[link.name]
+        self._rank = {tree.root: -1}
+        names = {link.name: index for index, link in enumerate(carriers)}
+        for name, link in tree.links.items():
+            self._rank[name] = names.get(name, self._rank[link.parent])
+        self._groups = [self._rank[name] + 1 for name in below]
+        tops = [np.eye(4), *(frames[link.name] for link in carriers)]
+        self._inverse = [np.linalg.inv(top) for top in tops]
+        self._relative = [self._inverse[group] @ frames[name] for group, name in zip(self._groups, below, strict=True)]
+
+    def _add_held(self, held: Held, tree: Tree, frames: Mapping[str, Array]) -> None:
+        tool = f"{held.side[0]}_{TOOL}"
+        group = self._rank[tool] + 1
+        lower, upper = self._sim.extents(held.body)
+        corners = np.array(
+            [[x, y, z] for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])]
+        )
+        back = self._sim.pose(held.body).inverse().homogeneous()
+        inside = corners @ back[:3, :3].T + back[:3, 3]
+        self._links = [*self._links, tool]
+        self._groups.append(group)
+        self._relative.append(self._inverse[group] @ frames[tool] @ held.grip.homogeneous())
+        low, high = inside.min(axis=0), inside.max(axis=0)
+        self._boxes.append(Box((low + high) / 2, (high - low) / 2))
+
+    def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
+        """Links of other bodies with their boxes."""
+        sim = self._sim
+        taken = {self._robot.body, *(held.body for held in self._helds)}
+        found = []
+        for body in sim.bodies():
+            if body in taken or (body, None) in self._ignore:
+                continue
+            for link in self._robot.solid_links(body):
+                if (body, link) not in self._ignore:
+                    found.append((body, link, *sim.extents(body, link)))
+        return found
+
+    def _self_pairs(self, frames: Mapping[str, Array]) -> list[tuple[int, int | str]]:
+        """Pairs of the robot's own links to check: a mover's number, and a mover's number or a resting link's name."""
+        disabled = self._robot.model.disabled
+        number = {name: index for index, name in enumerate(self._links)}
+        hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
+        result: list[tuple[int, int | str]] = []
+        resting = []
+        for index, name in enumerate(self._links):
+            for other in self._robot.boxes:
+                second = number.get(other, -1)
+                if name.endswith(TOOL):
+                    near = other in hand["right" if name[0] == "r" else "left"]
+                else:
+                    near = (name, other) in disabled or 0 <= second <= index
+                rigid = bool(self._vary) and second >= 0 and self._groups[second] == self._groups[index]
+                if near or rigid:
+                    continue
+                result.append((index, second if second >= 0 else other))
+                if second < 0:
+                    resting.append(other)
+        self._resting = {name: _moved(self._robot.boxes[name], frames[name][None]) for name in resting}
+        return result
+
+    # checks
+
+    def frames(self, configurations: Array) -> Array:
+        """Frames of the checked links in the world: (n, links, 4, 4) for configurations (n, joints)."""
+        count = len(configurations)
+        frame = np.broadcast_to(np.eye(4), (count, 4, 4))
+        tops = [frame]
+        for index, link in enumerate(self._carriers):
+            frame = frame @ self._fixed[index] @ motion(link, configurations[:, index])
+            tops.append(frame)
+        result: Array = np.stack(tops, axis=1)[:, self._groups] @ np.array(self._relative)
+        return result
+
+    def collisions(self, configuration: Sequence[float]) -> list[Collision]:
+        """Everything that one configuration touches, deepest first."""
+        batch = np.asarray(configuration, dtype=float).reshape(1, -1)
+        frames = self.frames(batch)
+        pairs = self._candidates(frames)[0]
+        found = self._narrow(batch[0], frames[0], pairs, every=True)
+        return sorted(found, key=lambda each: (-each[3], each[:3]))
+
+    def free(self, configurations: Array) -> bool:
+        """Whether none of (n, joints) touches anything."""
+        frames = self.frames(configurations)
+        candidates = self._candidates(frames)
+        busy = [index for index, pairs in enumerate(candidates) if pairs]
+        # the middle first: neighbours tell the same
+        for index in sorted(busy, key=lambda each: _spread(each, len(candidates))):
+            if self._narrow(configurations[index], frames[index], candidates[index], every=False):
+                return False
+        return True
+
+    def boxes_free(self, configurations: Array) -> bool:
+        """Whether not even boxes overlap; cheap, and False says nothing."""
+        return not any(self._candidates(self.frames(configurations)))
+
+    def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
+        """For each configuration, what may touch: (mover, body, link)."""
+        centres = (frames[..., :3, :3] @ self._centres[:, :, None])[..., 0] + frames[..., :3, 3]
+        halves = (np.abs(frames[..., :3, :3]) @ self._halves[:, :, None])[..., 0] + self._margin
+        lower, upper = centres - halves, centres + halves
+        result: list[list[tuple[int, int, int]]] = [[] for _ in range(len(frames))]
+        near = np.all((lower[:, :, None] <= self._upper) & (upper[:, :, None] >= self._lower), axis=3)
+        for row, mover, obstacle in np.argwhere(near):
+            body, link, *_ = self._obstacles[obstacle]
+            result[row].append((int(mover), body, link))
+        for mover, other in self._pairs:
+            if isinstance(other, int):
+                low, high = lower[:, other], upper[:, other]
+                name = self._links[other]
+            else:
+                low, high = self._resting[other]
+                name = other
+            touching = np.all((lower[:, mover] <= high) & (upper[:, mover] >= low), axis=1)
+            for row in np.flatnonzero(touching):
+                result[row].append((mover, self._robot.body, self._robot.index[name]))
+        return result
+
+    def _narrow(
+        self, configuration: Array, frames: Array, pairs: Sequence[tuple[int, int, int]], *, every: bool
+    ) -> list[Collision]:
+        if not pairs:
+            return []
+        self._set(dict(zip(self._vary, configuration, strict=True)))
+        first = len(self._links) - len(self._helds)
+        for held, frame in zip(self._helds, frames[first:], strict=True):
+            self._sim.set_pose(held.body, Pose.from_matrix(frame))
+        found = []
+        for mover, body, link in pairs:
+            name = self._links[mover]
+            if mover >= first:
+                points = self._sim.closest(self._helds[mover - first].body, body, self._margin, other_link=link)
+            else:
+                points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
+            depth = max((-point.distance for point in points), default=-np.inf)
+            if depth > self.allowed.get((name, body, link), _TOUCH - self._margin):
+                found.append((name, body, link, float(depth)))
+                if not every:
+                    break
+        return found
+
+    def _set(self, positions: Mapping[str, float]) -> None:
+        joints = [self._robot.joint_index[name] for name in positions]
+        self._sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
+
+
+def link_boxes(root: ET.Element) -> dict[str, Box]:
+    """Boxes around the collision shapes of a URDF's links, from binary STL meshes and simple shapes.
+
+    Links with other meshes are left out.
+    """
+    result = {}
+    for link in root.findall("link"):
+        clouds = [_corners(each) for each in link.findall("collision")]
+        if clouds and all(cloud is not None for cloud in clouds):
+            points = np.vstack([cloud for cloud in clouds if cloud is not None])
+            low, high = points.min(axis=0), points.max(axis=0)
+            result[link.get("name", "")] = Box((low + high) / 2, (high - low) / 2)
+    return result
+
+
+def _corners(collision: ET.Element) -> Array | None:
+    """Points whose box is the shape's, in the link's frame; None for unknown meshes."""
+    mesh, box = collision.find("geometry/mesh"), collision.find("geometry/box")
+    if mesh is not None:
+        data = Path(mesh.get("filename", "")).read_bytes()
+        count = int.from_bytes(data[80:84], "little")
+        if len(data) != 84 + 50 * count:
+            return None
+        kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
+        points = np.frombuffer(data, kind, offset=84)["corners"].reshape(-1, 3).astype(float)
+        points = points * np.array([float(word) for word in mesh.get("scale", "1 1 1").split()])
+    elif box is not None:
+        size = np.array([float(word) for word in box.get("size", "").split()])
+        points = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * size / 2
+    else:
+        return None
+    frame = origin(collision.find("origin"))
+    moved: Array = points @ frame[:3, :3].T + frame[:3, 3]
+    return moved
+
+
+def _moved(box: Box, frames: Array) -> tuple[Array, Array]:
+    centre = frames[:, :3, :3] @ box.centre + frames[:, :3, 3]
+    half = np.abs(frames[:, :3, :3]) @ box.half
+    return centre - half, centre + half
+
+
+def _spread(index: int, count: int) -> int:
+    """A rank that takes far apart numbers first: the bits of the number, mirrored."""
+    bits = max(1, (count - 1).bit_length())
+    return int(format(index, f"0{bits}b")[::-1], 2)

@@ -1,0 +1,87 @@
+"""Joints that move together along a path: under physics by their motors, kinematically by setting them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from tmd.robot.kinematics import Array
+from tmd.robot.simulator import STEPS_PER_SECOND, Simulator
+from tmd.robot.trajectory import dense, timed
+
+GAIN = 0.2
+"""The part of a position error that a motor removes in one step."""
+STALLED = 120
+"""Steps without getting nearer after which a motion is given up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Some joints of a body.
+
+    Attributes:
+        joints: Their numbers.
+        speeds: Greatest speeds, m/s or rad/s.
+        forces: Greatest motor forces, N or N·m.
+        strides: Greatest motions between two kinematic ticks.
+        tolerance: How near all must be to their goals for a motion to have succeeded.
+        window: Steps to reach full speed.
+    """
+
+    joints: tuple[int, ...]
+    speeds: tuple[float, ...]
+    forces: tuple[float, ...]
+    strides: tuple[float, ...]
+    tolerance: float
+    window: int = 48
+
+
+def hold(sim: Simulator, body: int, group: Group, positions: Sequence[float]) -> None:
+    """Let the motors keep the joints where ``positions`` says."""
+    zeros = [0.0] * len(group.joints)
+    sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, GAIN)
+
+
+def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
+    """Move along ``path`` under physics.
+
+    The budget is twice the planned time and one second. A motion that no longer gets nearer for half a second, after
+    its planned time, ends before that. Whatever ends it, the motors then hold the joints where they are meant to be,
+    or, after a failure, where they are.
+
+    Returns:
+        Whether all joints are within the group's tolerance of the last row.
+    """
+    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)
+    speeds = np.diff(np.vstack([path[:1], track]), axis=0) * STEPS_PER_SECOND
+    for position, speed in zip(track.tolist(), speeds.tolist(), strict=True):
+        sim.drive_joints(body, group.joints, position, speed, group.forces, GAIN)
+        sim.step()
+    goal = track[-1]
+    hold(sim, body, group, goal.tolist())
+    best, since = np.inf, 0
+    for _ in range(len(track) + STEPS_PER_SECOND):
+        positions, velocities = sim.joint_states(body, group.joints)
+        away = float(np.max(np.abs(np.array(positions) - goal)))
+        if away <= group.tolerance and np.max(np.abs(velocities)) <= 10 * group.tolerance:
+            return True
+        best, since = (away, 0) if away < best - 1e-4 else (best, since + 1)
+        if since > STALLED:
+            break
+        sim.step()
+    positions, _ = sim.joint_states(body, group.joints)
+    if np.max(np.abs(np.array(positions) - goal)) <= group.tolerance:
+        return True
+    hold(sim, body, group, positions)
+    return False
+
+
+def jump(sim: Simulator, body: int, group: Group, path: Array, carry: Callable[[], None]) -> None:
+    """Set the joints along ``path``, one tick a row; ``carry`` moves along what is held."""
+    for row in dense(path, group.strides)[1:].tolist():
+        sim.set_joints(body, group.joints, row)
+        carry()
+        sim.tick()
+    hold(sim, body, group, path[-1].tolist())
