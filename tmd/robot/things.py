@@ -1,0 +1,87 @@
+"""Items that hold nothing: cutlery, packets, soft things. An item's +x is where its handle points."""
+
+from __future__ import annotations
+
+from tmd.robot.fittings import TIP
+from tmd.robot.look import Look, Parts
+from tmd.robot.model import Model
+from tmd.robot.vessels import bar_grasps, grasp, post_grasps
+
+_LOW = TIP + 0.004
+
+
+def utensil(model: Model, look: Look, parts: Parts) -> None:
+    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind."""
+    length, width, height = look.size
+    head = min(0.06, length * 0.35)
+    x = length / 2
+    kinds = {"spoon": _spoon, "scoop": _scoop, "fork": _fork, "knife": _knife}
+    kinds[look.kind](model, look, -x, -x + head)
+    model.slab((-x + head - 0.004, -0.006, height - 0.012), (x, 0.006, height), look.accent)
+    model.slab((-x + head - 0.004, -0.006, 0.0), (-x + head + 0.004, 0.006, height), look.accent)
+    model.slab((x - 0.02, -0.012, 0.0), (x - 0.012, 0.012, height - 0.012), look.accent)
+    bar_grasps(model, [(x - 0.05, 0.0, max(height - 0.006, _LOW)), (0.02, 0.0, max(height - 0.006, _LOW))], 0.012)
+    if look.kind in ("spoon", "scoop"):
+        model.link("content")
+        model.ball((-x + head / 2, 0.0, height), width * 0.42, "white", link="content")
+        model.contents = ["content"]
+
+
+def _spoon(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((low + 0.004, -width / 2 + 0.004, 0.0), (high - 0.004, width / 2 - 0.004, 0.006), look.colour)
+    model.slab((low, -width / 2, 0.006), (high, width / 2, 0.012), look.colour)
+
+
+def _scoop(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    middle = (low + high) / 2
+    model.cylinder((middle, 0.0, 0.004), width / 2 - 0.004, 0.008, look.colour)
+    model.tube(width / 2, 0.004, 0.006, 0.022, look.colour, centre=(middle, 0.0))
+
+
+def _fork(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((high - 0.02, -width / 2, 0.0), (high, width / 2, 0.008), look.colour)
+    for place in (-1.5, -0.5, 0.5, 1.5):
+        y = place * width / 4
+        model.slab((low, y - width / 12, 0.0), (high - 0.02, y + width / 12, 0.008), look.colour)
+
+
+def _knife(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((low, -width / 2, 0.0), (high + 0.02, width / 2, 0.008), look.colour)
+
+
+def block(model: Model, look: Look, parts: Parts) -> None:
+    """A box: a packet, a book, a folded towel; taken across its width."""
+    depth, width, height = look.size
+    model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
+    model.box((0.0, 0.0, height), (depth * 0.62, width * 0.62, 0.002), look.accent, solid=False)
+    for side in (-1, 1):
+        model.box((0.0, side * width / 2, height / 2), (depth * 0.7, 0.002, height * 0.4), look.accent, solid=False)
+    if width <= 0.07:
+        for shift in (0.0, depth / 4):
+            grasp(model, (shift, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), width)
+        grasp(model, (depth / 4, 0.0, max(height / 2, _LOW)), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), width)
+    if depth <= 0.07:
+        grasp(model, (0.0, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), depth)
+
+
+def egg(model: Model, look: Look, parts: Parts) -> None:
+    """An egg in its stand: it does not roll."""
+    _, width, height = look.size
+    radius = width / 2
+    model.cylinder((0.0, 0.0, 0.009), radius * 0.95, 0.018, look.accent)
+    model.cylinder((0.0, 0.0, (0.018 + height) / 2), radius * 0.8, height - 0.018, look.colour, seen=False)
+    model.ball((0.0, 0.0, height - radius), radius, look.colour)
+    model.ball((0.0, 0.0, height - radius * 1.35), radius * 0.98, look.colour)
+    post_grasps(model, (max(height * 0.6, _LOW),), (2 * radius, 2 * radius), height)
+
+
+def tin(model: Model, look: Look, parts: Parts) -> None:
+    """A tin, a pod: an upright cylinder."""
+    _, width, height = look.size
+    model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
+    model.cylinder((0.0, 0.0, height), width / 2 * 0.85, 0.002, look.accent, solid=False)
+    post_grasps(model, (max(height * 0.55, _LOW),), (width, width), height)
