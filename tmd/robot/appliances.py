@@ -19,10 +19,10 @@ def cooker(model: Model, look: Look, parts: Parts) -> None:
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1 = right - SIDE
     model.slab((-x, y0 + 0.01, 0.0), (x - 0.06, y1, 0.08), "dark_grey")
-    model.slab((-x, y0, 0.08), (x, y1, height), look.colour)
-    model.slab((x, y0 + 0.06, 0.2), (x + 0.006, y1 - 0.06, height - 0.16), "black", solid=False)
+    model.slab((-x, y0, 0.08), (x, y1, height - 0.015), look.colour)
+    model.slab((-x, y0, height - 0.015), (x, y1, height), "black")
+    model.slab((x, y0 + 0.06, 0.2), (x + 0.012, y1 - 0.06, height - 0.16), "black", solid=False)
     model.box((x + 0.03, (y0 + y1) / 2, height - 0.19), (0.015, y1 - y0 - 0.12, 0.015), look.accent, solid=False)
-    model.slab((-x, y0 + 0.01, height), (x - 0.01, y1 - 0.01, height + 0.002), "black", solid=False)
     _hob(model, parts, x, (y0, y1), height, height - 0.06)
     side_board(model, x, -x, y1, right, height, "oak")
 
@@ -160,7 +160,8 @@ def fridge(model: Model, look: Look, parts: Parts) -> None:
         model.cylinder((x - 0.12, middle_y, roof - 0.015), 0.018, 0.03, said.accent, link=part)
         _stream(model, part, (x - 0.12, middle_y), floor, roof - 0.03)
         model.region("in", (x - 0.24, split + 0.015, floor), (x, y1 - 0.015, roof - 0.03), INTO,
-                     [(x - 0.12, middle_y, yaw) for yaw in (0.0, 0.5, -0.5)], part=part, link=part, overhang=math.inf)  # fmt: skip
+                     [(x - 0.12, middle_y, yaw) for yaw in (0.0, 0.5, -0.5)], part=part, link=part,
+                     overhang=math.inf)  # fmt: skip
     for part, said in parts.of("button"):
         button(model, part, said, (x, (split + y1) / 2, 1.1))
     side_board(model, x, -x, y1, right, 0.82, "oak")

@@ -62,7 +62,7 @@ def door(
     model.slab((0.001, 0.002, low[2]), (DOOR, width, high[2]), look.colour, link=part)
     if window:
         edge = 0.05
-        model.slab((DOOR, edge, low[2] + edge), (DOOR + 0.002, width - edge - 0.03, high[2] - edge), "black",
+        model.slab((DOOR, edge, low[2] + edge), (DOOR + 0.008, width - edge - 0.03, high[2] - edge), "black",
                    link=part, solid=False)  # fmt: skip
     at = width - 0.035
     if latched:
@@ -138,5 +138,5 @@ def fronts(model: Model, face: float, low: tuple[float, float], high: tuple[floa
     width = (high[0] - low[0]) / count
     for index in range(count):
         left = low[0] + index * width
-        model.slab((face, left + 0.01, low[1]), (face + 0.006, left + width - 0.01, high[1]), colour, solid=False)
-        model.box((face + 0.012, left + width - 0.05, high[1] - 0.08), (0.012, 0.012, 0.1), accent, solid=False)
+        model.slab((face, left + 0.01, low[1]), (face + 0.016, left + width - 0.01, high[1]), colour, solid=False)
+        model.box((face + 0.022, left + width - 0.05, high[1] - 0.08), (0.012, 0.012, 0.1), accent, solid=False)

@@ -38,8 +38,8 @@ def table(model: Model, look: Look, parts: Parts) -> None:
     depth, width, height = look.size
     x, y, leg = depth / 2, width / 2, 0.05
     model.slab((-x, -y, height - 0.035), (x, y, height), look.colour)
-    for side in (-1, 1):
-        for end in (-1, 1):
+    for side in (-1.0, 1.0):
+        for end in (-1.0, 1.0):
             model.box((end * (x - 0.06), side * (y - 0.06), (height - 0.035) / 2), (leg, leg, height - 0.035),
                       look.accent)  # fmt: skip
     model.slab((-x + 0.08, -y + 0.08, height - 0.1), (x - 0.08, y - 0.08, height - 0.035), look.accent)
@@ -105,7 +105,6 @@ def cupboard(model: Model, look: Look, parts: Parts) -> None:
     x, y = depth / 2 - DOOR, width / 2
     base = 0.70
     model.slab((-depth / 2, -y, 0.0), (x, y, base - WALL), look.colour)
-    model.slab((-depth / 2 + 0.02, -y + 0.02, 0.0), (x + 0.001, y - 0.02, 0.06), "dark_grey", solid=False)
     fronts(model, x, (-y, 0.09), (y, base - 0.04), 2, look.colour, look.accent)
     middle = base + (height - base) / 2
     levels = (base, middle) if height - base > 0.55 else (base,)

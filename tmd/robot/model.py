@@ -17,6 +17,8 @@ from tmd.robot.pose import Pose, Vector, quaternion_of
 
 ROOT = ""
 """The name of the whole object among its parts and links."""
+CUBE = "cube.obj"
+"""The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round."""
 _INVISIBLE = (0.0, 0.0, 0.0, 0.0)
 _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
 
@@ -269,14 +271,15 @@ class Model:
     def _shape(
         self, geometry: str, centre: Vector, turn: Vector, colour: str, link: str, solid: bool, seen: bool
     ) -> None:
-        place = f'<origin xyz="{_words(centre)}" rpy="{_words(turn)}"/><geometry>{geometry}</geometry>'
+        place = f'<origin xyz="{_words(centre)}" rpy="{_words(turn)}"/>'
         if seen:
             values = " ".join(f"{v:.3f}" for v in rgba(colour))
             number = sum(len(known.visuals) for known in self.links.values())
-            material = f'<material name="m{number}"><color rgba="{values}"/></material>'
-            self.links[link].visuals.append(f"<visual>{place}{material}</visual>")
+            material = f'<material name="m{number}"><color rgba="{values}"/><specular rgb="0 0 0"/></material>'
+            shown = geometry.replace("<box size", f'<mesh filename="{CUBE}" scale')
+            self.links[link].visuals.append(f"<visual>{place}<geometry>{shown}</geometry>{material}</visual>")
         if solid:
-            self.links[link].collisions.append(f"<collision>{place}</collision>")
+            self.links[link].collisions.append(f"<collision>{place}<geometry>{geometry}</geometry></collision>")
 
     def _extend(self, link: str, centre: Vector, size: Vector, yaw: float) -> None:
         c, s = abs(math.cos(yaw)), abs(math.sin(yaw))
@@ -311,3 +314,25 @@ def _bounds(boxes: Sequence[tuple[Vector, Vector]]) -> tuple[Sequence[float], Se
 
 def _words(values: Sequence[float]) -> str:
     return " ".join(f"{value:.5f}" for value in values)
+
+
+def cube() -> str:
+    """The text of :data:`CUBE`."""
+    lines, faces = [], []
+    for axis in range(3):
+        for sign in (-1, 1):
+            first = len(lines) + 1
+            for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
+                corner = [0.0, 0.0, 0.0]
+                corner[axis] = 0.5 * sign
+                corner[(axis + 1) % 3], corner[(axis + 2) % 3] = 0.5 * a, 0.5 * b
+                lines.append(f"v {_words(corner)}")
+            order = range(first, first + 4) if sign > 0 else range(first + 3, first - 1, -1)
+            normal = [0.0, 0.0, 0.0]
+            normal[axis] = float(sign)
+            faces.append((normal, list(order)))
+    lines += [f"vn {_words(normal)}" for normal, _ in faces]
+    for number, (_, (a, b, c, d)) in enumerate(faces, start=1):
+        lines.append(f"f {a}//{number} {b}//{number} {c}//{number}")
+        lines.append(f"f {a}//{number} {c}//{number} {d}//{number}")
+    return "\n".join([*lines, ""])

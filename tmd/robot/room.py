@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
+import math
+
 from tmd.robot.layout import Room
 from tmd.robot.model import Model
 
 WALL_HEIGHT = 1.7
-TILE = 0.6
+THICK = 0.08
+TILE = 0.8
 
 
 def build_room(room: Room) -> str:
     """The room as URDF text, in the world's frame."""
     model = Model("room", 1000.0)
     (x0, y0), (x1, y1) = room.low, room.high
-    model.slab((x0 - 2.0, y0 - 2.0, -0.1), (x1 + 2.0, y1 + 2.0, 0.0), "sand")
-    across, along = int((y1 - y0) / TILE), int((x1 - x0) / TILE)
-    for row in range(along):
-        for column in range(across):
-            if (row + column) % 2 == 0:
-                low = (x0 + row * TILE, y0 + column * TILE, 0.0)
-                model.slab(low, (low[0] + TILE, low[1] + TILE, 0.0005), "cream", solid=False)
-    thick = 0.08
-    model.slab((x1, y0 - thick, 0.0), (x1 + thick, y1 + thick, WALL_HEIGHT), "#e9e4d8")
-    for edge, sign in ((y1, 1), (y0, -1)):
-        low, high = sorted((edge, edge + sign * thick))
-        model.slab((x0, low, 0.0), (x1, high, WALL_HEIGHT), "#dfe5e2")
+    west, south = x0 - 2.0, y0 - 2.0
+    rows, columns = math.ceil((x1 - west) / TILE), math.ceil((y1 + 2.0 - south) / TILE)
+    middle = (west + rows * TILE / 2, south + columns * TILE / 2, -0.05)
+    model.box(middle, (rows * TILE, columns * TILE, 0.1), "sand", seen=False)
+    # tiles of two colours beside each other: one on top of another would flicker
+    for row in range(rows):
+        for column in range(columns):
+            corner = (west + row * TILE, south + column * TILE)
+            colour = "#d8cdb8" if (row + column) % 2 else "#e6dfd0"
+            model.slab((*corner, -0.02), (corner[0] + TILE, corner[1] + TILE, 0.0), colour, solid=False)
+    model.slab((x1, y0 - THICK, 0.0), (x1 + THICK, y1 + THICK, WALL_HEIGHT), "#e9e4d8")
+    model.slab((x0, y1, 0.0), (x1, y1 + THICK, WALL_HEIGHT), "#dfe5e2")
+    model.slab((x0, y0 - THICK, 0.0), (x1, y0, WALL_HEIGHT), "#dfe5e2")
     return model.text()

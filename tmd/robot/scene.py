@@ -14,7 +14,7 @@ from numpy.random import Generator
 from tmd.errors import TmdError
 from tmd.robot.colours import mixed
 from tmd.robot.layout import Footprint, Room, apart, inside
-from tmd.robot.model import ROOT, Grasp, Grip, Region
+from tmd.robot.model import CUBE, ROOT, Grasp, Grip, Region, cube
 from tmd.robot.placing import Placing
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.room import build_room
@@ -135,6 +135,7 @@ class Scene:
         placing = Placing(self.environment, self.blueprints, rng)
         self.room: Room = placing.room
         self.placed: dict[str, Pose] = placing.poses
+        (directory / CUBE).write_text(cube())
         floor = directory / "room.urdf"
         floor.write_text(build_room(self.room))
         self._keep(FLOOR, self.sim.load(floor, Pose((0.0, 0.0, 0.0)), fixed=True))

@@ -7,7 +7,7 @@ box, by its PDDL type.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 
 from tmd.errors import TmdError
@@ -76,6 +76,9 @@ class Shapes:
                 if name != ROOT
             }
         )
+        parts = Parts(
+            {name: self._like_its_whole(part, vertices[name].shape, look) for name, part in parts.looks.items()}
+        )
         kind = KINDS[look.kind]
         if vertices[ROOT].shape is not None:
             self._check_parts(class_name, kind, look, parts)
@@ -84,6 +87,12 @@ class Shapes:
         model = Model(class_name, look.mass)
         kind.build(model, look, parts)
         return Blueprint(class_name, sort, look, model, model.text())
+
+    def _like_its_whole(self, look: Look, shape: Shape | None, whole: Look) -> Look:
+        """A door that says no colour has the colour of what it closes."""
+        if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
+            return look
+        return replace(look, colour=whole.colour)
 
     def _sort(self, class_name: str) -> str:
         """``item``, ``part`` or ``fixture``, by the types above the class."""
