@@ -21,16 +21,12 @@ from tmd.robot.follow import Group, hold, jump, run
 from tmd.robot.ik import ArmKinematics
 from tmd.robot.kinematics import Array, Tree
 from tmd.robot.pose import Pose
+from tmd.robot.posture import TUCKED, tuck
 from tmd.robot.pr2_urdf import BASE_JOINTS, FINGERS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.simulator import Simulator
 from tmd.robot.trajectory import unwound
 
 ARMS = ("right", "left")
-TUCKED = {
-    "right": (-0.0236, 1.1073, -1.5567, -2.1244, -1.4175, -1.8417, 0.2144),
-    "left": (0.0602, 1.2485, 1.7891, -1.6834, -1.7343, -0.0962, -0.0864),
-}
-"""The SRDF's postures for driving with empty hands."""
 FULL_GAP = 0.09
 GRIP_FORCE = 30.0
 _TORSO_START = 0.15
@@ -303,6 +299,14 @@ class Pr2:
     def _carry(self) -> None:
         for side, (body, _, grip) in sorted(self._held.items()):
             self.sim.set_pose(body, self.tool(side) * grip)
+
+    def tuck(self) -> bool:
+        """Fold the arms for driving; a hand that holds something brings it to the front as upright as it is held.
+
+        Returns:
+            Whether both arms arrived. Paths are planned with the robot's own generator.
+        """
+        return tuck(self)
 
     # the head
 

@@ -1,0 +1,91 @@
+"""Arms out of the way: postures for driving, and how to get into them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from math import pi, tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.motion import plan_arm, plan_line
+from tmd.robot.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2 import Pr2
+
+TUCKED = {
+    "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
+    "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
+}
+"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
+
+Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
+lie across each other, and one in the way of the other.
+"""
+_THERE = 0.03
+"""Radians: an arm that is this near to its posture need not move."""
+_FRONT = ((0.3, 0.62), (-0.05, 0.4), (0.6, 1.25))
+"""Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
+_PLACES = [(x, y, z) for x in (0.45, 0.55) for z in (0.95, 0.8, 1.1) for y in (0.2, 0.1, 0.3)]
+_YAWS = 8
+
+
+def tuck(robot: Pr2) -> bool:
+    """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
+
+    Returns:
+        Whether both arms arrived.
+    """
+    waiting = sorted(robot.arms, key=lambda side: robot.held(side) is not None)
+    for _ in robot.arms:
+        waiting = [side for side in waiting if not _tuck_arm(robot, side)]
+    return not waiting
+
+
+def _tuck_arm(robot: Pr2, side: str) -> bool:
+    return _fold(robot, side) if robot.held(side) is None else _carry(robot, side)
+
+
+def _fold(robot: Pr2, side: str) -> bool:
+    goal = TUCKED[side]
+    (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
+    if np.max(np.abs(near - goal)) < _THERE:
+        return True
+    path = plan_arm(robot, side, goal, rng=robot.rng)
+    return path is not None and robot.move_arm(side, path)
+
+
+def _carry(robot: Pr2, side: str) -> bool:
+    """Bring what is held to the front of the robot; the tool turns about the vertical only, if that is possible."""
+    base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
+    now = base.inverse() * robot.tool(side)
+    if _in_front(now.position, side):
+        return True
+    for place in _tool_places(now, side):
+        tool = base * place
+        for goal in robot.solve(side, tool)[:2]:
+            if robot.collides(side=side, arm=goal):
+                continue
+            line = plan_line(robot, side, robot.tool(side), tool, arm=robot.arm(side))
+            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=100)
+            if path is not None:
+                return robot.move_arm(side, path)
+    return False
+
+
+def _in_front(place: Sequence[float], side: str) -> bool:
+    x, y, z = place
+    inside = (x, -y if side == "right" else y, z)
+    return all(low <= value <= high for value, (low, high) in zip(inside, _FRONT, strict=True))
+
+
+def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
+    """Tool frames in the base's frame, compact ones first; at each place the least turning first."""
+    for x, y, z in _PLACES:
+        for index in range(_YAWS):
+            yaw = (index + 1) // 2 * tau / _YAWS * (1 if index % 2 else -1)
+            turn = Pose.flat(0.0, 0.0, yaw=(yaw + pi) % tau - pi)
+            yield Pose(
+                (x, -y if side == "right" else y, z), (turn * Pose((0.0, 0.0, 0.0), now.orientation)).orientation
+            )
