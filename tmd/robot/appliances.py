@@ -78,6 +78,7 @@ def sink(model: Model, look: Look, parts: Parts) -> None:
         model.slab((low[0], low[1], floor - 0.01), (high[0], high[1], height), look.accent)
     model.cylinder((back + 0.2, (left + end) / 2, floor + 0.001), 0.025, 0.002, "dark_grey", solid=False)
     spots = rows(x, end - left - 0.24, (0.23, 0.26), 0.07, middle=(left + end) / 2)
+    spots.sort(key=lambda spot: -abs(spot[1] - (left + end) / 2))  # the middle last: the tap hangs over it
     turned = [(a, b, c + 0.8) for a, b, c in spots]
     model.region("in", (back, left, floor), (front, end, height + 0.05), DOWN, [*spots, *turned])
     middle, spout = (left + end) / 2, height + 0.32

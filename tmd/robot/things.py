@@ -1,6 +1,8 @@
-"""Items that hold nothing: cutlery, packets, soft things. An item's +x is where its handle points."""
+"""Items that hold nothing: cutlery, packets, soft things. Handles point to the front, +x."""
 
 from __future__ import annotations
+
+import math
 
 from tmd.robot.fittings import TIP
 from tmd.robot.look import Look, Parts
@@ -63,7 +65,9 @@ def block(model: Model, look: Look, parts: Parts) -> None:
     if width <= 0.07:
         for shift in (0.0, depth / 4):
             grasp(model, (shift, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), width)
-        grasp(model, (depth / 4, 0.0, max(height / 2, _LOW)), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0), width)
+        for steep in (0.0, 0.45, 0.7):
+            approach = (-math.sqrt(1 - steep * steep), 0.0, -steep)
+            grasp(model, (depth / 4, 0.0, max(height / 2, _LOW)), approach, (0.0, 1.0, 0.0), width)
     if depth <= 0.07:
         grasp(model, (0.0, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), depth)
 

@@ -1,4 +1,8 @@
-"""Items that hold something: cups, bowls, pots, and food as it is bought. An item's +x is where its handle points."""
+"""Items that hold something: cups, bowls, pots, and food as it is bought.
+
+An item's +x looks to the front: the long handles of pots point there, those of cups point back, out of the way of a
+hand that takes the cup round its body.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +25,7 @@ def grasp(model: Model, position: Vector, approach: Vector, across: Vector, widt
     model.grasps.append(Grasp(Frame(position, approach, across), min(width + CLEARANCE, WIDEST)))
 
 
-def post_grasps(model: Model, heights: Iterable[float], width: tuple[float, float], top: float) -> None:
+def post_grasps(model: Model, heights: tuple[float, ...], width: tuple[float, float], top: float) -> None:
     """Grasps of an upright body: from the sides, and from above.
 
     Args:
@@ -34,6 +38,9 @@ def post_grasps(model: Model, heights: Iterable[float], width: tuple[float, floa
         for approach in _AXES:
             across: Vector = (-approach[1], approach[0], 0.0)
             grasp(model, (0.0, 0.0, height), approach, across, width[1] if approach[0] else width[0])
+    for steep in (0.7, 0.45):
+        level = math.sqrt(1 - steep * steep)
+        grasp(model, (0.0, 0.0, max(heights)), (-level, 0.0, -steep), LEFT, width[1])
     over = max(top - 0.012, TIP + 0.006)
     grasp(model, (0.0, 0.0, over), DOWN, LEFT, width[1])
     grasp(model, (0.0, 0.0, over), DOWN, (1.0, 0.0, 0.0), width[0])
@@ -80,15 +87,17 @@ def cup(model: Model, look: Look, parts: Parts) -> None:
     radius = width / 2
     round_body(model, look, radius, height, 0.005, 0.006)
     model.tube(radius + 0.0006, 0.001, height * 0.62, height * 0.74, look.accent)
-    if depth > width + 0.01:
-        end = radius + depth - width
+    handle = depth > width + 0.01
+    if handle:
+        end = -radius - (depth - width)
         for level in (height * 0.3, height * 0.75):
-            model.slab((radius - 0.006, -0.006, level - 0.006), (end, 0.006, level + 0.006), look.colour)
-        model.slab((end - 0.01, -0.006, height * 0.3), (end, 0.006, height * 0.75), look.colour)
+            model.slab((end, -0.006, level - 0.006), (-radius + 0.006, 0.006, level + 0.006), look.colour)
+        model.slab((end, -0.006, height * 0.3), (end + 0.01, 0.006, height * 0.75), look.colour)
     contents(model, radius - 0.007, 0.006, height * 0.8)
-    post_grasps(model, (height * 0.5, height * 0.7), (WIDEST if depth > width + 0.01 else width, width), height)
-    model.grasps = [g for g in model.grasps if g.opening < WIDEST or g.tool.approach[0] < 0]
-    rim_grasps(model, radius, height, 0.005, (math.pi / 2, math.pi, -math.pi / 2))
+    post_grasps(model, (height * 0.5, height * 0.7), (width, width), height)
+    if handle:  # no finger on the handle's side, no palm over it
+        model.grasps = [g for g in model.grasps if g.tool.approach[0] < 0.1 and abs(g.tool.across[0]) < 0.1]
+    rim_grasps(model, radius, height, 0.005, (math.pi / 2, 0.0, -math.pi / 2))
 
 
 def bowl(model: Model, look: Look, parts: Parts) -> None:
