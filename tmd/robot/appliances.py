@@ -80,7 +80,7 @@ def sink(model: Model, look: Look, parts: Parts) -> None:
     spots = rows(x, end - left - 0.24, (0.23, 0.26), 0.07, middle=(left + end) / 2)
     spots.sort(key=lambda spot: -abs(spot[1] - (left + end) / 2))  # the middle last: the tap hangs over it
     turned = [(a, b, c + 0.8) for a, b, c in spots]
-    model.region("in", (back, left, floor), (front, end, height + 0.05), DOWN, [*spots, *turned])
+    model.region("in", (back, left, floor), (front, end, height + 0.4), DOWN, [*spots, *turned])
     middle, spout = (left + end) / 2, height + 0.32
     for part, said in parts.of("tap"):
         model.link(part, part=part)

@@ -13,7 +13,7 @@ from numpy.random import Generator
 
 from tmd.errors import TmdError
 from tmd.robot.colours import mixed
-from tmd.robot.layout import Footprint, Room, apart, inside
+from tmd.robot.layout import Footprint, Room, apart, floor_spots, inside
 from tmd.robot.model import CUBE, ROOT, Grasp, Grip, Region, cube
 from tmd.robot.placing import Placing
 from tmd.robot.pose import Pose, Vector
@@ -32,6 +32,8 @@ OVERLAP = 0.002
 """Metres that two things may be in each other."""
 GAP = 0.05
 """Between two items that stand side by side, at least."""
+APART = 0.15
+"""Between spots that count as different."""
 _OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
 _TOUCH = 0.004
 
@@ -235,6 +237,14 @@ class Scene:
         """The object or part that a link belongs to; None for the robot and others that are not of the scene."""
         return self._named.get((body, link), self._owners.get(body))
 
+    def names(self) -> list[str]:
+        """All objects and parts."""
+        return list(self._places)
+
+    def whole(self, name: str) -> str:
+        """The object that an object or part belongs to."""
+        return self._where(name)[0]
+
     def is_item(self, name: str) -> bool:
         """Whether it can be carried."""
         return name in self.blueprints and self.blueprints[name].sort == "item"
@@ -276,8 +286,6 @@ class Scene:
         own = self._footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
         others = [(self.sim.pose(self.bodies[o]), self._footprint(o)) for o in self.items() if o != item]
         if name == FLOOR:
-            from tmd.robot.layout import floor_spots
-
             return [Spot(pose) for pose in floor_spots(self.room, others, own)]
         spots = []
         for whole, region in self._regions(name, relation):
@@ -293,7 +301,7 @@ class Scene:
                     apart(pose, own, *other, GAP) for other in near
                 ):
                     spots.append(Spot(pose))
-        return spots
+        return _spread(spots)
 
     def _footprint(self, item: str) -> Footprint:
         low, high = self.size(item)
@@ -438,6 +446,15 @@ class Scene:
         side = 0.75 if y <= 0 else -0.75
         eye = (x - x / away * 1.9 - side * y / away, y - y / away * 1.9 + side * x / away, max(z, 0.7) + 1.1)
         return eye, (x, y, max(z, 0.5))
+
+
+def _spread(spots: list[Spot]) -> list[Spot]:
+    """The same spots with those first that are not beside an earlier one: a few tries then reach far."""
+    first: list[Spot] = []
+    for spot in spots:
+        if all(spot.pose.distance(other.pose) >= APART for other in first):
+            first.append(spot)
+    return [*first, *(spot for spot in spots if spot not in first)]
 
 
 def _boxes_meet(one: tuple[Vector, Vector], other: tuple[Vector, Vector], gap: float = 0.0) -> bool:
