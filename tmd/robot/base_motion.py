@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from heapq import heappop, heappush
+from itertools import pairwise
 from math import hypot, pi, tau
 from typing import TYPE_CHECKING
 
@@ -32,6 +33,8 @@ STRIDES = np.array([0.04, 0.04, 0.08])
 CLEARANCE = 0.02
 """Metres that the way keeps from things, where its start and its goal do."""
 DEEPEST = 0.01
+_BLOCK = 6
+_ATTEMPTS = 20
 _TURN = 0.35
 """Metres that turning by one radian costs."""
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
@@ -72,7 +75,7 @@ def plan_base(
         path = _Lattice(checker, start, end).search(budget)
         if path is None:
             return None
-        path = shorten(path, checker.free, STRIDES, rng)
+        path = shorten(path, checker.free, STRIDES, rng, tries=100)
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
 
 
@@ -83,7 +86,8 @@ class _Lattice:
         self._checker = checker
         self._start, self._goal = start, goal
         self._known: dict[Cell, bool] = {(0, 0, 0): True}
-        self._edges: dict[tuple[Cell, Cell], bool] = {}
+        self._screened: dict[Cell, bool] = {}
+        self._blocked: set[tuple[Cell, Cell]] = set()
 
     def pose(self, cell: Cell) -> Array:
         """x, y, theta; the heading is counted on, not wrapped."""
@@ -102,11 +106,20 @@ class _Lattice:
         ):
             if self._line(self._start, corner) and self._line(corner, self._goal):
                 return np.array([self._start, corner, self._goal])
-        return self._astar(budget)
+        # the search looks at points only; what lies between them is looked at once a way is found
+        for _ in range(_ATTEMPTS):
+            cells = self._astar(budget)
+            if cells is None:
+                return None
+            bad = [pair for pair in pairwise(cells) if not self._line(self.pose(pair[0]), self.pose(pair[1]))]
+            if not bad:
+                return np.array([self._start, *(self.pose(cell) for cell in cells)])
+            self._blocked.update(bad, [(b, a) for a, b in bad])
+        return None
 
-    def _astar(self, budget: int) -> Array | None:
-        """From the goal back to the start: the points next to the start, which is off the lattice, end the search."""
-        entries = {cell: True for cell in self._entries()}
+    def _astar(self, budget: int) -> list[Cell] | None:
+        """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
+        entries = set(self._entries())
         best: dict[Cell, float] = {(0, 0, 0): 0.0}
         before: dict[Cell, Cell] = {}
         closed: set[Cell] = set()
@@ -118,16 +131,16 @@ class _Lattice:
                 continue
             closed.add(cell)
             if cell in entries and self._line(self._start, self.pose(cell)):
-                path = [self._start, self.pose(cell)]
+                path = [cell]
                 while cell in before:
                     cell = before[cell]
-                    path.append(self.pose(cell))
-                return np.array(path)
+                    path.append(cell)
+                return path
             for neighbour, price in self._neighbours(cell):
                 total = best[cell] + price
                 if neighbour in closed or total >= best.get(neighbour, np.inf) - 1e-12:
                     continue
-                if not self._passable(cell, neighbour):
+                if (cell, neighbour) in self._blocked or not self._free(neighbour):
                     continue
                 best[neighbour] = total
                 before[neighbour] = cell
@@ -156,15 +169,19 @@ class _Lattice:
             if abs(k + turn) <= HEADINGS:
                 yield (i, j, k + turn), _TURN * tau / HEADINGS
 
-    def _passable(self, cell: Cell, neighbour: Cell) -> bool:
-        if neighbour not in self._known:
-            self._known[neighbour] = self._checker.free(self.pose(neighbour)[None])
-        if not self._known[neighbour]:
-            return False
-        if cell[2] == neighbour[2]:
-            return True  # 0.1 m between two free poses: the base is 0.67 m long, nothing slips through
-        middle = (self.pose(cell) + self.pose(neighbour)) / 2
-        return self._checker.free(middle[None])
+    def _free(self, cell: Cell) -> bool:
+        if cell not in self._known:
+            if cell not in self._screened:
+                self._screen(cell)
+            self._known[cell] = self._screened[cell] or self._checker.free(self.pose(cell)[None])
+        return self._known[cell]
+
+    def _screen(self, cell: Cell) -> None:
+        """Compare boxes for a block of places with one heading: many at once cost little more than one."""
+        i, j, k = cell[0] // _BLOCK * _BLOCK, cell[1] // _BLOCK * _BLOCK, cell[2]
+        cells = [(i + a, j + b, k) for a in range(_BLOCK) for b in range(_BLOCK)]
+        verdicts = self._checker.apart(np.array([self.pose(each) for each in cells]))
+        self._screened.update(zip(cells, verdicts, strict=True))
 
     def _line(self, start: Array, end: Array) -> bool:
         count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))

@@ -221,9 +221,9 @@ class Checker:
                 return False
         return True
 
-    def boxes_free(self, configurations: Array) -> bool:
-        """Whether not even boxes overlap; cheap, and False says nothing."""
-        return not any(self._candidates(self.frames(configurations)))
+    def apart(self, configurations: Array) -> list[bool]:
+        """For each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
+        return [not pairs for pairs in self._candidates(self.frames(configurations))]
 
     def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
         """For each configuration, what may touch: (mover, body, link)."""

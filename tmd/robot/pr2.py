@@ -33,6 +33,8 @@ _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
 _FINGER_SPEED = 0.8
 _FINGER_LAG = 0.04
+_TIP_OFFSET = 0.0336
+"""Metres between the frames of the finger tips when their surfaces meet."""
 _TOUCHING = 0.002
 _EYE = (0.1, 0.0, 0.11)
 """The cameras, in the frame of head_tilt_link."""
@@ -179,8 +181,11 @@ class Pr2:
         return self.sim.pose(self.body, self.index[f"{side[0]}_{TOOL}"])
 
     def gap(self, side: str) -> float:
-        """Metres between the finger tips."""
-        return finger_gap(float(np.mean(self._where(self.finger_groups[side]))))
+        """Metres between the finger tips, from where they are."""
+        tips = [self.sim.pose(self.body, self.index[f"{side[0]}_gripper_{finger}_finger_tip_link"]) for finger in "lr"]
+        across = self.tool(side).inverse()
+        left, right = (across.apply(tip.position)[1] for tip in tips)
+        return max(0.0, left - right - _TIP_OFFSET)
 
     # motion
 
@@ -253,8 +258,11 @@ class Pr2:
         return self.gap(side)
 
     def _squeeze(self, group: Group, angles: Array, force: float) -> None:
-        count = len(group.joints)
-        self.sim.drive_joints(self.body, group.joints, angles.tolist(), [0.0] * count, [force] * count, 0.1)
+        """Push the fingers to ``angles``; the tips follow their fingers, as the linkage of the real hand makes them."""
+        actual = np.clip(self._where(group), *_FINGER_RANGE)
+        targets = [angles[0], angles[1], actual[0], actual[1]]
+        forces = [force, force, 10 * force, 10 * force]
+        self.sim.drive_joints(self.body, group.joints, targets, [0.0] * 4, forces, 0.1)
 
     def _finger_stops(self, side: str, finger: str, angles: Array, mask: Array) -> bool:
         """Whether a finger is closed, or meets something: seen by its lag, or by its contacts if it is set."""
@@ -262,7 +270,7 @@ class Pr2:
             return True
         if not self.kinematic:
             actual = np.array(self._where(self.finger_groups[side]))
-            return bool(np.max((actual - angles)[mask]) > _FINGER_LAG)
+            return bool((actual - angles)[mask][0] > _FINGER_LAG)
         links = [self.index[f"{side[0]}_gripper_{finger}_finger{part}_link"] for part in ("", "_tip")]
         others = [body for body in self.sim.bodies() if body != self.body]
         return any(self.sim.closest(self.body, body, 0.0, link) for body in others for link in links)
