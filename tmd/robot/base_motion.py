@@ -46,7 +46,7 @@ def plan_base(
     *,
     ignore: Ignored = (),
     rng: np.random.Generator,
-    budget: int = 20000,
+    budget: int = 8000,
     clearance: float = CLEARANCE,
 ) -> list[Base] | None:
     """A way for the robot, as its arms are and with what it holds, to a pose of the base.

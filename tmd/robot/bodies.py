@@ -43,10 +43,18 @@ class Bodies(Engine):
     def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
         super().__init__(gui=gui, pictures=pictures)
         self._inertial: dict[int, Pose] = {}
+        self._sleepers: set[int] = set()
         self._names: dict[int, dict[str, Joint]] = {}
 
     def load(
-        self, urdf: Path, pose: Pose, *, fixed: bool, own_inertia: bool = False, self_collision: bool = False
+        self,
+        urdf: Path,
+        pose: Pose,
+        *,
+        fixed: bool,
+        own_inertia: bool = False,
+        self_collision: bool = False,
+        sleeps: bool = True,
     ) -> int:
         """Load a URDF.
 
@@ -56,6 +64,8 @@ class Bodies(Engine):
             fixed: The root is fixed to the world.
             own_inertia: Take the inertia tensors of the file; else they are computed from the collision shapes.
             self_collision: The links of the body collide with each other (parents and children do not).
+            sleeps: When it has been at rest for two seconds, leave it out of the computation until something that
+                moves touches it: a room at rest costs next to nothing.
 
         Returns:
             The body.
@@ -67,6 +77,7 @@ class Bodies(Engine):
         flags = bullet.URDF_ENABLE_CACHED_GRAPHICS_SHAPES
         flags |= bullet.URDF_USE_INERTIA_FROM_FILE if own_inertia else 0
         flags |= bullet.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT if self_collision else 0
+        flags |= bullet.URDF_ENABLE_SLEEPING if sleeps else 0
         try:
             with quiet():
                 body: int = bullet.loadURDF(
@@ -81,6 +92,8 @@ class Bodies(Engine):
             raise TmdError(
                 f"{urdf}: the simulator cannot read this as URDF", hint="see that its meshes exist"
             ) from error
+        if sleeps:
+            self._sleepers.add(body)
         info = bullet.getDynamicsInfo(body, -1, physicsClientId=self._client)
         self._inertial[body] = Pose(info[3], info[4])
         # the root's frame is meant, whatever the file says about its centre of mass
@@ -89,8 +102,10 @@ class Bodies(Engine):
 
     def remove(self, body: int) -> None:
         """Take a body out of the world."""
+        self.wake()
         self._bullet.removeBody(body, physicsClientId=self._client)
         self._inertial.pop(body, None)
+        self._sleepers.discard(body)
         self._names.pop(body, None)
 
     def bodies(self) -> list[int]:
@@ -132,12 +147,22 @@ class Bodies(Engine):
         return Pose(state[4], state[5])
 
     def set_pose(self, body: int, pose: Pose) -> None:
-        """Put the root's frame there, at rest: for setting up, for kinematic motion and for faults."""
+        """Put the root's frame there, at rest: for setting up, for kinematic motion and for faults.
+
+        What stood on it does not notice by itself: :meth:`wake`.
+        """
+        self.wake(body)
         mass = pose * self._inertial[body]
         self._bullet.resetBasePositionAndOrientation(
             body, mass.position, mass.orientation, physicsClientId=self._client
         )
         self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self._client)
+
+    def wake(self, body: int | None = None) -> None:
+        """Let a body, or every body, notice what changed under it while it slept."""
+        for each in sorted(self._sleepers if body is None else self._sleepers & {body}):
+            state = self._bullet.ACTIVATION_STATE_WAKE_UP
+            self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self._client)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
         """The exact state of a root, for :meth:`set_motion`: the frame of its mass, its velocity, its turning."""

@@ -87,7 +87,8 @@ class Pr2:
         self.rng = rng
         self.model = prepare(urdf)
         self.tree = Tree(self.model.root)
-        self.body = sim.load(self.model.urdf, Pose((0.0, 0.0, 0.0)), fixed=True, own_inertia=True)
+        origin = Pose((0.0, 0.0, 0.0))
+        self.body = sim.load(self.model.urdf, origin, fixed=True, own_inertia=True, sleeps=False)
         joints = sim.joints(self.body)
         self.joint_index = {name: joint.index for name, joint in joints.items()}
         self.index = {joint.link_name: joint.index for joint in joints.values()} | {self.tree.root: -1}

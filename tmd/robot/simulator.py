@@ -81,6 +81,7 @@ class Simulator(Bodies):
 
     def set_joint(self, body: int, joint: int | str, position: float) -> None:
         """Put a joint there, at rest: never while physics runs."""
+        self.wake(body)
         self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self._client)
 
     def set_joints(
@@ -100,6 +101,7 @@ class Simulator(Bodies):
         self, body: int, joint: int | str, target: float, force: float, velocity: float | None = None
     ) -> None:
         """Let the joint's motor go to ``target`` and stay there, with at most ``force`` (N or N·m) and ``velocity``."""
+        self.wake(body)
         limit = {} if velocity is None else {"maxVelocity": velocity}
         self._bullet.setJointMotorControl2(
             body,
@@ -144,6 +146,7 @@ class Simulator(Bodies):
 
     def brake_joint(self, body: int, joint: int | str, force: float) -> None:
         """Switch the joint's motor off; ``force`` (N or N·m) of friction is left, 0 lets it swing."""
+        self.wake(body)
         self._bullet.setJointMotorControl2(
             body,
             self._index(body, joint),
