@@ -74,7 +74,7 @@ def test_places_and_owners_are_inverse(scene: Scene) -> None:
 def test_what_the_hand_works_is_in_reach(scene: Scene) -> None:
     for name in scene.names():
         handle = scene.handle(name)
-        if handle is None or handle.kind == "lid" or scene.is_item(scene.whole(name)):
+        if handle is None or scene.is_item(scene.whole(name)):
             continue
         assert LOW <= handle.grasp.position[2] <= HIGH, (name, handle.grasp.position)
 
@@ -162,6 +162,23 @@ def test_a_door_stays_where_it_is_left_and_a_button_comes_back(kitchen: Scene) -
     kitchen.sim.step(240)
     assert kitchen.sim.joint_position(door.body, door.joint) == pytest.approx(0.8, abs=0.01)
     assert kitchen.sim.joint_position(button.body, button.joint) == pytest.approx(0.0, abs=0.002)
+
+
+def test_doors_and_drawers_open_towards_the_robot(scene: Scene) -> None:
+    for name in scene.names():
+        handle = scene.handle(name)
+        if handle is None or handle.kind not in ("door", "flap", "drawer"):
+            continue
+        was = scene.sim.joint_position(handle.body, handle.joint)
+        front = scene.sim.pose(handle.body)
+        depths = []
+        for position in (handle.closed, handle.open):
+            scene.sim.set_joint(handle.body, handle.joint, position)
+            moved = scene.handle(name)
+            assert moved is not None
+            depths.append(front.inverse().apply(moved.grasp.position)[0])
+        assert depths[1] > depths[0] + 0.2, name
+        scene.sim.set_joint(handle.body, handle.joint, was)
 
 
 @pytest.mark.parametrize("kitchen", ["kitchen3"], indirect=True)

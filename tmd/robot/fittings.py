@@ -38,7 +38,16 @@ def bar_handle(
 
 
 def door(
-    model: Model, part: str, look: Look, low: Vector, high: Vector, *, height: float, latched: bool, window: bool
+    model: Model,
+    part: str,
+    look: Look,
+    low: Vector,
+    high: Vector,
+    *,
+    height: float,
+    latched: bool,
+    window: bool,
+    part_of: str | None = None,
 ) -> None:
     """A door before an opening, hinged at its −y edge, with its handle at the +y edge.
 
@@ -51,11 +60,13 @@ def door(
         height: Of the middle of its handle.
         latched: It has no handle: it is pushed shut at its edge.
         window: It has a dark window.
+        part_of: The part that it opens, where that is not itself.
     """
     x, y0, y1 = low[0], low[1], high[1]
     hinge = (x, y0, 0.0)
+    opens = part if part_of is None else part_of
     model.link(
-        part, part=part, kind="revolute", origin=hinge, axis=(0.0, 0.0, 1.0), limits=(0.0, 1.9),
+        part, part=opens, kind="revolute", origin=hinge, axis=(0.0, 0.0, -1.0), limits=(0.0, 1.9),
         friction=_FAST["door"], mass=3.0,
     )  # fmt: skip
     width = y1 - y0
@@ -67,11 +78,11 @@ def door(
     at = width - 0.035
     if latched:
         tool = Frame((DOOR - TIP, at - 0.03, height), INTO, LEFT)
-        model.grips.append(Grip(part, "flap", part, tool, 0.0, 0.0, WIDE_OPEN))
+        model.grips.append(Grip(opens, "flap", part, tool, 0.0, 0.0, WIDE_OPEN))
         return
     bar_handle(model, part, (DOOR + STAND_OFF, at, height), 0.2, look.accent, upright=True, face=DOOR)
     tool = Frame((DOOR + STAND_OFF, at, height), INTO, LEFT)
-    model.grips.append(Grip(part, "door", part, tool, BAR + 0.04, 0.0, WIDE_OPEN))
+    model.grips.append(Grip(opens, "door", part, tool, BAR + 0.04, 0.0, WIDE_OPEN))
 
 
 def button(model: Model, part: str, look: Look, face: Vector, *, lamp: tuple[str, str] | None = None) -> None:

@@ -174,5 +174,5 @@ def seat(model: Model, look: Look, parts: Parts) -> None:
     wide = width - 2 * arm
     model.region(
         "on", (-x + back, -wide / 2, height), (x, wide / 2, height + ROOM), DOWN,
-        rows(x, max(wide - 0.24, 0.0), (0.14, 0.32)),
+        rows(x, max(wide - 0.2, 0.0), (0.17, 0.24, 0.31)),
     )  # fmt: skip

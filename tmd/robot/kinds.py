@@ -5,8 +5,9 @@ from __future__ import annotations
 from tmd.robot.appliances import coffee_maker, cooker, fridge, hotplate, microwave, sink
 from tmd.robot.furniture import basket, counter, cupboard, drawer, seat, shelf, table
 from tmd.robot.look import Builder, Kind, Look
-from tmd.robot.things import block, egg, tin, utensil
-from tmd.robot.vessels import bottle, bowl, carafe, carton, cup, jar, kettle, pot, sugar_bowl
+from tmd.robot.parlour import bin_, ceiling_lamp, lamp, player, tv, window
+from tmd.robot.things import block, egg, remote, sack, strapped, tin, utensil
+from tmd.robot.vessels import bottle, bowl, capped_bottle, carafe, carton, cup, jar, kettle, pot, sugar_bowl
 
 _Size = tuple[float, float, float]
 
@@ -17,8 +18,16 @@ def _fixture(
     return Kind("fixture", Look(kind, size, colour, accent, 20.0), build, takes)
 
 
-def _item(build: Builder, kind: str, size: _Size, colour: str, accent: str, mass: float) -> Kind:
-    return Kind("item", Look(kind, size, colour, accent, mass), build)
+def _item(
+    build: Builder,
+    kind: str,
+    size: _Size,
+    colour: str,
+    accent: str,
+    mass: float,
+    takes: tuple[tuple[str, int], ...] = (),
+) -> Kind:
+    return Kind("item", Look(kind, size, colour, accent, mass), build, takes)
 
 
 def _part(kind: str, size: _Size, colour: str, accent: str, settings: tuple[str, ...] = ()) -> Kind:
@@ -27,7 +36,7 @@ def _part(kind: str, size: _Size, colour: str, accent: str, settings: tuple[str,
 
 _DOORS = (("door", 1), ("latched_door", 1))
 _ALL = (
-    _fixture(counter, "counter", (0.6, 1.3, 0.86), "sage", "granite"),
+    _fixture(counter, "counter", (0.6, 1.5, 0.86), "sage", "granite"),
     _fixture(table, "table", (0.75, 1.25, 0.74), "oak", "walnut"),
     _fixture(shelf, "shelf", (0.42, 1.15, 0.88), "pine", "oak"),
     _fixture(cupboard, "cupboard", (0.46, 0.7, 1.36), "sage", "dark_steel", _DOORS),
@@ -40,6 +49,12 @@ _ALL = (
     _fixture(microwave, "microwave", (0.55, 1.04, 1.16), "steel", "dark_steel", (*_DOORS, ("button", 2))),
     _fixture(fridge, "fridge", (0.62, 1.02, 1.4), "white", "steel", (*_DOORS, ("niche", 1), ("button", 1))),
     _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.07), "red", "steel", (("spout", 1), ("button", 1))),
+    _fixture(bin_, "bin", (0.36, 0.36, 0.66), "dark_grey", "black", (("lid", 1),)),
+    _fixture(tv, "tv", (0.5, 1.5, 1.32), "black", "walnut", (("screen", 1), ("speaker", 1), ("button", 5))),
+    _fixture(player, "player", (0.48, 0.9, 0.9), "navy", "steel", (("disc_drive", 1), ("button", 3))),
+    _fixture(lamp, "lamp", (0.42, 0.76, 1.15), "walnut", "dark_steel", (("button", 1), ("knob", 1))),
+    _fixture(ceiling_lamp, "ceiling_lamp", (0.16, 0.3, 2.2), "cream", "dark_steel", (("button", 1),)),
+    _fixture(window, "window", (0.5, 1.4, 1.7), "white", "steel", (("curtain", 1),)),
     _item(cup, "cup", (0.095, 0.068, 0.09), "white", "blue", 0.25),
     _item(cup, "glass", (0.064, 0.064, 0.12), "glass", "light_blue", 0.2),
     _item(bowl, "bowl", (0.185, 0.14, 0.065), "cream", "terracotta", 0.35),
@@ -62,9 +77,18 @@ _ALL = (
     _item(egg, "egg", (0.046, 0.046, 0.065), "cream", "light_blue", 0.07),
     _item(tin, "pod", (0.048, 0.048, 0.04), "black", "orange", 0.03),
     _item(tin, "tin", (0.066, 0.066, 0.12), "red", "steel", 0.3),
+    _item(capped_bottle, "capped_bottle", (0.06, 0.06, 0.21), "dark_green", "yellow", 0.4),
+    _item(strapped, "strapped", (0.3, 0.26, 0.15), "terracotta", "cream", 0.3),
+    _item(remote, "remote", (0.16, 0.05, 0.026), "black", "grey", 0.1, (("button", 6),)),
+    _item(sack, "sack", (0.25, 0.17, 0.12), "dark_grey", "yellow", 0.15),
     _part("plain_part", (0.05, 0.05, 0.05), "grey", "grey"),
     _part("door", (0.02, 0.5, 0.5), "sage", "dark_steel"),
     _part("latched_door", (0.02, 0.5, 0.5), "steel", "dark_steel"),
+    _part("lid", (0.36, 0.36, 0.02), "grey", "steel"),
+    _part("curtain", (0.02, 0.5, 0.6), "raspberry", "steel"),
+    _part("screen", (0.01, 0.9, 0.5), "dark_grey", "black"),
+    _part("speaker", (0.01, 0.06, 0.06), "grey", "black"),
+    _part("disc_drive", (0.1, 0.2, 0.1), "dark_grey", "black"),
     _part("button", (0.035, 0.032, 0.032), "green", "white"),
     _part("knob", (0.045, 0.044, 0.044), "black", "steel", ("off", "low", "high")),
     _part("tap_handle", (0.02, 0.08, 0.06), "steel", "blue", ("off", "high")),

@@ -15,6 +15,8 @@ from tmd.world.environment import Environment
 
 GAPS = (0.1, 0.07, 0.05)
 """Between items, the first that fits."""
+TURNS = (0.0, 0.8, -0.8, 1.57, -1.57)
+"""How things may be turned where they do not fit with their front to the front."""
 TALL = 0.12
 """Items from this height on stand behind the lower ones."""
 JITTER = 0.003
@@ -113,14 +115,15 @@ class Placing:
             spots = list(region.spots)
             if high >= TALL:
                 spots.sort(key=lambda spot: spot[0])
-            for x, y, z, yaw in spots:
-                pose = frame * Pose.flat(x, y, z, yaw)
-                if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
-                    apart(pose, own, self.poses[other], self._footprints[other], gap)
-                    for other, _ in self._standing
-                    if abs(self.poses[other].position[2] - pose.position[2]) < 0.25
-                ):
-                    return pose
+            for turned in TURNS:
+                for x, y, z, yaw in spots:
+                    pose = frame * Pose.flat(x, y, z, yaw + turned)
+                    if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
+                        apart(pose, own, self.poses[other], self._footprints[other], gap)
+                        for other, _ in self._standing
+                        if abs(self.poses[other].position[2] - pose.position[2]) < 0.25
+                    ):
+                        return pose
         return None
 
     def _frame(self, whole: str, region: Region) -> Pose:

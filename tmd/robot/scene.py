@@ -15,7 +15,7 @@ from tmd.errors import TmdError
 from tmd.robot.colours import mixed
 from tmd.robot.layout import Footprint, Room, apart, floor_spots, inside
 from tmd.robot.model import CUBE, ROOT, Grasp, Grip, Region, cube
-from tmd.robot.placing import Placing
+from tmd.robot.placing import TURNS, Placing
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.room import build_room
 from tmd.robot.shapes import Blueprint, Shapes
@@ -50,7 +50,8 @@ class Handle:
     """What the robot works a joint by, as it is now.
 
     Attributes:
-        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``knob`` or ``button``.
+        kind: ``door``, ``flap`` (a door without a handle: pushed), ``drawer``, ``lid``, ``slide`` (a
+            curtain), ``knob`` or ``button``.
         body: The body.
         joint: The joint's name.
         index: Its number, also that of the link that moves.
@@ -253,6 +254,14 @@ class Scene:
         """All items, in file order."""
         return [name for name in self.blueprints if self.is_item(name)]
 
+    def names(self) -> list[str]:
+        """All objects and parts, in file order."""
+        return [name for name in self._places if name != FLOOR]
+
+    def holds_contents(self, item: str) -> bool:
+        """Whether it is a vessel: what is in it is seen."""
+        return bool(self.blueprints[item].model.contents)
+
     def size(self, item: str) -> tuple[Vector, Vector]:
         """The item's box, lower and upper corner, in its own frame."""
         model = self.blueprints[item].model
@@ -287,7 +296,7 @@ class Scene:
         others = [(self.sim.pose(self.bodies[o]), self._footprint(o)) for o in self.items() if o != item]
         if name == FLOOR:
             return [Spot(pose) for pose in floor_spots(self.room, others, own)]
-        spots = []
+        spots: list[Spot] = []
         for whole, region in self._regions(name, relation):
             frame = self._frame(whole, region.link)
             low = region.low[2] + frame.position[2]
@@ -295,12 +304,17 @@ class Scene:
             tall = 0.0 if item is None else self.size(item)[1][2]
             if region.low[2] + tall > region.high[2]:
                 continue
-            for x, y, z, yaw in region.spots:
-                pose = frame * Pose.flat(x, y, z, yaw)
-                if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
-                    apart(pose, own, *other, GAP) for other in near
-                ):
-                    spots.append(Spot(pose))
+            for turned in TURNS:
+                poses = [frame * Pose.flat(x, y, z, yaw + turned) for x, y, z, yaw in region.spots]
+                free = [
+                    pose
+                    for pose in poses
+                    if inside(pose, own, region.low, region.high, frame, region.overhang)
+                    and all(apart(pose, own, *other, GAP) for other in near)
+                ]
+                spots += map(Spot, free)
+                if free:
+                    break
         return _spread(spots)
 
     def _footprint(self, item: str) -> Footprint:
@@ -319,7 +333,7 @@ class Scene:
         point = self.sim.pose(self.bodies[item]).position
         best: tuple[float, str, str] | None = None
         for whole in self.blueprints:
-            if self.is_item(whole) or whole not in touched:
+            if whole not in touched:
                 continue
             for region in self.blueprints[whole].model.regions:
                 local = self._frame(whole, region.link).inverse().apply(point)

@@ -6,7 +6,7 @@ import math
 
 from tmd.robot.fittings import TIP
 from tmd.robot.look import Look, Parts
-from tmd.robot.model import Model
+from tmd.robot.model import Frame, Grip, Model
 from tmd.robot.vessels import bar_grasps, grasp, post_grasps
 
 _LOW = TIP + 0.004
@@ -89,3 +89,57 @@ def tin(model: Model, look: Look, parts: Parts) -> None:
     model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
     model.cylinder((0.0, 0.0, height), width / 2 * 0.85, 0.002, look.accent, solid=False)
     post_grasps(model, (max(height * 0.55, _LOW),), (width, width), height)
+
+
+def strapped(model: Model, look: Look, parts: Parts) -> None:
+    """Something wide and soft, or flat: a pillow, a blanket, a box of pizza; taken by a strap on top."""
+    depth, width, height = look.size
+    body = height - 0.04
+    x, y = depth / 2, width / 2
+    model.slab((-x, -y, 0.0), (x, y, body), look.colour)
+    for side in (-1, 1):
+        model.box((0.0, side * y * 0.6, body), (depth * 0.96, 0.02, 0.004), look.accent, solid=False)
+        model.box((side * 0.045, 0.0, body + 0.014), (0.014, 0.022, 0.028), look.accent)
+    model.box((0.0, 0.0, height - 0.006), (0.104, 0.022, 0.012), look.accent)
+    bar_grasps(model, [(0.0, 0.0, height - 0.006), (0.02, 0.0, height - 0.006)], 0.022)
+
+
+def remote(model: Model, look: Look, parts: Parts) -> None:
+    """A remote control: its buttons are on top, pressed from above."""
+    block(model, Look("block", look.size, look.colour, look.colour, look.mass), Parts({}))
+    depth, _, height = look.size
+    buttons = parts.of("button")
+    for index, (part, said) in enumerate(buttons):
+        column, row = index % 2, index // 2
+        place = (depth * 0.36 - 0.035 * row, 0.013 * (2 * column - 1), height + 0.006)
+        model.link(
+            part, part=part, kind="prismatic", origin=place, axis=(0.0, 0.0, -1.0), limits=(0.0, 0.004), spring=3.0,
+            mass=0.003,
+        )  # fmt: skip
+        model.box((0.0, 0.0, -0.003), (0.014, 0.014, 0.006), said.colour, link=part)
+        tool = Frame((0.0, 0.0, TIP), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
+        model.grips.append(Grip(part, "button", part, tool, 0.0, 0.0, 0.003))
+
+
+def sack(model: Model, look: Look, parts: Parts) -> None:
+    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear in front."""
+    depth, width, height = look.size
+    ear = 0.05
+    x, y, rim = depth / 2 - ear / 2, width / 2, height - 0.012
+    model.slab((-x, -y, 0.0), (x, y, 0.008), look.colour)
+    for side in (-1, 1):
+        model.box((0.0, side * (y - 0.004), rim / 2), (2 * x, 0.008, rim), look.colour)
+        model.box((side * (x - 0.004), 0.0, rim / 2), (0.008, width - 0.016, rim), look.colour)
+    level = rim * 0.6
+    model.slab((x - 0.002, -0.011, level - 0.008), (x + ear, 0.011, level + 0.008), look.accent)
+    bar_grasps(model, [(x + ear - 0.016, 0.0, level)], 0.022)
+    model.region("in", (-x + 0.008, -y + 0.008, 0.008), (x - 0.008, y - 0.008, height + 0.15), (0.0, 0.0, -1.0),
+                 [(0.0, 0.0, 0.0), (0.0, 0.0, 1.57)], overhang=math.inf)  # fmt: skip
+    model.link(
+        "lid", kind="revolute", origin=(-x, 0.0, rim + 0.001), axis=(0.0, -1.0, 0.0), limits=(0.0, 2.0),
+        friction=0.06, mass=0.02,
+    )  # fmt: skip
+    model.slab((0.0, -y, 0.0), (2 * x, y, 0.01), look.colour, link="lid")
+    model.box((2 * x + 0.008, 0.0, 0.005), (0.016, 0.02, 0.01), look.accent, link="lid")
+    tool = Frame((2 * x + 0.008, 0.0, 0.005), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    model.grips.append(Grip("", "lid", "lid", tool, 0.04, 0.0, 1.75))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 
 from tmd.robot.fittings import DOWN, INTO, LEFT, TIP
 from tmd.robot.look import Look, Parts
@@ -212,3 +213,9 @@ def bottle(model: Model, look: Look, parts: Parts) -> None:
     model.cylinder((0.0, 0.0, (shoulder + 0.024 + height) / 2), radius * 0.36, height - shoulder - 0.024, look.accent)
     model.cylinder((0.0, 0.0, shoulder * 0.5), radius + 0.0006, shoulder * 0.4, look.accent, solid=False)
     post_grasps(model, (height * 0.35, height * 0.5), (width, width), height)
+
+
+def capped_bottle(model: Model, look: Look, parts: Parts) -> None:
+    """A bottle whose cap opens on a hinge."""
+    bottle(model, replace(look, size=(look.size[0], look.size[1], look.size[2] - 0.012)), parts)
+    lid(model, look, look.size[1] * 0.22, look.size[2])
