@@ -179,7 +179,10 @@ class Bodies(Engine):
         self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self._client)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:
-        """The axis-parallel box around the collision shapes of one link, or of all links, in the world."""
+        """A box, parallel to the world's axes, around the collision shapes of one link, or of all links.
+
+        It is a bound: where the frame of the mass is turned against the shape, it is a little too large.
+        """
         if link is not None:
             lower, upper = self._bullet.getAABB(body, link, physicsClientId=self._client)
             return lower, upper

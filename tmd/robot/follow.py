@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from tmd.robot.trajectory import dense, timed
 
 GAIN = 0.2
 """The part of a position error that a motor removes in one step."""
+_YIELDING = 0.1
 STALLED = 120
 """Steps without getting nearer after which a motion is given up."""
 
@@ -48,8 +49,8 @@ def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
     """Move along ``path`` under physics.
 
     The budget is twice the planned time and one second. A motion that no longer gets nearer for half a second, after
-    its planned time, ends before that. Whatever ends it, the motors then hold the joints where they are meant to be,
-    or, after a failure, where they are.
+    its planned time, ends before that. The motors then hold the joints at their goals or, after a failure, where
+    they are once they have yielded to what is in the way for a quarter of a second.
 
     Returns:
         Whether all joints are within the group's tolerance of the last row.
@@ -74,8 +75,17 @@ def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
     positions, _ = sim.joint_states(body, group.joints)
     if np.max(np.abs(np.array(positions) - goal)) <= group.tolerance:
         return True
-    hold(sim, body, group, positions)
+    _yield(sim, body, group)
     return False
+
+
+def _yield(sim: Simulator, body: int, group: Group) -> None:
+    """Let what is in the way push back for a moment, then stay there: no motor pushes on after a failure."""
+    weak = replace(group, forces=tuple(_YIELDING * force for force in group.forces))
+    for _ in range(STEPS_PER_SECOND // 4):
+        hold(sim, body, weak, sim.joint_states(body, group.joints)[0])
+        sim.step()
+    hold(sim, body, group, sim.joint_states(body, group.joints)[0])
 
 
 def jump(sim: Simulator, body: int, group: Group, path: Array, carry: Callable[[], None]) -> None:

@@ -110,7 +110,7 @@ class Pr2:
             return Group(joints, (speed,) * count, (force,) * count, (stride,) * count, tolerance)
 
         base = tuple(self.joint_index[name] for name in BASE_JOINTS)
-        self.base_group = Group(base, (1.0, 1.0, 1.5), (2e4, 2e4, 2e4), (0.05, 0.05, 0.1), 0.005, window=72)
+        self.base_group = Group(base, (1.0, 1.0, 1.5), (5e3, 5e3, 5e3), (0.05, 0.05, 0.1), 0.005, window=72)
         self.torso_group = group([TORSO], 0.15, 5e4, 0.02, 0.003)
         self.head_group = group(HEAD, 3.0, 100.0, 0.2, 0.02)
         self.arm_groups = {side: group(self.arm_joints[side], 2.0, 500.0, 0.1, 0.01) for side in ARMS}

@@ -127,17 +127,18 @@ def check(source: Path, root: ET.Element) -> None:
     frames = ["base_footprint", "base_link", *(f"{side}_{TOOL}" for side in "rl")]
     missing_links = [frame for frame in frames if frame not in links]
     if missing or missing_links:
-        parts = [
-            f"{len(names)} {kind} missing: {', '.join(names[:4])}{', …' if len(names) > 4 else ''}"
-            for kind, names in (("joints", missing), ("links", missing_links))
-            if names
-        ]
+        parts = [_lacks(kind, names) for kind, names in (("joint", missing), ("link", missing_links)) if names]
         raise TmdError(f"{source} is no PR2: {'; '.join(parts)}", hint="leave --urdf out for the packaged PR2")
     if _root_link(root) != "base_footprint":
         raise TmdError(
             f"{source}: its root is {_root_link(root)}, not base_footprint",
             hint="take the joints in front of base_footprint out: the base gets its own",
         )
+
+
+def _lacks(kind: str, names: list[str]) -> str:
+    plural = "s" if len(names) > 1 else ""
+    return f"{len(names)} {kind}{plural} missing: {', '.join(names[:4])}{', …' if len(names) > 4 else ''}"
 
 
 def repair(root: ET.Element, meshes: dict[str, str]) -> None:

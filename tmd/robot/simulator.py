@@ -64,6 +64,10 @@ class Simulator(Bodies):
             drawn by pybullet's own slower renderer.
     """
 
+    def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
+        super().__init__(gui=gui, pictures=pictures)
+        self._joined: dict[int, tuple[int, int]] = {}
+
     # joints
 
     def _index(self, body: int, joint: int | str) -> int:
@@ -188,6 +192,8 @@ class Simulator(Bodies):
 
     def unweld(self, handle: int) -> None:
         """Undo a weld or a pin."""
+        for body in self._joined.pop(handle):
+            self.wake(body)  # what hung asleep falls now
         self._bullet.removeConstraint(handle, physicsClientId=self._client)
 
     def _constrain(
@@ -199,6 +205,7 @@ class Simulator(Bodies):
             physicsClientId=self._client,
         )  # fmt: skip
         self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self._client)
+        self._joined[handle] = body, other
         return handle
 
     def _mass_frame(self, body: int, link: int) -> Pose:

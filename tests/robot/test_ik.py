@@ -1,0 +1,88 @@
+"""Inverse kinematics: both solvers against forward kinematics, and within the limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tmd.errors import MissingToolError
+from tmd.robot import ik, pr2_urdf
+from tmd.robot.ik import ArmKinematics
+from tmd.robot.kinematics import Array, Tree
+from tmd.robot.pose import Pose
+
+try:
+    TREE = Tree(pr2_urdf.prepare().root)
+except MissingToolError:
+    pytest.skip("needs the extra robot", allow_module_level=True)
+ARMS = {side: ArmKinematics(TREE, side) for side in ("right", "left")}
+HOME = (0.0,) * 7
+SOLVERS = [
+    pytest.param(False, marks=pytest.mark.skipif(ik._closed_form("right") is None, reason="needs pr2-ikfast")),
+    True,
+]
+
+
+def configuration(side: str, seed: int) -> Array:
+    kinematics = ARMS[side]
+    lower = np.where(np.isinf(kinematics.lower), -np.pi, kinematics.lower + 0.02)
+    upper = np.where(np.isinf(kinematics.upper), np.pi, kinematics.upper - 0.02)
+    drawn: Array = np.random.default_rng(seed).uniform(lower, upper)
+    return drawn
+
+
+def tool(side: str, arm: Array, torso: float) -> Pose:
+    return Pose.from_matrix(ARMS[side].tool(torso, arm[None])[0])
+
+
+@pytest.mark.parametrize("numeric", SOLVERS)
+@given(side=st.sampled_from(["right", "left"]), seed=st.integers(0, 10**6), torso=st.floats(0, 0.31))
+@settings(max_examples=25, deadline=None, derandomize=True)
+def test_poses_that_an_arm_can_reach_are_solved(numeric: bool, side: str, seed: int, torso: float) -> None:
+    target = tool(side, configuration(side, seed), torso)
+    found = ARMS[side].solve(target, torso, HOME, numeric=numeric)
+    assert found
+    arms = np.array(found)
+    assert ARMS[side].inside(arms, 0.0).all()
+    for arm in arms:
+        reached = tool(side, arm, torso)
+        assert reached.distance(target) < 2e-4
+        assert reached.angle(target) < 2e-3
+    far = np.abs(arms).max(axis=1)
+    assert (np.diff(far) > -1e-5).all()
+
+
+@pytest.mark.parametrize("numeric", SOLVERS)
+def test_a_pose_out_of_reach_has_no_solution(numeric: bool) -> None:
+    assert ARMS["right"].solve(Pose((1.5, 0.0, 1.0)), 0.1, HOME, numeric=numeric) == []
+    assert ARMS["right"].track(Pose((1.5, 0.0, 1.0)), 0.1, HOME, numeric=numeric) is None
+
+
+@pytest.mark.parametrize("numeric", SOLVERS)
+def test_small_motions_of_the_tool_are_small_motions_of_the_arm(numeric: bool) -> None:
+    arm = np.array([-0.5, 0.3, -0.8, -1.3, 0.4, -0.9, 0.5])
+    start = tool("right", arm, 0.2)
+    row: tuple[float, ...] = tuple(arm)
+    for step in range(1, 11):
+        target = Pose((start.position[0], start.position[1], start.position[2] + 0.01 * step), start.orientation)
+        after = ARMS["right"].track(target, 0.2, row, numeric=numeric)
+        assert after is not None
+        assert max(abs(a - b) for a, b in zip(row, after, strict=True)) < 0.15
+        assert tool("right", np.array(after), 0.2).distance(target) < 2e-4
+        row = after
+
+
+def test_endless_joints_take_the_short_way() -> None:
+    seed = (0.0, 0.0, 0.0, -1.0, 9.0, -1.0, -7.0)
+    target = tool("left", configuration("left", 3), 0.1)
+    for arm in ARMS["left"].solve(target, 0.1, seed)[:5]:
+        assert abs(arm[4] - 9.0) <= np.pi + 1e-9
+        assert abs(arm[6] + 7.0) <= np.pi + 1e-9
+
+
+def test_without_the_compiled_solver_the_numeric_one_answers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(ik, "_closed_form", lambda side: None)
+    target = tool("right", configuration("right", 5), 0.1)
+    assert ARMS["right"].solve(target, 0.1, HOME)
