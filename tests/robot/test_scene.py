@@ -197,7 +197,7 @@ def test_a_drawer_takes_along_what_lies_in_it_and_its_spots(kitchen: Scene) -> N
     handle = kitchen.handle("drawer1")
     assert handle is not None
     before = kitchen.support("drawer1", "in", "sponge1")[0].pose.position
-    kitchen.sim.drive_joint(handle.body, handle.joint, handle.open, 60.0, 0.2)
+    kitchen.sim.drive_joint(handle.body, handle.joint, handle.open, 60.0, 0.4)
     kitchen.sim.step(1000)
     way = kitchen.sim.joint_position(handle.body, handle.joint)
     assert way == pytest.approx(handle.open, abs=0.01)

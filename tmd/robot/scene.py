@@ -238,10 +238,6 @@ class Scene:
         """The object or part that a link belongs to; None for the robot and others that are not of the scene."""
         return self._named.get((body, link), self._owners.get(body))
 
-    def names(self) -> list[str]:
-        """All objects and parts."""
-        return list(self._places)
-
     def whole(self, name: str) -> str:
         """The object that an object or part belongs to."""
         return self._where(name)[0]
