@@ -67,7 +67,7 @@ class Shapes:
 
     def _blueprint(self, class_name: str) -> Blueprint:
         vertices = self.classes.get(class_name).vertices
-        sort = self._sort(class_name)
+        sort = self.sort(class_name)
         look = self._look(class_name, vertices[ROOT].shape, sort, class_name, None)
         parts = Parts(
             {
@@ -94,7 +94,7 @@ class Shapes:
             return look
         return replace(look, colour=whole.colour)
 
-    def _sort(self, class_name: str) -> str:
+    def sort(self, class_name: str) -> str:
         """``item``, ``part`` or ``fixture``, by the types above the class."""
         name = class_name
         while name in self._parents:
@@ -112,7 +112,9 @@ class Shapes:
             hint = nearest(shape.kind, known) or f"a {sort} can be: {', '.join(known)}"
             raise self._error(class_name, whole, part, "kind", f"there is no shape '{shape.kind}'", hint)
         if kind.sort != sort:
-            message = f"'{shape.kind}' is the shape of a {kind.sort}, but {part or class_name} is a {sort}"
+            article = {"item": "an item"}
+            own, wanted = (article.get(word, f"a {word}") for word in (kind.sort, sort))
+            message = f"'{shape.kind}' is the shape of {own}, but {part or class_name} is {wanted}"
             raise self._error(class_name, whole, part, "kind", message, None)
         for key in ("colour", "accent"):
             said = getattr(shape, key)
@@ -121,9 +123,9 @@ class Shapes:
                 raise self._error(class_name, whole, part, key, f"there is no colour '{said}'", hint)
         usual = kind.default
         if shape.size is not None:
-            for word, own, normal in zip(("depth", "width", "height"), shape.size, usual.size, strict=True):
-                if not LEAST * normal <= own <= MOST * normal:
-                    message = f"a {shape.kind} cannot have a {word} of {own:g} m"
+            for word, given, normal in zip(("depth", "width", "height"), shape.size, usual.size, strict=True):
+                if not LEAST * normal <= given <= MOST * normal:
+                    message = f"a {shape.kind} cannot have a {word} of {given:g} m"
                     hint = f"between {LEAST * normal:.3g} and {MOST * normal:.3g} m, {normal:g} m is usual"
                     raise self._error(class_name, whole, part, "size", message, hint)
         return Look(
