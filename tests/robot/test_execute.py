@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 import numpy as np
@@ -30,7 +30,7 @@ class Truth:
         self.clock = 0
         self.faults: list[Callable[[Truth, Instruction], bool]] = []
 
-    def perform(self, instruction: Instruction, attempt: int) -> str:
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         self.clock += 240
         for fault in list(self.faults):
             if fault(self, instruction):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -28,8 +28,13 @@ class Performer(Protocol):
         """The simulation's step."""
         ...
 
-    def perform(self, instruction: Instruction, attempt: int) -> str:
-        """Do it; ``attempt`` counts from 0. Gives the evidence that its event happened.
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
+        """Do it, and give the evidence that its event happened.
+
+        Args:
+            instruction: What is to be done.
+            gains: The facts that it should bring about.
+            attempt: How often it was tried before.
 
         Raises:
             SkillError: It could not be done.
@@ -106,7 +111,7 @@ class Executor:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         try:
-            evidence = self.performer.perform(instruction, attempt)
+            evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
             failure = str(error)
         now = self.observer.after(state, instruction, happened=not failure)

@@ -25,9 +25,9 @@ lie across each other, and one in the way of the other.
 """
 _THERE = 0.03
 """Radians: an arm that is this near to its posture need not move."""
-_FRONT = ((0.3, 0.62), (-0.05, 0.4), (0.6, 1.25))
+_FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
 """Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
-_PLACES = [(x, y, z) for x in (0.45, 0.55) for z in (0.95, 0.8, 1.1) for y in (0.2, 0.1, 0.3)]
+_PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 _YAWS = 8
 
 

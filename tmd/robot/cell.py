@@ -1,0 +1,256 @@
+"""Robot and scene together: what skills act in, and what the monitor measures."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from math import hypot
+
+import numpy as np
+
+from tmd.pddl.model import GroundAtom
+from tmd.robot.collision import Ignored
+from tmd.robot.motion import plan_line
+from tmd.robot.pose import Pose, Vector
+from tmd.robot.pr2 import ARMS, Pr2
+from tmd.robot.scene import Handle, Scene
+from tmd.robot.simulator import Simulator
+
+OPEN_SHARE = 0.6
+"""A joint is open from this share of its way on."""
+_SETTING_SHARE = 0.25
+"""A knob is at a setting when it is not farther from it than this share of the way to the next one."""
+
+_BACK = 0.1
+_PINS = 0.015
+"""Metres from the middle of a knob to the two points that the fingers hold it at."""
+
+
+@dataclass(eq=False)
+class Cell:
+    """One robot in one scene.
+
+    Attributes:
+        sim: The simulation.
+        robot: The PR2.
+        scene: The furniture and the things.
+        rng: Of everything random.
+        in_hand: For each arm the item in it.
+    """
+
+    sim: Simulator
+    robot: Pr2
+    scene: Scene
+    rng: np.random.Generator
+    in_hand: dict[str, str] = field(default_factory=dict)
+
+    # what the monitor measures
+
+    def held(self) -> Sequence[str]:
+        """The items in the hands that are really there: each is still where the gripper is."""
+        return [self.in_hand[side] for side in ARMS if side in self.in_hand and self._still_held(side)]
+
+    def _still_held(self, side: str) -> bool:
+        body = self.scene.bodies[self.in_hand[side]]
+        return self.robot.held(side) == body and self.gap(side, self.in_hand[side]) < 0.03
+
+    def gap(self, side: str, item: str) -> float:
+        """How far the item is from the gripper's surface, in metres; at most 1."""
+        found = self.sim.closest(self.robot.body, self.scene.bodies[item], 1.0)
+        hand = {self.robot.index[name] for name in self.robot.tree.below(f"{side[0]}_gripper_palm_link")}
+        return min((c.distance for c in found if c.link in hand), default=1.0)
+
+    def support(self, item: str) -> tuple[str, str] | None:
+        """What an item stands on, in or next to; ``None`` for what is no item."""
+        return self.scene.supported(item) if self.scene.is_item(item) else None
+
+    def is_open(self, name: str) -> bool | None:
+        """Whether a door, a drawer or a lid is open."""
+        handle = self.scene.handle(name)
+        if handle is None or handle.kind in ("knob", "button"):
+            return None
+        return self._way(name) >= OPEN_SHARE
+
+    def _way(self, name: str) -> float:
+        """How far a joint is on its way from closed (0) to open (1)."""
+        handle = self.scene.handle(name)
+        assert handle is not None
+        at = self.sim.joint_position(handle.body, handle.joint)
+        return (at - handle.closed) / (handle.open - handle.closed)
+
+    def setting(self, name: str) -> str | None:
+        """The setting that a knob is at."""
+        handle = self.scene.handle(name)
+        if handle is None or not handle.settings:
+            return None
+        at = self.sim.joint_position(handle.body, handle.joint)
+        angles = sorted(handle.settings.values())
+        step = min((b - a for a, b in itertools.pairwise(angles)), default=1.0)
+        name_, angle = min(handle.settings.items(), key=lambda pair: (abs(pair[1] - at), pair[0]))
+        return name_ if abs(angle - at) <= _SETTING_SHARE * step else None
+
+    def reach(self, name: str) -> float:
+        """The distance on the floor from the robot's base to the nearest point of a thing, in metres."""
+        x, y, _ = self.robot.base()
+        low, high = self.sim.extents(*self.scene.place(name))
+        return hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
+
+    def measured(self, atom: GroundAtom, sensor: str) -> str:
+        """The numbers behind a fact."""
+        name = atom.args[-1] if sensor in ("held", "reach") else atom.args[0]
+        match sensor:
+            case "held":
+                gaps = ", ".join(f"{side} {100 * self.gap(side, name):.1f} cm" for side in ARMS)
+                return f"{name} is this far from the hands: {gaps}"
+            case "one_hand" | "two_hands":
+                return f"{len(self.held())} hands hold something"
+            case "support":
+                place, at = self.support(name), self.sim.pose(self.scene.bodies[name]).position
+                where = f"{place[1]} {place[0]}" if place else "nowhere"
+                return f"{name} is {where}, at {at[0]:.2f} {at[1]:.2f} {at[2]:.2f}"
+            case "joint":
+                return self.how_open(name)
+            case "setting":
+                handle = self.scene.handle(name)
+                assert handle is not None
+                return (
+                    f"{name} is turned by {np.degrees(self.sim.joint_position(handle.body, handle.joint)):.0f} degrees"
+                )
+            case _:
+                return f"{name} is {self.reach(name):.2f} m away"
+
+    # what hands do
+
+    def settle(self, item: str) -> None:
+        """Let time pass until a thing lies still, for at most a second."""
+        body = self.scene.bodies[item]
+        before = self.sim.pose(body)
+        for _ in range(10):
+            self.sim.step(24)
+            now = self.sim.pose(body)
+            if now.distance(before) < 2e-4:
+                return
+            before = now
+
+    def retire(self, side: str, ignore: Ignored) -> None:
+        """Draw a hand back the way it points, and tuck the arms."""
+        back = self.robot.tool(side) * Pose((-_BACK, 0.0, 0.0))
+        path = plan_line(self.robot, side, self.robot.tool(side), back, ignore=ignore)
+        if path is not None:
+            self.robot.move_arm(side, path)
+        self.robot.tuck()
+
+    @contextmanager
+    def gripped(self, side: str, handle: Handle) -> Iterator[None]:
+        """While a hand holds a handle: two pins under physics; in the kinematic mode the joint follows the hand."""
+        if self.robot.kinematic:
+            with self._following(handle, lambda: self.robot.tool(side)):
+                yield
+            return
+        palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
+        apart = (-_PINS, _PINS) if handle.kind == "knob" else (0.0,)
+        points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
+        pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point) for point in points]
+        try:
+            yield
+        finally:
+            for pin in pins:
+                self.sim.unweld(pin)
+
+    @contextmanager
+    def yielding(self, side: str, handle: Handle) -> Iterator[None]:
+        """While a finger pushes: contact under physics; in the kinematic mode the joint goes with the finger."""
+        if not self.robot.kinematic:
+            yield
+            return
+        with self._following(handle, lambda: self.robot.tool(side)):
+            yield
+        self.sim.set_joint(handle.body, handle.index, handle.closed)
+
+    @contextmanager
+    def _following(self, handle: Handle, tool: Callable[[], Pose]) -> Iterator[None]:
+        start, at = tool(), self.sim.joint_position(handle.body, handle.index)
+        low, high = sorted((handle.closed, handle.open, *handle.settings.values()))[:: max(1, len(handle.settings) + 1)]
+
+        def follow(sim: Simulator) -> None:
+            moved = at + _along(handle, start, tool())
+            sim.set_joint(handle.body, handle.index, min(max(moved, low), high))
+
+        self.sim.add_watcher(follow)
+        try:
+            yield
+        finally:
+            self.sim.remove_watcher(follow)
+
+    def spring(self, name: str) -> None:
+        """Let a door that has been unlatched swing open, for at most two seconds."""
+        if self.is_open(name) is None:
+            return
+        self.scene.spring_open(name)
+        for _ in range(20):
+            self.sim.step(24)
+            if self._way(name) > 0.98:
+                break
+        self.scene.calm(name)
+
+    def how_open(self, name: str) -> str:
+        """For people."""
+        return f"{name} is {100 * self._way(name):.0f} % open"
+
+    # what skills ask
+
+    def side_of(self, item: str) -> str | None:
+        """The arm that holds an item."""
+        return next((side for side in ARMS if self.in_hand.get(side) == item), None)
+
+    def free(self) -> list[str]:
+        """The arms that hold nothing."""
+        return [side for side in ARMS if side not in self.in_hand]
+
+    def whole(self, name: str) -> str:
+        """The object that a part belongs to; an object itself."""
+        body, _ = self.scene.place(name)
+        return self.scene.owner(body) or name
+
+    def centre(self, name: str) -> Vector:
+        """The middle of the box round a thing."""
+        low, high = self.sim.extents(*self.scene.place(name))
+        return ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+
+    def top(self, name: str) -> float:
+        """The height of the highest point of a thing."""
+        _, high = self.sim.extents(*self.scene.place(name))
+        return high[2]
+
+    def front(self, name: str) -> float | None:
+        """The heading of the side from which a thing is reached, in the world; ``None`` for what is held or free."""
+        item = self.whole(name)
+        seen = set()
+        while self.scene.is_item(item) and item not in seen:
+            seen.add(item)
+            place = self.scene.supported(item)
+            if place is None:
+                return None
+            item = self.whole(place[0])
+        if item not in self.scene.bodies:
+            return None
+        return self.sim.pose(self.scene.bodies[item]).yaw()
+
+    def in_tool(self, side: str, item: str) -> Pose:
+        """The item's frame in the tool's."""
+        return self.robot.tool(side).inverse() * self.sim.pose(self.scene.bodies[item])
+
+
+def _along(handle: Handle, start: Pose, now: Pose) -> float:
+    """How far a joint moves when the hand at its handle moves from ``start`` to ``now``."""
+    axis = np.array(handle.axis)
+    shift = np.array(now.position) - np.array(start.position)
+    if not handle.turns:
+        return float(axis @ shift)
+    arms = [np.array(pose.position) - np.array(handle.origin) for pose in (start, now)]
+    if handle.kind == "knob":  # the hand is on the axis: what turns is its y axis
+        arms = [np.array(pose.rotate((0.0, 1.0, 0.0))) for pose in (start, now)]
+    before, after = (arm - axis * (axis @ arm) for arm in arms)
+    return float(np.arctan2(axis @ np.cross(before, after), before @ after))

@@ -1,0 +1,87 @@
+"""Skills without hands: look, drive, wait."""
+
+from __future__ import annotations
+
+from math import atan2, degrees
+
+from tmd.robot.carry import pick_options
+from tmd.robot.cell import Cell
+from tmd.robot.observe import REACH
+from tmd.robot.outcome import SkillError, Stage
+from tmd.robot.pose import Pose, Vector
+from tmd.robot.reach import DISTANCES, Base, candidates, get_to, stances
+from tmd.robot.simulator import STEPS_PER_SECOND
+
+_MOST_STANCES = 8
+_FARTHER = (*DISTANCES, 1.0, 1.1)
+
+
+def look(cell: Cell, name: str) -> str:
+    """Turn the head, and if need be the base, until a thing is in view.
+
+    Raises:
+        SkillError: It is not seen from anywhere.
+    """
+    if name in cell.in_hand.values():
+        return f"{name} is in a hand"
+    point = cell.centre(name)
+    if seen := _seen(cell, name, point):
+        return seen
+    x, y, _ = cell.robot.base()
+    places: list[Base] = [(x, y, atan2(point[1] - y, point[0] - x))]
+    places += [base for base in stances(cell, Pose(point), cell.front(name)) if not cell.robot.collides(base=base)][:6]
+    for base in places:
+        try:
+            get_to(cell, base, cell.robot.torso())
+        except SkillError:
+            continue
+        if seen := _seen(cell, name, point):
+            return seen
+    raise SkillError(Stage.EFFECT, f"{name} is not in view from {len(places)} places")
+
+
+def _seen(cell: Cell, name: str, point: Vector) -> str:
+    cell.robot.look_at(point)
+    body, _ = cell.scene.place(name)
+    low, high = cell.sim.extents(*cell.scene.place(name))
+    middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2)
+    for spot in (point, (*middle, high[2] - 0.005), (low[0], low[1], high[2]), (high[0], high[1], high[2])):
+        if cell.robot.sees(spot, body):
+            pan = degrees(cell.robot.positions()["head_pan_joint"])
+            return (
+                f"{name} is in view, {Pose(cell.robot.eye().position).distance(Pose(spot)):.1f} m away, pan {pan:.0f}"
+            )
+    return ""
+
+
+def drive(cell: Cell, name: str, attempt: int) -> str:
+    """Go and stand before a thing, if it can be where it can be taken.
+
+    Raises:
+        SkillError: There is no place, or no way.
+    """
+    last = SkillError(Stage.STANCE, f"there is no place to stand before {name}")
+    focus = Pose(cell.centre(name))
+    options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
+    found = [c for c, _ in zip(candidates(cell, options, focus, cell.front(name)), range(2 + attempt), strict=False)]
+    places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
+    here = cell.robot.torso()
+    clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
+    places += [(base, here) for base, _ in zip(clear, range(_MOST_STANCES), strict=False)]
+    for base, torso in places:
+        try:
+            get_to(cell, base, torso)
+        except SkillError as error:
+            last = error
+            continue
+        cell.robot.look_at(focus.position)
+        if cell.reach(name) <= REACH:
+            return f"{name} is {cell.reach(name):.2f} m away"
+        last = SkillError(Stage.EFFECT, f"{name} is {cell.reach(name):.2f} m away")
+    raise last
+
+
+def wait(cell: Cell, seconds: float) -> str:
+    """Let time pass."""
+    cell.sim.step(round(seconds * STEPS_PER_SECOND))
+    return f"{seconds:g} s went by"

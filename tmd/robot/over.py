@@ -1,0 +1,172 @@
+"""Skills that hold one thing over another: tip, dip, squeeze."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import acos, cos, degrees, pi, sin
+
+from tmd.robot.cell import Cell
+from tmd.robot.outcome import SkillError, Stage
+from tmd.robot.pose import Pose, Vector
+from tmd.robot.reach import Links, Option, follow, reach
+
+ABOVE = 0.06
+"""Metres between a rim and the mouth that is tipped over it."""
+TIPPED = (1.9, 1.5)
+"""Radians by which a thing is tipped, best first; a right angle is 1.57."""
+_SHAKEN = 0.5
+"""Radians by which what hangs from the hand is swung."""
+DEEP = 0.02
+"""Metres that a spoon goes below a rim."""
+_ENOUGH = 1.2
+"""Radians from which contents run out."""
+_BESIDE = 0.04
+"""Metres that the mouth may be beside the rim of what it is held over."""
+_HEADINGS = 12
+_STAGES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Mouth:
+    """Where contents leave a thing.
+
+    Attributes:
+        at: In the thing's frame.
+        out: The direction in which they leave when it is turned down, in the thing's frame.
+        turn: The axis about which it is tipped, in the thing's frame.
+    """
+
+    at: Vector
+    out: Vector
+    turn: Vector
+
+
+def mouth(cell: Cell, item: str, side: str) -> Mouth:
+    """The mouth of what is held.
+
+    It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the top.
+    """
+    low, high = cell.scene.size(item)
+    size = [b - a for a, b in zip(low, high, strict=True)]
+    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+    longest = max(range(3), key=lambda axis: size[axis])
+    tool = cell.in_tool(side, item).inverse()
+    if longest == 2 or size[longest] < 2.2 * size[2]:
+        hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
+        if hangs:
+            return Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
+        return Mouth((middle[0], middle[1], high[2]), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+    far = high if tool.position[longest] < middle[longest] else low
+    at, turn = list(middle), [0.0, 0.0, 0.0]
+    at[longest] = far[longest] - 0.015 * (1 if far is high else -1)
+    turn[longest] = 1.0
+    return Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]))
+
+
+def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = False) -> str:
+    """Hold ``item`` over ``target`` and tip it.
+
+    Raises:
+        SkillError: It is not held, cannot be held there, or its mouth was not over the target.
+    """
+    side = _side(cell, item)
+    how = mouth(cell, item, side)
+    grip = cell.in_tool(side, item).inverse()
+    over = _over(cell, target, ABOVE)
+    options = []
+    for angle in TIPPED if how.out[2] > 0 else (_SHAKEN, 0.0):
+        for number in range(_HEADINGS):
+            stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+            poses = tuple(_held_at(stood, how, over, angle * k / _STAGES) * grip for k in range(_STAGES + 1))
+            options.append(Option(side, poses, _hands(cell, item), number))
+    chosen = reach(cell, options, Pose(over), cell.front(target), attempt)
+    if squeezed:
+        cell.robot.close_gripper(side, _SQUEEZE)
+    here = cell.sim.pose(cell.scene.bodies[item])
+    tilt = _tilt(here, how)
+    beside = _beside(cell, here.apply(how.at), target)
+    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
+    cell.robot.tuck()
+    said = (
+        f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
+    )
+    if tilt < _ENOUGH or beside > _BESIDE:
+        raise SkillError(Stage.EFFECT, said)
+    return said.replace("its mouth 0.0 cm beside the rim of", "its mouth over")
+
+
+_SQUEEZE = 40.0
+
+
+def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
+    """Dip ``item`` into ``target`` and bring it out again.
+
+    Raises:
+        SkillError: It is not held, cannot be brought there, or did not get in.
+    """
+    side = _side(cell, item)
+    how = mouth(cell, item, side)
+    grip = cell.in_tool(side, item).inverse()
+    above, inside = _over(cell, target, 0.05), _over(cell, target, -DEEP)
+    ignore = _hands(cell, item, target)
+    options = []
+    for number in range(_HEADINGS):
+        for lean in (0.9, 0.5, 1.3):
+            stood = _leaning(Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS), how, lean)
+            poses = tuple(_held_at(stood, how, at, 0.0) * grip for at in (above, inside))
+            options.append(Option(side, poses, ignore, number))
+    chosen = reach(cell, options, Pose(above), cell.front(target), attempt)
+    at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
+    beside, below = _beside(cell, at, target), cell.top(target) - at[2]
+    follow(cell, side, (chosen.poses[0],), chosen.ignore)
+    cell.robot.tuck()
+    said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
+    if below < -0.01 or beside > _BESIDE:
+        raise SkillError(Stage.EFFECT, said)
+    return said
+
+
+def _side(cell: Cell, item: str) -> str:
+    side = cell.side_of(item)
+    if side is None:
+        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+    return side
+
+
+def _over(cell: Cell, target: str, height: float) -> Vector:
+    x, y, _ = cell.centre(target)
+    return (x, y, cell.top(target) + height)
+
+
+def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
+    """The thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
+    half = angle / 2
+    x, y, z = how.turn
+    turned = stood * Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
+    offset = turned.rotate(how.at)
+    return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
+
+
+def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
+    """The frame with the mouth's end lower than the rest, by ``angle``."""
+    x, y, _ = how.turn
+    # across the long side; towards the mouth
+    towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
+    axis = (-y * towards, x * towards, 0.0)
+    half = angle / 2
+    return stood * Pose((0.0, 0.0, 0.0), (axis[0] * sin(half), axis[1] * sin(half), 0.0, cos(half)))
+
+
+def _tilt(here: Pose, how: Mouth) -> float:
+    """Radians between the mouth's direction and straight up."""
+    return acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))
+
+
+def _beside(cell: Cell, point: Vector, target: str) -> float:
+    """How far outside of the box round ``target`` a point is, on the floor plan."""
+    low, high = cell.sim.extents(*cell.scene.place(target))
+    return max(low[0] - point[0], point[0] - high[0], low[1] - point[1], point[1] - high[1], 0.0)
+
+
+def _hands(cell: Cell, *names: str) -> Links:
+    return frozenset((cell.scene.place(name)[0], None) for name in names)

@@ -1,0 +1,33 @@
+"""From an environment to a robot that stands in it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from tmd.pddl.model import State
+from tmd.robot.cell import Cell
+from tmd.robot.pr2 import Pr2
+from tmd.robot.scene import Scene
+from tmd.robot.simulator import Simulator
+from tmd.robot.skill_file import Skills
+
+
+def show_state(scene: Scene, skills: Skills, state: State) -> None:
+    """Let contents and signs look as ``state`` says."""
+    contents: dict[str, list[str]] = {}
+    for atom in sorted(state):
+        if atom.predicate == skills.contents and len(atom.args) == 2:
+            contents.setdefault(atom.args[0], []).append(atom.args[1])
+    for name in scene.items():
+        scene.show(name, contents.get(name, ()))
+    for predicate in skills.signs:
+        shown = {atom.args[0] for atom in state if atom.predicate == predicate}
+        for name in scene.names():
+            scene.sign(name, predicate, name in shown)
+
+
+def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool) -> Cell:
+    """A robot in the middle of a scene."""
+    rng = np.random.default_rng(seed)
+    robot = Pr2(sim, kinematic=kinematic, rng=rng)
+    return Cell(sim, robot, scene, rng)
