@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 
+from tmd.robot.features import Frame, Grip
 from tmd.robot.look import Look, rows
-from tmd.robot.model import ROOT, Frame, Grip, Model
+from tmd.robot.model import ROOT, Model
 from tmd.robot.pose import Vector
 
 INTO, DOWN, LEFT, UP = (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from tmd.robot.features import Frame, Grip
 from tmd.robot.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts
 from tmd.robot.look import Look, Parts, rows
-from tmd.robot.model import ROOT, Frame, Grip, Model
+from tmd.robot.model import ROOT, Model
 
 WALL = 0.02
 ROWS = (0.13, 0.29)
@@ -130,15 +131,15 @@ def drawer(model: Model, look: Look, parts: Parts) -> None:
         model.box((x + 0.025, 0.0, level + (low - 0.08) / 4), (0.02, 0.16, 0.014), look.accent, solid=False)
     inner = depth - DOOR - 0.03
     model.link("tray", kind="prismatic", axis=(1.0, 0.0, 0.0), limits=(0.0, inner - 0.02), friction=5.0, mass=2.0)
-    side, floor, rim = y - 0.028, low + 0.02, low + 0.10
-    model.slab((x - inner, -side, floor - 0.012), (x, side, floor), "pine", link="tray")
+    wall, floor, rim = y - 0.028, low + 0.02, low + 0.10
+    model.slab((x - inner, -wall, floor - 0.012), (x, wall, floor), "pine", link="tray")
     model.slab((x, -y + 0.01, low + 0.004), (x + DOOR, y - 0.01, high - 0.004), look.colour, link="tray")
-    model.slab((x - inner, -side, floor), (x - inner + 0.012, side, rim), "pine", link="tray")
+    model.slab((x - inner, -wall, floor), (x - inner + 0.012, wall, rim), "pine", link="tray")
     for sign in (-1, 1):
-        model.box((x - inner / 2, sign * (side - 0.006), (floor + rim) / 2), (inner, 0.012, rim - floor), "pine",
+        model.box((x - inner / 2, sign * (wall - 0.006), (floor + rim) / 2), (inner, 0.012, rim - floor), "pine",
                   link="tray")  # fmt: skip
-    spots = rows(x, 2 * side - 0.2, (0.15, 0.29))
-    model.region("in", (x - inner, -side, floor), (x, side, high), DOWN, spots, link="tray")
+    spots = rows(x, 2 * wall - 0.2, (0.15, 0.29))
+    model.region("in", (x - inner, -wall, floor), (x, wall, high), DOWN, spots, link="tray")
     face = x + DOOR
     middle = (low + high) / 2
     bar_handle(model, "tray", (face + STAND_OFF, 0.0, middle), 0.2, look.accent, upright=False, face=face)

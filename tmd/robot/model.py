@@ -10,89 +10,15 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import numpy as np
-
 from tmd.robot.colours import rgba
-from tmd.robot.pose import Pose, Vector, quaternion_of
+from tmd.robot.cube import CUBE
+from tmd.robot.features import Grasp, Grip, Lamp, Region
+from tmd.robot.pose import Vector
 
 ROOT = ""
 """The name of the whole object among its parts and links."""
-CUBE = "cube.obj"
-"""The mesh that boxes are drawn by: a unit cube with a normal for every face. Boxes drawn as boxes are shaded round."""
 _INVISIBLE = (0.0, 0.0, 0.0, 0.0)
 _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0, 0.0, 0.0)}
-
-
-@dataclass(frozen=True, slots=True)
-class Frame:
-    """A position and the directions of the tool there: ``approach`` is the tool's +x, ``across`` its +y (fingers)."""
-
-    position: Vector
-    approach: Vector
-    across: Vector
-
-    def pose(self) -> Pose:
-        """The same as a pose."""
-        x, y = np.array(self.approach), np.array(self.across)
-        return Pose(self.position, quaternion_of(np.stack([x, y, np.cross(x, y)], axis=1)))
-
-
-@dataclass(frozen=True, slots=True)
-class Region:
-    """A space where items may be: on, in or next to a part.
-
-    Attributes:
-        part: The part (``ROOT``: the whole) whose region it is.
-        relation: ``on``, ``in`` or ``next_to``.
-        link: The link it moves with.
-        low: Lower corner of the box; its z is where things stand.
-        high: Upper corner.
-        entry: Unit vector along which the gripper comes in.
-        spots: Where items stand: (x, y, z, yaw), those best to reach first.
-        overhang: How far items may stick out at the front; ``inf``: on all sides, as a pot does over a burner.
-    """
-
-    part: str
-    relation: str
-    link: str
-    low: Vector
-    high: Vector
-    entry: Vector
-    spots: tuple[tuple[float, float, float, float], ...]
-    overhang: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Grip:
-    """Where the robot works a joint: see :class:`tmd.robot.scene.Handle`; ``tool`` is in the link's frame."""
-
-    part: str
-    kind: str
-    link: str
-    tool: Frame
-    opening: float
-    closed: float
-    open: float
-    settings: tuple[tuple[str, float], ...] = ()
-
-
-@dataclass(frozen=True, slots=True)
-class Grasp:
-    """How to take an item: the tool in the item's frame, and how wide the fingers stand before they close (metres)."""
-
-    tool: Frame
-    opening: float
-
-
-@dataclass(frozen=True, slots=True)
-class Lamp:
-    """A link whose colour shows a state of a part."""
-
-    part: str
-    predicate: str
-    link: str
-    on: tuple[float, float, float, float]
-    off: tuple[float, float, float, float]
 
 
 @dataclass(slots=True)
@@ -314,25 +240,3 @@ def _bounds(boxes: Sequence[tuple[Vector, Vector]]) -> tuple[Sequence[float], Se
 
 def _words(values: Sequence[float]) -> str:
     return " ".join(f"{value:.5f}" for value in values)
-
-
-def cube() -> str:
-    """The text of :data:`CUBE`."""
-    lines, faces = [], []
-    for axis in range(3):
-        for sign in (-1, 1):
-            first = len(lines) + 1
-            for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1)):
-                corner = [0.0, 0.0, 0.0]
-                corner[axis] = 0.5 * sign
-                corner[(axis + 1) % 3], corner[(axis + 2) % 3] = 0.5 * a, 0.5 * b
-                lines.append(f"v {_words(corner)}")
-            order = range(first, first + 4) if sign > 0 else range(first + 3, first - 1, -1)
-            normal = [0.0, 0.0, 0.0]
-            normal[axis] = float(sign)
-            faces.append((normal, list(order)))
-    lines += [f"vn {_words(normal)}" for normal, _ in faces]
-    for number, (_, (a, b, c, d)) in enumerate(faces, start=1):
-        lines.append(f"f {a}//{number} {b}//{number} {c}//{number}")
-        lines.append(f"f {a}//{number} {c}//{number} {d}//{number}")
-    return "\n".join([*lines, ""])

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 from tmd.robot.appliances import SIDE
+from tmd.robot.features import Frame, Grip
 from tmd.robot.fittings import BAR, INTO, LEFT, STAND_OFF, UP, bar_handle, button, door, fronts, knob, side_board
 from tmd.robot.furniture import basket
 from tmd.robot.look import Look, Parts
-from tmd.robot.model import ROOT, Frame, Grip, Model
+from tmd.robot.model import ROOT, Model
 
 
 def tv(model: Model, look: Look, parts: Parts) -> None:

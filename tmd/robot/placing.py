@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from numpy.random import Generator
 
 from tmd.errors import TmdError
+from tmd.robot.features import Region
 from tmd.robot.layout import Footprint, Room, apart, arrange, floor_spots, inside
-from tmd.robot.model import ROOT, Region
+from tmd.robot.model import ROOT
 from tmd.robot.pose import Pose
 from tmd.robot.shapes import Blueprint
 from tmd.world.environment import Environment

@@ -13,8 +13,10 @@ from numpy.random import Generator
 
 from tmd.errors import TmdError
 from tmd.robot.colours import mixed
+from tmd.robot.cube import CUBE, cube
+from tmd.robot.features import Grasp, Grip, Region
 from tmd.robot.layout import Footprint, Room, apart, floor_spots, inside
-from tmd.robot.model import CUBE, ROOT, Grasp, Grip, Region, cube
+from tmd.robot.model import ROOT
 from tmd.robot.placing import TURNS, Placing
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.room import build_room

@@ -8,7 +8,6 @@ box, by its PDDL type.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import cache
 
 from tmd.errors import TmdError
 from tmd.pddl.syntax import nearest
@@ -169,9 +168,3 @@ class Shapes:
         while line[-1] in self._parents:
             line.append(self._parents[line[-1]])
         return line
-
-
-@cache
-def shapes_of(folder: DomainFolder) -> Shapes:
-    """The shapes of a domain, read once."""
-    return Shapes(folder)

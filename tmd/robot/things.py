@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 
+from tmd.robot.features import Frame, Grip
 from tmd.robot.fittings import TIP
 from tmd.robot.look import Look, Parts
-from tmd.robot.model import Frame, Grip, Model
+from tmd.robot.model import Model
 from tmd.robot.vessels import bar_grasps, grasp, post_grasps
 
 _LOW = TIP + 0.004

@@ -10,9 +10,10 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
+from tmd.robot.features import Frame, Grasp, Grip
 from tmd.robot.fittings import DOWN, INTO, LEFT, TIP
 from tmd.robot.look import Look, Parts
-from tmd.robot.model import ROOT, Frame, Grasp, Grip, Model
+from tmd.robot.model import ROOT, Model
 from tmd.robot.pose import Vector
 
 CLEARANCE = 0.02
