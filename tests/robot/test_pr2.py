@@ -135,6 +135,19 @@ def test_collisions_are_named(sim: Simulator, box: Box) -> None:
     assert any(body == robot.body for _, body, _, _ in crossed)
 
 
+def test_many_positions_are_checked_as_each_of_them_is(sim: Simulator, box: Box) -> None:
+    table = box((0.6, 1.2, 0.8), (0.9, 0, 0))
+    robot = robot_in(sim)
+    high, low = (robot.solve("right", Pose((0.65, -0.2, height))) for height in (0.95, 0.79))
+    arms = [*high[:10], *low[:10]]
+    verdicts = robot.clear("right", arms)
+    assert verdicts == [not robot.collides(side="right", arm=arm) for arm in arms]
+    assert any(verdicts[:10])
+    assert not any(verdicts[10:])
+    assert any(robot.clear("right", arms, ignore=[(table, None)])[10:])
+    assert robot.clear("right", []) == []
+
+
 def test_the_head_finds_what_is_in_view(sim: Simulator, box: Box) -> None:
     item = box((0.1, 0.1, 0.1), (1.5, 1.0, 0.7), mass=0.1)
     screen = box((0.05, 0.5, 2.0), (-1.0, 0, 0))

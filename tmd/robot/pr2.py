@@ -428,6 +428,34 @@ class Pr2:
         with Checker(self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin) as checker:
             return checker.collisions(())
 
+    def clear(
+        self,
+        side: str,
+        arms: Sequence[Sequence[float]],
+        *,
+        base: tuple[float, float, float] | None = None,
+        torso: float | None = None,
+        held: Collection[Held] | None = None,
+        ignore: Ignored = (),
+        margin: float = 0.0,
+    ) -> list[bool]:
+        """For many positions of one arm, whether they touch nothing: one call is much faster than :meth:`collides`.
+
+        The arguments are those of :meth:`collides`.
+        """
+        if not arms:
+            return []
+        with Checker(
+            self,
+            self.arm_joints[side],
+            positions=self.elsewhere(base, torso),
+            arm=side,
+            helds=None if held is None else list(held),
+            ignore=ignore,
+            margin=margin,
+        ) as checker:
+            return [checker.free(np.array([arm], dtype=float)) for arm in arms]
+
 
 def finger_gap(angle: float) -> float:
     """Metres between the finger tips for an angle of the finger joints; measured on the model, negative is closed."""
