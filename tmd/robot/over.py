@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from math import acos, cos, degrees, pi, sin
+from itertools import product
+from math import acos, cos, degrees, hypot, pi, sin
 
 from tmd.robot.cell import Cell
 from tmd.robot.outcome import SkillError, Stage
@@ -12,7 +14,7 @@ from tmd.robot.reach import Links, Option, follow, reach
 
 ABOVE = 0.06
 """Metres between a rim and the mouth that is tipped over it."""
-TIPPED = (1.9, 1.5)
+TIPPED = (1.8, 1.3)
 """Radians by which a thing is tipped, best first; a right angle is 1.57."""
 _SHAKEN = 0.5
 """Radians by which what hangs from the hand is swung."""
@@ -20,19 +22,21 @@ DEEP = 0.02
 """Metres that a spoon goes below a rim."""
 _ENOUGH = 1.2
 """Radians from which contents run out."""
+_RIM = 0.85
+"""The height of a rim, as a part of the height of the vessel with its handle."""
 _BESIDE = 0.04
 """Metres that the mouth may be beside the rim of what it is held over."""
-_HEADINGS = 12
+_HEADINGS = 8
 _STAGES = 4
 
 
 @dataclass(frozen=True, slots=True)
 class Mouth:
-    """Where contents leave a thing.
+    """Where contents leave a thing that is tipped.
 
     Attributes:
         at: In the thing's frame.
-        out: The direction in which they leave when it is turned down, in the thing's frame.
+        out: The direction that must point down for contents to leave, in the thing's frame.
         turn: The axis about which it is tipped, in the thing's frame.
     """
 
@@ -41,10 +45,11 @@ class Mouth:
     turn: Vector
 
 
-def mouth(cell: Cell, item: str, side: str) -> Mouth:
-    """The mouth of what is held.
+def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
+    """The mouths of what is held, best first.
 
-    It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the top.
+    It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the rim: on
+    either side of the wrist, towards the hand and away from it.
     """
     low, high = cell.scene.size(item)
     size = [b - a for a, b in zip(low, high, strict=True)]
@@ -54,13 +59,30 @@ def mouth(cell: Cell, item: str, side: str) -> Mouth:
     if longest == 2 or size[longest] < 2.2 * size[2]:
         hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
         if hangs:
-            return Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
-        return Mouth((middle[0], middle[1], high[2]), (0.0, 0.0, 1.0), (0.0, 1.0, 0.0))
+            return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
+        return [_rim(low, high, axis) for axis in _axes(tool, middle)]
     far = high if tool.position[longest] < middle[longest] else low
     at, turn = list(middle), [0.0, 0.0, 0.0]
     at[longest] = far[longest] - 0.015 * (1 if far is high else -1)
     turn[longest] = 1.0
-    return Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]))
+    return [Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]))]
+
+
+def _rim(low: Vector, high: Vector, axis: Vector) -> Mouth:
+    """The point of the rim that is lowest when a vessel is tipped about ``axis``."""
+    x, y = axis[1], -axis[0]
+    at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), _RIM * high[2])
+    return Mouth(at, (0.0, 0.0, 1.0), axis)
+
+
+def _axes(tool: Pose, middle: Sequence[float]) -> list[Vector]:
+    """To either side by a roll of the wrist, then away from the hand and towards it."""
+    x, y = middle[0] - tool.position[0], middle[1] - tool.position[1]
+    if hypot(x, y) < 0.01:  # the hand is above: how it is turned decides
+        x, y, _ = tool.rotate((0.0, 1.0, 0.0))
+    size = hypot(x, y) or 1.0
+    x, y = x / size, y / size
+    return [(x, y, 0.0), (-x, -y, 0.0), (-y, x, 0.0), (y, -x, 0.0)]
 
 
 def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = False) -> str:
@@ -70,16 +92,16 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         SkillError: It is not held, cannot be held there, or its mouth was not over the target.
     """
     side = _side(cell, item)
-    how = mouth(cell, item, side)
     grip = cell.in_tool(side, item).inverse()
     over = _over(cell, target, ABOVE)
-    options = []
-    for angle in TIPPED if how.out[2] > 0 else (_SHAKEN, 0.0):
-        for number in range(_HEADINGS):
-            stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
-            poses = tuple(_held_at(stood, how, over, angle * k / _STAGES) * grip for k in range(_STAGES + 1))
-            options.append(Option(side, poses, _hands(cell, item), number))
+    options, known = [], mouths(cell, item, side)
+    for angle, (index, how), number in product(TIPPED, enumerate(known), range(_HEADINGS)):
+        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+        turned = angle if how.out[2] > 0 else _SHAKEN
+        poses = tuple(_over_rim(stood, how, over, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
+        options.append(Option(side, poses, _hands(cell, item), index))
     chosen = reach(cell, options, Pose(over), cell.front(target), attempt)
+    how = known[chosen.spot]
     if squeezed:
         cell.robot.close_gripper(side, _SQUEEZE)
     here = cell.sim.pose(cell.scene.bodies[item])
@@ -105,7 +127,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
     side = _side(cell, item)
-    how = mouth(cell, item, side)
+    how = mouths(cell, item, side)[0]
     grip = cell.in_tool(side, item).inverse()
     above, inside = _over(cell, target, 0.05), _over(cell, target, -DEEP)
     ignore = _hands(cell, item, target)
@@ -145,6 +167,12 @@ def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
     turned = stood * Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
     offset = turned.rotate(how.at)
     return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
+
+
+def _over_rim(stood: Pose, how: Mouth, over: Vector, angle: float) -> Pose:
+    """As :func:`_held_at`, but as much higher as the thing reaches below its mouth: it comes down as it is tipped."""
+    below = max(0.0, how.at[2] * cos(angle))
+    return _held_at(stood, how, (over[0], over[1], over[2] + below), angle)
 
 
 def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:

@@ -28,12 +28,16 @@ TURNS = (0.0, 0.35, -0.35)
 """Radians that the base is turned away from what it faces, so that a shoulder does."""
 ABOVE_HAND = (0.10, 0.32, -0.1)
 """Metres from the hand's height to the shoulder's, best first."""
-MOST_QUESTIONS = 2500
+MOST_QUESTIONS = 500
 """So many postures are asked for before a search ends."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
 _REACH = (0.25, 0.95)
 """Metres from the shoulder to the wrist's tool that are worth asking about."""
+_POSTURES = 8
+"""So many postures of one pose are looked at."""
+_BACK = -0.25
+"""Least cosine between the way the hand points and the way from the shoulder to it."""
 _SHOULDER = 0.188
 _SHOULDER_HEIGHT = 0.790675
 
@@ -112,16 +116,14 @@ def candidates(cell: Cell, options: Sequence[Option], focus: Pose, front: float 
         for torso in heights:
             for option in (o for t, o in near if t == torso):
                 asked += 1
-                if _has_postures(cell, option, base, torso):
+                if _possible(cell, option, base, torso):
                     yield Candidate(option, base, torso)
                     break
         if asked > MOST_QUESTIONS:
             return
 
 
-def stances(
-    cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = DISTANCES
-) -> Iterator[Base]:
+def stances(cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = DISTANCES) -> Iterator[Base]:
     """Where to stand: here, then round the focus."""
     x, y, _ = focus.position
     here = cell.robot.base()
@@ -178,33 +180,28 @@ def dense(poses: Sequence[Pose]) -> list[Pose]:
 
 
 def _take(cell: Cell, candidate: Candidate, stop: int | None) -> None:
-    option = candidate.option
+    option, side = candidate.option, candidate.option.side
     get_to(cell, candidate.base, candidate.torso)
-    goals = cell.robot.solve(option.side, option.poses[0])
-    clear = [q for q in goals if not cell.robot.collides(side=option.side, arm=q, ignore=option.ignore)]
-    for goal in clear[:3]:
-        path = plan_arm(cell.robot, option.side, goal, ignore=option.ignore, rng=cell.rng)
-        if path is not None:
-            break
-    else:
-        raise SkillError(Stage.PATH, f"no way for the {option.side} hand to {_place(option.poses[0])}")
-    if not cell.robot.move_arm(option.side, path):
-        raise SkillError(Stage.EXECUTION, f"the {option.side} hand did not get to {_place(option.poses[0])}")
+    rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
+    if rows is None:
+        raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
+    path = plan_arm(cell.robot, side, rows[0], ignore=option.ignore, rng=cell.rng)
+    if path is None:
+        raise SkillError(Stage.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
+    if not cell.robot.move_arm(side, path):
+        raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(option.poses[0])}")
     if option.poses[1:stop]:
-        follow(cell, option.side, option.poses[1:stop], option.ignore)
+        follow(cell, side, option.poses[1:stop], option.ignore)
 
 
-def _has_postures(cell: Cell, option: Option, base: Base, torso: float) -> bool:
-    """Whether the first and the last pose have collision-free postures."""
-    ends = (option.poses[-1], option.poses[0]) if len(option.poses) > 1 else option.poses
-    for pose in ends:
-        found = cell.robot.solve(option.side, pose, base=base, torso=torso)
-        if not any(
-            not cell.robot.collides(side=option.side, arm=q, base=base, torso=torso, ignore=option.ignore)
-            for q in found[:4]
-        ):
-            return False
-    return all(cell.robot.solve(option.side, pose, base=base, torso=torso) for pose in option.poses[1:-1])
+def _possible(cell: Cell, option: Option, base: Base, torso: float) -> bool:
+    """Whether there is a posture for the last pose, and a motion through all of them."""
+    robot, side = cell.robot, option.side
+    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[:_POSTURES]
+    if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
+        return False
+    poses = dense(option.poses)
+    return plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso) is not None
 
 
 def _near_enough(option: Option, base: Base, torso: float) -> bool:
@@ -216,8 +213,17 @@ def _near_enough(option: Option, base: Base, torso: float) -> bool:
         y - 0.05 * sin(theta) + out * cos(theta),
         _SHOULDER_HEIGHT + torso,
     )
-    aways = (sqrt(sum((a - b) ** 2 for a, b in zip(p.position, shoulder, strict=True))) for p in option.poses)
-    return all(_REACH[0] < away < _REACH[1] for away in aways)
+    return all(_handy(pose, shoulder) for pose in option.poses)
+
+
+def _handy(pose: Pose, shoulder: tuple[float, float, float]) -> bool:
+    """Whether a hand can be there: not too far, and not pointing back at the shoulder."""
+    x, y, z = (a - b for a, b in zip(pose.position, shoulder, strict=True))
+    away = sqrt(x * x + y * y + z * z)
+    if not _REACH[0] < away < _REACH[1]:
+        return False
+    ahead = pose.rotate((1.0, 0.0, 0.0))
+    return (x * ahead[0] + y * ahead[1] + z * ahead[2]) / away > _BACK
 
 
 def _heights(cell: Cell, hand: float) -> list[float]:
