@@ -20,11 +20,12 @@ FLOORS = {
     "energy": 4,
     "ground": 4.5,
     "evaluation": 5,
+    "robot": 5,
     "cli": 6,
 }
 HEAVY = {
     "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
-    "matplotlib", "jinja2", "scipy", "distributed", "dask",
+    "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
 }  # fmt: skip
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

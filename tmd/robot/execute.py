@@ -117,7 +117,9 @@ class Executor:
         now = self.observer.after(state, instruction, happened=not failure)
         mismatches = self.observer.mismatches(predicted, now)
         confirmed = tuple(sorted((predicted - state) & now))
-        step = Step(instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock)
+        step = Step(
+            instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock, now
+        )
         self._steps.append(step)
         if self.watch is not None:
             self.watch(step)

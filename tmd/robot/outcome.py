@@ -53,6 +53,7 @@ class Step:
         mismatches: The facts that are not as predicted.
         begin: The simulation's step at the start.
         end: And at the end.
+        state: What was observed then.
     """
 
     instruction: Instruction
@@ -63,6 +64,7 @@ class Step:
     mismatches: tuple[Mismatch, ...]
     begin: int
     end: int
+    state: State
 
 
 class Status(StrEnum):
