@@ -41,7 +41,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.robot.hold(side, body)
     cell.in_hand[side] = item
     away = _out(cell, below)
-    _leave(cell, side, away, _links(cell, item, *(() if below is None else (below[0],))))
+    _leave(cell, side, away, _links(cell, item))
     cell.robot.tuck()
     if cell.gap(side, item) > 0.03:
         raise SkillError(Stage.EFFECT, f"{item} slipped out of the {side} hand")
@@ -77,7 +77,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     focus = options[0].poses[-1] * cell.in_tool(side, item)
     reach(cell, options, focus, cell.front(target), attempt)
     _release(cell, side, item)
-    _leave(cell, side, None, _links(cell, item, target))
+    _leave(cell, side, None, _links(cell, item))
     cell.robot.tuck()
     now = cell.support(item)
     if now != (target, relation):
@@ -90,7 +90,7 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
     """Ways to put an item down with the hand that holds it."""
     grip = cell.in_tool(side, item).inverse()
     back = tuple(-value * BEFORE for value in cell.scene.entry(target, relation))
-    links = _links(cell, item, target)
+    links = _links(cell, item)
     found = []
     for number, spot in enumerate(cell.scene.support(target, relation, item)[:6]):
         for turn in range(_TURNS):

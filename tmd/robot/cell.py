@@ -160,23 +160,35 @@ class Cell:
                 self.sim.unweld(pin)
 
     @contextmanager
-    def yielding(self, side: str, handle: Handle) -> Iterator[None]:
+    def pushed(self, side: str, handle: Handle) -> Iterator[None]:
         """While a finger pushes: contact under physics; in the kinematic mode the joint goes with the finger."""
         if not self.robot.kinematic:
             yield
             return
         with self._following(handle, lambda: self.robot.tool(side)):
             yield
-        self.sim.set_joint(handle.body, handle.index, handle.closed)
+
+    def come_back(self, handle: Handle) -> None:
+        """In the kinematic mode, let a button that is pushed no longer come back, as its spring does it else."""
+        if self.robot.kinematic:
+            self.sim.set_joint(handle.body, handle.index, handle.closed)
 
     @contextmanager
     def _following(self, handle: Handle, tool: Callable[[], Pose]) -> Iterator[None]:
         start, at = tool(), self.sim.joint_position(handle.body, handle.index)
+        frame = self.sim.pose(handle.body, handle.index)
+        inside = [
+            (self.scene.bodies[item], frame.inverse() * self.sim.pose(self.scene.bodies[item]))
+            for item in self.scene.items()
+            if (place := self.scene.supported(item)) and self.scene.place(place[0]) == (handle.body, handle.index)
+        ]
         low, high = sorted((handle.closed, handle.open, *handle.settings.values()))[:: max(1, len(handle.settings) + 1)]
 
         def follow(sim: Simulator) -> None:
             moved = at + _along(handle, start, tool())
             sim.set_joint(handle.body, handle.index, min(max(moved, low), high))
+            for body, pose in inside:
+                sim.set_pose(body, sim.pose(handle.body, handle.index) * pose)
 
         self.sim.add_watcher(follow)
         try:

@@ -78,7 +78,7 @@ def door(
                    link=part, solid=False)  # fmt: skip
     at = width - 0.035
     if latched:
-        tool = Frame((DOOR - TIP, at - 0.03, height), INTO, LEFT)
+        tool = Frame((DOOR + TIP, at - 0.03, height), INTO, LEFT)
         model.grips.append(Grip(opens, "flap", part, tool, 0.0, 0.0, WIDE_OPEN))
         return
     bar_handle(model, part, (DOOR + STAND_OFF, at, height), 0.2, look.accent, upright=True, face=DOOR)
@@ -94,7 +94,7 @@ def button(model: Model, part: str, look: Look, face: Vector, *, lamp: tuple[str
         limits=(0.0, 0.012), spring=6.0, mass=0.03,
     )  # fmt: skip
     model.box((-depth / 2, 0.0, 0.0), (depth, width, height), look.colour, link=part)
-    model.grips.append(Grip(part, "button", part, Frame((-TIP, 0.0, 0.0), INTO, LEFT), 0.0, 0.0, 0.01))
+    model.grips.append(Grip(part, "button", part, Frame((TIP, 0.0, 0.0), INTO, LEFT), 0.0, 0.0, 0.01))
     if lamp is not None:
         name = f"{part}_lamp"
         model.link(name, part=part)

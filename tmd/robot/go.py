@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from math import atan2, degrees
+from contextlib import suppress
+from math import atan2, cos, degrees, sin
 
 from tmd.robot.carry import pick_options
 from tmd.robot.cell import Cell
@@ -13,6 +14,8 @@ from tmd.robot.reach import DISTANCES, Base, candidates, get_to, stances
 from tmd.robot.simulator import STEPS_PER_SECOND
 
 _MOST_STANCES = 8
+_BACKWARDS = (0.45, 0.3, 0.15)
+"""Metres that a robot steps back."""
 _FARTHER = (*DISTANCES, 1.0, 1.1)
 
 
@@ -79,6 +82,18 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
             return f"{name} is {cell.reach(name):.2f} m away"
         last = SkillError(Stage.EFFECT, f"{name} is {cell.reach(name):.2f} m away")
     raise last
+
+
+def step_back(cell: Cell) -> None:
+    """Make room for a door, if there is any behind the robot."""
+    x, y, theta = cell.robot.base()
+    for away in _BACKWARDS:
+        base = (x - away * cos(theta), y - away * sin(theta), theta)
+        if cell.robot.collides(base=base):
+            continue
+        with suppress(SkillError):
+            get_to(cell, base, cell.robot.torso())
+            return
 
 
 def wait(cell: Cell, seconds: float) -> str:

@@ -72,6 +72,10 @@ def _turned(tool: Pose, handle: Handle, angle: float) -> Pose:
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
     """Close the hand on the handle and move it along."""
     side = option.side
+    if handle.kind == "flap":  # it has no handle, and is pushed
+        with cell.pushed(side, handle):
+            follow(cell, side, option.poses[2:], option.ignore)
+        return
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, handle.body, handle.index):
         raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
@@ -105,11 +109,12 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     roll = 0.0 if chosen.poses[-1].angle(touch) < 0.1 else pi / 2
     cell.sim.add_watcher(farthest)
     try:
-        with cell.yielding(chosen.side, handle):
+        with cell.pushed(chosen.side, handle):
             follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
         touched = cell.robot.touches(chosen.side, handle.body, handle.index)
     finally:
         cell.sim.remove_watcher(farthest)
+    cell.come_back(handle)
     cell.retire(chosen.side, ignore)
     if not touched:
         raise SkillError(Stage.CONTACT, f"the finger does not touch {name}")

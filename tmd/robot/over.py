@@ -129,11 +129,12 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     side = _side(cell, item)
     how = mouths(cell, item, side)[0]
     grip = cell.in_tool(side, item).inverse()
-    above, inside = _over(cell, target, 0.05), _over(cell, target, -DEEP)
+    above = _over(cell, target, 0.05)
     ignore = _hands(cell, item, target)
     options = []
     for number in range(_HEADINGS):
-        for lean in (0.9, 0.5, 1.3):
+        for lean in (0.9, 0.5, 1.3, 0.2, 0.0):
+            inside = _over(cell, target, -DEEP * min(1.0, lean / 0.5))  # the rim is in the way of a level spoon
             stood = _leaning(Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS), how, lean)
             poses = tuple(_held_at(stood, how, at, 0.0) * grip for at in (above, inside))
             options.append(Option(side, poses, ignore, number))

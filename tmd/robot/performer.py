@@ -34,7 +34,10 @@ class RobotPerformer:
         said = self._do(task, gains, attempt)
         if task.skill == "push":
             seen = {p for p, sensor in self.skills.seen.items() if sensor == "joint"}
-            for name in sorted(a.args[0] for a in gains if a.predicate in seen and a.args[0] != task.object):
+            springs = sorted(a.args[0] for a in gains if a.predicate in seen and a.args[0] != task.object)
+            if springs:
+                go.step_back(self.cell)
+            for name in springs:
                 self.cell.spring(name)
         return said
 

@@ -1,0 +1,159 @@
+"""A film of a run, and a sheet with one picture for each instruction."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+from tmd.atomic import write_bytes
+from tmd.pddl.model import GroundAtom
+from tmd.robot.camera import FOV, Camera, View
+from tmd.robot.captions import Caption, Mark, Pixels, caption_height, filmstrip, under
+from tmd.robot.cell import Cell
+from tmd.robot.engine import STEPS_PER_SECOND
+from tmd.robot.movie_file import MovieFile
+from tmd.robot.outcome import Execution, Status, Step
+from tmd.robot.record import Title
+from tmd.robot.simulator import Simulator
+from tmd.robot.skill_file import Skills
+from tmd.robot.stage import TICK
+
+PICTURE = (640, 480)
+GIF_PICTURE = (480, 360)
+FPS = {".mp4": 15, ".gif": 10}
+_SHOWN = 0.8
+"""Seconds for which the checked facts of an instruction are shown."""
+_FAILURE_SHOWN = 2.0
+_OPENING, _ENDING = 1.5, 2.5
+_TILE = (400, 300)
+_FAR = ("look", "drive")
+"""Skills that are seen from afar."""
+
+
+def film_size(path: Path) -> tuple[int, int]:
+    """Width and height of a film with its captions."""
+    width, height = GIF_PICTURE if path.suffix == ".gif" else PICTURE
+    return width, height + caption_height(width)
+
+
+class Film:
+    """Takes the pictures of a run.
+
+    It listens to a :class:`tmd.robot.record.Recorder`. Between :meth:`begin` and :meth:`end` it takes pictures as
+    simulated time goes by.
+
+    Args:
+        cell: Robot and scene.
+        skills: What instructions are about.
+        movie: Where the film goes; None: no film, only the filmstrip.
+        strip: Whether there shall be a filmstrip.
+    """
+
+    def __init__(self, cell: Cell, skills: Skills, *, movie: MovieFile | None = None, strip: bool = False) -> None:
+        self._cell = cell
+        self._skills = skills
+        self._movie = movie
+        self._strip = strip
+        self._tiles: list[Pixels] = []
+        self._camera = Camera(cell)
+        self._caption = Caption("")
+        self._last: Pixels | None = None
+        if movie is not None:
+            self._size = GIF_PICTURE if movie.path.suffix == ".gif" else PICTURE
+            self._fps = FPS[movie.path.suffix]
+            self._time, self._shot = 0.0, 0.0
+            self._steps, self._ticks = cell.sim.steps, cell.sim.ticks
+            cell.sim.add_watcher(self._watch)
+
+    def open(self, title: str, said: str) -> None:
+        """Begin with the room and what was said."""
+        self._caption = Caption(title, note=said)
+        self._hold(_OPENING)
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins."""
+        task = self._skills.task(title.instruction)
+        names = self._cell.scene.names()
+        self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
+        self._caption = Caption(
+            str(title.instruction), _number(title), _said(title), tuple((str(atom), "expected") for atom in expected)
+        )
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over: the facts are marked, and the picture stays for a moment."""
+        facts: list[tuple[str, Mark]] = [(str(atom), "confirmed") for atom in step.confirmed]
+        facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
+        badge = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
+        measured = "; ".join(m.measured for m in step.mismatches)
+        note = step.failure or measured or step.evidence
+        # what is missing first: there is room for a few facts only
+        facts.sort(key=lambda fact: fact[1] == "confirmed")
+        self._caption = Caption(str(title.instruction), _number(title), _said(title), tuple(facts), note, badge)
+        self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
+        if self._strip:
+            self._tiles.append(under(self._picture(self._camera.best(), _TILE), self._caption))
+
+    def close(self, execution: Execution) -> None:
+        """End with how it ended."""
+        done = sum(not step.failure and not step.mismatches for step in execution.steps)
+        count = len(execution.steps)
+        repairs = f", the plan was mended {execution.repairs} times" if execution.repairs else ""
+        badge = "stopped" if execution.status is Status.STOPPED else ""
+        note = execution.reason or "Every effect of the plan is confirmed."
+        title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
+        self._caption = Caption(
+            title, said=f"{done} of {count} instructions went as predicted{repairs}", note=note, badge=badge
+        )
+        self._hold(_ENDING)
+
+    def write_strip(self, path: Path) -> None:
+        """Write the filmstrip of what was done so far; nothing where nothing was done.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        if not self._tiles:
+            return
+        data = io.BytesIO()
+        filmstrip(self._tiles).save(data, "PNG")
+        write_bytes(path, data.getvalue())
+
+    def _watch(self, sim: Simulator) -> None:
+        stepped = sim.steps - self._steps
+        ticked = sim.ticks - self._ticks - stepped
+        self._steps, self._ticks = sim.steps, sim.ticks
+        self._time += stepped / STEPS_PER_SECOND + ticked * TICK
+        if self._time >= self._shot - 1e-9:
+            self._shot += 1 / self._fps
+            self._shoot()
+
+    def _shoot(self) -> None:
+        assert self._movie is not None
+        self._last = self._picture(self._camera.glide(1 / self._fps), self._size)
+        self._movie.add(under(self._last, self._caption))
+
+    def _hold(self, seconds: float) -> None:
+        """Let the last picture stay, with the caption as it is now."""
+        if self._movie is None:
+            return
+        if self._last is None:
+            self._last = self._picture(self._camera.glide(0.0), self._size)
+        self._movie.add(under(self._last, self._caption), round(seconds * self._fps))
+
+    def _picture(self, view: View, size: tuple[int, int]) -> Pixels:
+        sim = self._cell.sim
+        return sim.picture(view.eye, view.target, *size, fov=FOV, shadow=sim.renderer != "tiny")
+
+
+def _number(title: Title) -> str:
+    return "repair" if title.repair else f"{title.number}/{title.of}"
+
+
+def _said(title: Title) -> str:
+    if title.repair:
+        return f"put in before instruction {title.number} of the plan"
+    order = title.order
+    if order is None or order.clause is None:
+        return ""
+    return f"clause {order.clause + 1}{', left unsaid, for' if order.latent else ':'} “{order.text}”"
