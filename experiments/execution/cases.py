@@ -1,0 +1,91 @@
+"""Which runs are asked for: demonstrations or plans, in which environments, with which faults."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from experiments.execution.record import Case
+from tmd.errors import TmdError
+from tmd.pddl.plan_file import parse_instruction, read_plan
+from tmd.robot.faults import Fault, opportunities
+from tmd.robot.skill_file import Skills
+from tmd.veil.corpus import Corpus
+
+ALL, ONE = "all", "one"
+
+
+def demonstrations(
+    corpus: Corpus, blank: Case, *, tasks: Collection[str], environments: Collection[str], every: int, each: int | None
+) -> list[Case]:
+    """A case for each demonstration.
+
+    Args:
+        corpus: The domain's.
+        blank: The case that is filled in.
+        tasks: Only these; all where there are none.
+        environments: Only these; all where there are none.
+        every: Of what is left, each so-manieth.
+        each: At most so many of one task in one environment.
+
+    Raises:
+        TmdError: There is no such task or environment.
+    """
+    for name in environments:
+        if name not in corpus.environments():
+            raise TmdError(f"there is no environment '{name}' in {corpus.directory}")
+    found = [d for task in tasks or corpus.tasks() for d in corpus.demonstrations(task)]
+    found = [d for d in found if not environments or d.environment in environments][::every]
+    counted: Counter[tuple[str, str]] = Counter()
+    cases = []
+    for d in found:
+        counted[d.task, d.environment] += 1
+        if each is None or counted[d.task, d.environment] <= each:
+            plan = tuple(map(str, d.instructions))
+            cases.append(
+                replace(
+                    blank, name=d.id, task=d.task, environment=d.environment, plan=plan, end_state=tuple(d.end_state)
+                )
+            )
+    return cases
+
+
+def plans(corpus: Corpus, blank: Case, given: Iterable[str]) -> Iterator[Case]:
+    """A case for each ``ENVIRONMENT=FILE``.
+
+    Raises:
+        TmdError: It is not of this form, there is no such environment, or the file is no plan.
+    """
+    for text in given:
+        environment, _, file = text.partition("=")
+        if not file or environment not in corpus.environments():
+            raise TmdError(
+                f"'{text}' is not ENVIRONMENT=FILE", hint=f"environments: {', '.join(corpus.environments())}"
+            )
+        plan = tuple(map(str, read_plan(Path(file)).instructions))
+        yield replace(blank, name=Path(file).stem, task="plan", environment=environment, plan=plan)
+
+
+def with_faults(cases: Sequence[Case], kinds: Sequence[str], skills: Skills) -> list[Case]:
+    """The cases with faults: of each kind that can come about in the plan, or of one that the seed chooses.
+
+    Raises:
+        TmdError: There is no such kind.
+    """
+    known = [kind.value for kind in Fault]
+    if wrong := [kind for kind in kinds if kind not in (*known, ALL, ONE)]:
+        raise TmdError(f"there is no fault '{wrong[0]}'", hint=f"faults: {', '.join((*known, ALL, ONE))}")
+    found = []
+    for number, case in enumerate(cases):
+        plan = [parse_instruction(text) for text in case.plan]
+        asked = known if ALL in kinds or ONE in kinds else kinds
+        possible = [kind for kind in asked if opportunities(Fault(kind), plan, skills)]
+        if ONE in kinds and possible:
+            drawn = np.random.default_rng([case.seed, number]).integers(len(possible))
+            possible = [possible[int(drawn)]]
+        found += [replace(case, fault=kind) for kind in possible]
+    return found

@@ -1,0 +1,150 @@
+"""One run: a plan is executed in a new simulation, and what came of it is written down."""
+
+from __future__ import annotations
+
+import re
+import time
+import traceback
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from experiments.execution.record import FAILED, Case, Line, Record
+from experiments.execution.trace import Trace
+from tmd.pddl.model import GroundAtom, State
+from tmd.pddl.plan_file import parse_instruction
+from tmd.robot.execute import Executor
+from tmd.robot.faults import Fault, Happening, with_fault
+from tmd.robot.observe import Observer
+from tmd.robot.outcome import Step
+from tmd.robot.performer import RobotPerformer
+from tmd.robot.scene import Scene
+from tmd.robot.simulator import STEPS_PER_SECOND, Simulator
+from tmd.robot.skill_file import Skills, load_skills
+from tmd.robot.workcell import make_cell
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import find_domain, find_root
+
+
+def run(case: Case) -> Record:
+    """Do what ``case`` asks for; a fault of the program becomes a record with the status ``error``."""
+    first = _guarded(case)
+    if not case.twice or first.status == FAILED:
+        return first
+    return replace(first, repeated=_guarded(case).trajectory == first.trajectory)
+
+
+@cache
+def corpus(domain: str) -> Corpus:
+    """The domain's problems; read once in a process."""
+    return Corpus(find_domain(domain), find_root("problems") / domain)
+
+
+@cache
+def skills_of(domain: str) -> Skills:
+    """The domain's ``skills.yaml``."""
+    return load_skills(corpus(domain).folder)
+
+
+def _guarded(case: Case) -> Record:
+    begin = time.perf_counter()
+    try:
+        return _run(case)
+    except Exception as error:  # one run that breaks must not end the others; the record says what broke
+        place = traceback.extract_tb(error.__traceback__)[-1]
+        said = f"{type(error).__name__} in {place.filename.rpartition('/')[2]}:{place.lineno}: {error}"
+        return _record(case, status=FAILED, reason=said, seconds=time.perf_counter() - begin)
+
+
+def _run(case: Case) -> Record:
+    begin = time.perf_counter()
+    found, skills = corpus(case.domain), skills_of(case.domain)
+    problem = found.world(case.environment).task.problem
+    environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
+    plan = [parse_instruction(text) for text in case.plan]
+    with Simulator() as sim:
+        scene = Scene(sim, environment, found.folder, rng=np.random.default_rng(case.seed) if case.seed else None)
+        cell = make_cell(sim, scene, seed=case.seed, kinematic=not case.physics)
+        observer = Observer(problem, found.folder, skills, cell)
+        robot = RobotPerformer(cell, skills)
+        draws = np.random.default_rng([case.seed, 1])
+        faulty = with_fault(robot, Fault(case.fault), draws, plan) if case.fault else None
+        trace = Trace()
+        if case.twice:
+            sim.add_watcher(trace)
+        ready, steps = time.perf_counter(), sim.steps
+        watch = _Watch(skills)
+        executor = Executor(problem, observer, faulty or robot, most_repairs=case.repairs, watch=watch)
+        execution = executor.execute(plan)
+        end = time.perf_counter()
+        seen = observer.now(execution.state)
+        return _record(
+            case,
+            status=execution.status.value,
+            reason=execution.reason,
+            repairs=execution.repairs,
+            lines=tuple(watch.lines),
+            faults=tuple(faulty.log) if faulty else (),
+            goal=tuple(literal for literal in case.end_state if not holds(literal, seen)),
+            setup=round(ready - begin, 3),
+            seconds=round(end - ready, 3),
+            simulated=round((sim.steps - steps) / STEPS_PER_SECOND, 3),
+            trajectory=trace.digest() if case.twice else "",
+        )
+
+
+class _Watch:
+    """Writes down each step, and how long it took."""
+
+    def __init__(self, skills: Skills) -> None:
+        self.skills = skills
+        self.lines: list[Line] = []
+        self._last = time.perf_counter()
+
+    def __call__(self, step: Step) -> None:
+        now = time.perf_counter()
+        self.lines.append(
+            Line(
+                str(step.instruction),
+                self.skills.task(step.instruction).skill,
+                step.repair,
+                step.failure,
+                tuple(map(str, step.mismatches)),
+                step.evidence,
+                round(now - self._last, 3),
+                step.end - step.begin,
+                step.begin,
+            )
+        )
+        self._last = now
+
+
+def _record(
+    case: Case,
+    *,
+    status: str,
+    reason: str,
+    seconds: float,
+    repairs: int = 0,
+    lines: tuple[Line, ...] = (),
+    faults: tuple[Happening, ...] = (),
+    goal: tuple[str, ...] = (),
+    setup: float = 0.0,
+    simulated: float = 0.0,
+    trajectory: str = "",
+) -> Record:
+    name, mode, fault, seed = case.key
+    return Record(
+        name, case.task, case.environment, mode, fault, seed, status, reason, repairs, lines, faults, goal,
+        setup, seconds, simulated, trajectory,
+    )  # fmt: skip
+
+
+def holds(literal: str, state: State) -> bool:
+    """Whether ``(at mug1 table1 on)`` or ``(not (hot mug1))`` holds."""
+    words = re.findall(r"[^\s()]+", literal)
+    denied = words[0] == "not"
+    atom = GroundAtom(words[denied], tuple(words[denied + 1 :]))
+    return (atom in state) is not denied
