@@ -22,6 +22,8 @@ class ExitCode(IntEnum):
     """The text was read, and no valid plan for it was found."""
     FAULTS_FOUND = 13
     """A check ended and found faults."""
+    NOT_EXECUTED = 14
+    """The robot stopped before everything that its plan is for was brought about."""
     GAVE_UP = 20
     """A search ended at its limit: nothing is proven."""
     USAGE = 30

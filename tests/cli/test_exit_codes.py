@@ -270,9 +270,9 @@ def test_the_disk_is_full(arguments: list[str]) -> None:
 
 
 def test_every_code_is_provoked() -> None:
-    """The codes of the table above and those that have a test of their own."""
+    """The codes of the table above and those that have a test of their own (NOT_EXECUTED in test_run.py)."""
     own = {
         ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND, ExitCode.INTERNAL,
-        ExitCode.INTERRUPTED,
+        ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED,
     }  # fmt: skip
     assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)

@@ -67,7 +67,7 @@ def command(
     from tmd.planning.backends import IN_PROCESS
     from tmd.veil.library import learn
 
-    spoken = _short_enough(said(text, text_file))
+    spoken = short_enough(said(text, text_file))
     factors = _weights(weights)
     corpus, world = load_scene(roots, environment, domain_name)
     library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
@@ -84,7 +84,12 @@ def command(
     return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED
 
 
-def _short_enough(text: str) -> str:
+def short_enough(text: str) -> str:
+    """The text, if it can be grounded at once.
+
+    Raises:
+        TmdError: It has too many words.
+    """
     count = len(text.split())
     if count > MAX_WORDS:
         raise TmdError(

@@ -9,7 +9,7 @@ from pathlib import Path
 from tmd.atomic import write_bytes
 from tmd.pddl.model import GroundAtom
 from tmd.robot.camera import FOV, Camera, View
-from tmd.robot.captions import Caption, Mark, Pixels, caption_height, filmstrip, under
+from tmd.robot.captions import Caption, Mark, Pixels, caption_height, filmstrip, pillow, under
 from tmd.robot.cell import Cell
 from tmd.robot.engine import STEPS_PER_SECOND
 from tmd.robot.movie_file import MovieFile
@@ -31,10 +31,16 @@ _FAR = ("look", "drive")
 """Skills that are seen from afar."""
 
 
-def film_size(path: Path) -> tuple[int, int]:
-    """Width and height of a film with its captions."""
+def open_movie(path: Path) -> MovieFile:
+    """The file of a film, of the size that :class:`Film` gives its pictures.
+
+    Raises:
+        MissingToolError: What writes films of this kind is not installed.
+        OutputError: It cannot be written there.
+        TmdError: The suffix says no kind of film that is known.
+    """
     width, height = GIF_PICTURE if path.suffix == ".gif" else PICTURE
-    return width, height + caption_height(width)
+    return MovieFile(path, (width, height + caption_height(width)), FPS.get(path.suffix, 0))
 
 
 class Film:
@@ -46,11 +52,15 @@ class Film:
     Args:
         cell: Robot and scene.
         skills: What instructions are about.
-        movie: Where the film goes; None: no film, only the filmstrip.
+        movie: Where the film goes, from :func:`open_movie`; None: no film, only the filmstrip.
         strip: Whether there shall be a filmstrip.
+
+    Raises:
+        MissingToolError: Pillow is not installed.
     """
 
     def __init__(self, cell: Cell, skills: Skills, *, movie: MovieFile | None = None, strip: bool = False) -> None:
+        pillow()
         self._cell = cell
         self._skills = skills
         self._movie = movie

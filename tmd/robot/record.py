@@ -68,9 +68,6 @@ class Recorder:
         performer: Does the instructions.
         orders: The plan.
         listeners: Who is told.
-
-    Attributes:
-        entries: What was done so far.
     """
 
     def __init__(self, performer: Performer, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
@@ -78,7 +75,6 @@ class Recorder:
         self._orders = tuple(orders)
         self._listeners = tuple(listeners)
         self._done = 0
-        self.entries: list[tuple[Title, Step]] = []
 
     @property
     def clock(self) -> int:
@@ -96,7 +92,6 @@ class Recorder:
     def watch(self, step: Step) -> None:
         """Tell that a step is over."""
         title = self._title(step.instruction, repair=step.repair)
-        self.entries.append((title, step))
         # as the executor does: an instruction that did what it is for is not tried again
         if not step.repair and not step.failure and not any(m.expected for m in step.mismatches):
             self._done += 1

@@ -10,19 +10,20 @@ from typing import Self
 
 import numpy as np
 
-from tmd.pddl.model import Problem
+from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.cell import Cell
 from tmd.robot.engine import STEPS_PER_SECOND
 from tmd.robot.execute import MOST_REPAIRS, Executor
 from tmd.robot.observe import Observer
-from tmd.robot.outcome import Execution
+from tmd.robot.outcome import Execution, Step
 from tmd.robot.performer import RobotPerformer
 from tmd.robot.pr2 import Pr2
-from tmd.robot.record import Listener, Order, Recorder
+from tmd.robot.record import Listener, Order, Recorder, Title
 from tmd.robot.scene import Scene
 from tmd.robot.simulator import Simulator
 from tmd.robot.skill_file import load_skills
+from tmd.robot.workcell import show_state
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -96,7 +97,7 @@ class Stage:
         *,
         planner: str = IN_PROCESS,
         repairs: int = MOST_REPAIRS,
-    ) -> tuple[Execution, Recorder]:
+    ) -> Execution:
         """Carry out a plan.
 
         Args:
@@ -106,13 +107,28 @@ class Stage:
             repairs: How often.
 
         Returns:
-            How it went, and for each step its place in the plan.
+            How it went; listeners were told where in the plan each step stands.
         """
+        listeners = (_Signs(self), *listeners)
         recorder = Recorder(RobotPerformer(self.cell, self.skills), orders, listeners)
         executor = Executor(
             self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
         )
-        return executor.execute([order.instruction for order in orders]), recorder
+        return executor.execute([order.instruction for order in orders])
+
+
+class _Signs:
+    """Lets contents and signs look as the state that was observed."""
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """Nothing has changed yet."""
+
+    def end(self, title: Title, step: Step) -> None:
+        """What was poured is there now, a burner glows."""
+        show_state(self._stage.cell.scene, self._stage.skills, step.state)
 
 
 class _Pace:

@@ -1,0 +1,72 @@
+"""What the robot is to do: the best plan of a text, or the plan of a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tmd.errors import ExitCode, TmdError
+from tmd.robot.record import Order
+
+if TYPE_CHECKING:
+    from tmd.veil.corpus import Corpus
+    from tmd.veil.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Orders:
+    """A plan, or why there is none.
+
+    Attributes:
+        orders: The plan.
+        code: ``OK``, or what the program ends with because there is none.
+        status: ``not_grounded`` or ``invalid_plan``; empty for a plan.
+        remarks: Lines for standard error.
+    """
+
+    orders: tuple[Order, ...]
+    code: ExitCode = ExitCode.OK
+    status: str = ""
+    remarks: tuple[str, ...] = ()
+
+
+def orders_of_text(text: str, corpus: Corpus, world: World, planner: str) -> Orders:
+    """Ground a text, as ``tmd ground`` does with its usual options.
+
+    Raises:
+        TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
+    """
+    from tmd.cli.remarks import remarks
+    from tmd.cli.scene import frequent_verbs, unknown_nouns
+    from tmd.ground import ground
+    from tmd.veil.library import learn
+
+    library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
+    grounded = ground(text, world, library, planner=planner)
+    unknown = unknown_nouns(grounded.parsed.clauses, world)
+    told = tuple(remarks(grounded, unknown, frequent_verbs(library)))
+    if not any(verdict.valid for verdict in grounded.verdicts):
+        return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told)
+    clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
+    steps = grounded.plans[0].steps
+    return Orders(tuple(Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in steps), remarks=told)
+
+
+def orders_of_file(path: Path, world: World) -> Orders:
+    """Read a plan file; a plan that does not work is not begun.
+
+    Raises:
+        TmdError: The file cannot be read, or has no instructions.
+    """
+    from tmd.pddl.plan_file import read_plan
+    from tmd.pddl.validator import validate
+
+    plan = read_plan(path)
+    if not plan.instructions:
+        raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
+    verdict = validate(world.task.problem, plan.instructions)
+    if not verdict.valid:
+        place = f"{plan.locations[verdict.step - 1]}: " if verdict.step else ""
+        return Orders((), ExitCode.INVALID_PLAN, "invalid_plan", (f"invalid: {place}{verdict.reason}\n",))
+    return Orders(tuple(map(Order, plan.instructions)))
