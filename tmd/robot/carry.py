@@ -15,6 +15,8 @@ LIFT = 0.10
 """Metres that a thing is lifted, or drawn out, before the arm moves freely."""
 CLEAR = 0.006
 """Metres above a surface at which a thing is let go of."""
+_TALL = 0.12
+"""Metres from which a thing is no small one."""
 _TURNS = 8
 """So many headings are tried for a thing that is put down."""
 
@@ -52,9 +54,11 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
     """Ways to take an item with a free hand, the nearest hand first."""
     here = cell.sim.pose(cell.scene.bodies[item])
     links = _links(cell, item)
-    # from the side before from above: what is held so can be tipped
-    level_first = sorted(cell.scene.grasps(item), key=lambda grasp: abs(round(grasp.tool.approach[2], 3)))
-    poses = [here * grasp.tool.pose() for grasp in level_first]
+    _, high = cell.scene.size(item)
+    # a vessel or a bottle is taken from the side before from above, for it will be tipped; a small thing from above
+    upright = 1.0 if cell.scene.holds_contents(item) or high[2] > _TALL else -1.0
+    ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
+    poses = [here * grasp.tool.pose() for grasp in ordered]
     return [
         Option(side, (tool * Pose((-BEFORE, 0.0, 0.0)), tool), links, number)
         for number, tool in enumerate(poses)

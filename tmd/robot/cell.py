@@ -92,9 +92,9 @@ class Cell:
         return name_ if abs(angle - at) <= _SETTING_SHARE * step else None
 
     def reach(self, name: str) -> float:
-        """The distance on the floor from the robot's base to the nearest point of a thing, in metres."""
+        """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres."""
         x, y, _ = self.robot.base()
-        low, high = self.sim.extents(*self.scene.place(name))
+        low, high = self.sim.extents(self.scene.place(name)[0])
         return hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
 
     def measured(self, atom: GroundAtom, sensor: str) -> str:
@@ -180,7 +180,9 @@ class Cell:
         inside = [
             (self.scene.bodies[item], frame.inverse() * self.sim.pose(self.scene.bodies[item]))
             for item in self.scene.items()
-            if (place := self.scene.supported(item)) and self.scene.place(place[0]) == (handle.body, handle.index)
+            if handle.kind == "drawer"
+            and (place := self.scene.supported(item))
+            and self.scene.place(place[0])[0] == handle.body
         ]
         low, high = sorted((handle.closed, handle.open, *handle.settings.values()))[:: max(1, len(handle.settings) + 1)]
 
@@ -215,11 +217,19 @@ class Cell:
 
     def side_of(self, item: str) -> str | None:
         """The arm that holds an item."""
+        self._forget_lost()
         return next((side for side in ARMS if self.in_hand.get(side) == item), None)
 
     def free(self) -> list[str]:
         """The arms that hold nothing."""
+        self._forget_lost()
         return [side for side in ARMS if side not in self.in_hand]
+
+    def _forget_lost(self) -> None:
+        """What slipped out of a hand is no longer in it."""
+        for side in [side for side in self.in_hand if not self._still_held(side)]:
+            self.robot.let_go(side)
+            del self.in_hand[side]
 
     def whole(self, name: str) -> str:
         """The object that a part belongs to; an object itself."""

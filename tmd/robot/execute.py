@@ -85,14 +85,15 @@ class Executor:
         tried: Instruction | None
         while waiting or not _satisfied(wanted, state):
             if waiting and first_broken(waiting[0][0], state, self.problem) is None:
+                before = state
                 done, state = self._do(*waiting[0], state, attempt)
                 if not done.mismatches and not done.failure:
                     waiting.pop(0)
                     attempt = 0
                     continue
                 tried, attempt = waiting[0][0], attempt + 1
-                if not done.failure and not any(m.expected for m in done.mismatches):
-                    waiting.pop(0)  # it did what it is for; something else is not as it was
+                if not done.failure and self._did(tried, before, state):
+                    waiting.pop(0)  # it did what it is for; something else is not as it should be
                     attempt = 0
             else:
                 tried = waiting[0][0] if waiting else None
@@ -106,6 +107,11 @@ class Executor:
             waiting = [(instruction, True) for instruction in mended] + waiting
         status = Status.RECOVERED if self._repairs else Status.DONE
         return Execution(status, "", tuple(self._steps), self._repairs, state)
+
+    def _did(self, instruction: Instruction, before: State, after: State) -> bool:
+        """Whether what an instruction changes is as it should be."""
+        predicted = apply(instruction, before, self.problem)
+        return predicted - before <= after and not (before - predicted) & after
 
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[Step, State]:
         predicted = apply(instruction, state, self.problem)

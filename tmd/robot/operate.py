@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import cos, pi, sin
 
 from tmd.robot.cell import Cell
+from tmd.robot.fittings import TIP
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose
 from tmd.robot.reach import Links, Option, follow, reach
@@ -17,6 +19,10 @@ TRAVEL = 0.012
 PRESSED = 0.5
 """A button is pressed from this share of its way on."""
 _WAYPOINTS = 8
+_PUSHES = ((0.5, 1.0), (0.75, 1.0), (0.3, 1.0), (1.0, 1.0), (0.0, 0.5))
+"""How a flap is pushed: at which part of its way the hand is square to it, and how far it keeps its heading."""
+_PARTS = (1.0, 0.8, 0.65)
+"""How far a door is opened, as a part of its way."""
 _FOLLOWS = (1.0, 0.5, 0.0)
 """How far the hand keeps its heading while a door turns: 1 keeps it, 0 turns with the door."""
 
@@ -28,21 +34,24 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
         SkillError: It has none, cannot be reached, or does not move.
     """
     handle = _handle(cell, name)
-    goal = handle.open if opened else handle.closed
     start = cell.sim.joint_position(handle.body, handle.index)
     hands = cell.free()
     if not hands:
         raise SkillError(Stage.PRECONDITION, "both hands are full")
-    tools = _tools(cell, name, handle, start, goal)
     ignore: Links = frozenset({(handle.body, handle.index)})
     options = []
-    for number, follows in enumerate(_FOLLOWS if handle.turns else (1.0,)):
-        turned = [_turned(tool, handle, share * (goal - start) * follows) for share, tool in tools.items()]
+    headings = _PUSHES if handle.kind == "flap" else tuple((0.0, f) for f in (_FOLLOWS if handle.turns else (1.0,)))
+    for part, (lead, follows) in product(_PARTS if opened else (1.0,), headings):
+        goal = start + part * ((handle.open if opened else handle.closed) - start)
+        way = goal - start
+        tools = _tools(cell, name, handle, start, goal)
+        turned = [_turned(tool, handle, (share - lead) * way * follows) for share, tool in tools.items()]
         before = turned[0] * Pose((-BEFORE, 0.0, 0.0))
-        options += [Option(side, (before, *turned), ignore, number) for side in hands]
+        options += [Option(side, (before, *turned), ignore) for side in hands]
     for side in hands:
         cell.robot.open_gripper(side, handle.opening)
-    chosen = reach(cell, options, handle.grasp, cell.front(name), attempt, stop=2)
+    middle = options[0].poses[len(options[0].poses) // 2]
+    chosen = reach(cell, options, middle, cell.front(name), attempt, stop=2)
     _pull(cell, name, handle, chosen)
     cell.retire(chosen.side, ignore)
     if cell.is_open(name) != opened:
@@ -62,11 +71,13 @@ def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> 
 
 
 def _turned(tool: Pose, handle: Handle, angle: float) -> Pose:
-    """``tool`` turned back about the joint's axis through its own origin."""
+    """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
     x, y, z = handle.axis
     half = -angle / 2
     back = Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
-    return Pose(tool.position, (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation)
+    turned = (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation
+    tips = TIP if handle.kind == "flap" else 0.0
+    return Pose(tool.apply((tips, 0.0, 0.0)), turned) * Pose((-tips, 0.0, 0.0))
 
 
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:

@@ -28,7 +28,7 @@ TURNS = (0.0, 0.35, -0.35)
 """Radians that the base is turned away from what it faces, so that a shoulder does."""
 ABOVE_HAND = (0.10, 0.32, -0.1)
 """Metres from the hand's height to the shoulder's, best first."""
-MOST_QUESTIONS = 500
+MOST_QUESTIONS = 800
 """So many postures are asked for before a search ends."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
