@@ -19,7 +19,7 @@ FOV = 50.0
 """Vertical angle of view in degrees."""
 _TURNS = tuple(math.radians(15.0 * step) for step in range(24))
 _HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
-_CLOSE, _WIDE = 0.62, 1.0
+_CLOSE, _WIDE = 0.5, 1.0
 """Metres round the subject that are in the picture, at least."""
 _NEAR_HAND = 0.9
 """A hand that is farther from the thing than this has nothing to do with it."""
@@ -111,7 +111,7 @@ class Camera:
             return _overview(self._cell)
         points = self._points()
         target, around = _ball([p.place for p in points if p.weight >= 1.0])
-        around = max(around + 0.3, _WIDE if self._wide else _CLOSE)
+        around = max(around + 0.3, _WIDE) if self._wide else max(around + 0.2, _CLOSE)
         distance = around / math.sin(math.radians(FOV / 2))
         views = [View(target, turn, height, distance) for turn, height in product(_TURNS, _HEIGHTS)]
         return max(views, key=lambda view: self._worth(view, points))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import product
 from math import pi
 
 from tmd.robot.cell import Cell
@@ -13,8 +14,8 @@ BEFORE = 0.10
 """Metres from which a hand goes straight to what it takes."""
 LIFT = 0.10
 """Metres that a thing is lifted, or drawn out, before the arm moves freely."""
-CLEAR = 0.006
-"""Metres above a surface at which a thing is let go of."""
+CLEAR = (0.006, 0.03)
+"""Metres above a surface at which a thing is let go of, best first: the fingers do not fit into every slot."""
 _TALL = 0.12
 """Metres from which a thing is no small one."""
 _TURNS = 8
@@ -96,11 +97,11 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
     back = tuple(-value * BEFORE for value in cell.scene.entry(target, relation))
     links = _links(cell, item)
     found = []
-    for number, spot in enumerate(cell.scene.support(target, relation, item)[:6]):
-        for turn in range(_TURNS):
-            stood = spot.pose * Pose.flat(0.0, 0.0, CLEAR, 2 * pi * turn / _TURNS)
-            tool = stood * grip
-            found.append(Option(side, (_moved(tool, back), tool), links, number))
+    spots = cell.scene.support(target, relation, item)[:6]
+    for fall, (number, spot), turn in product(CLEAR, enumerate(spots), range(_TURNS)):
+        stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / _TURNS)
+        tool = stood * grip
+        found.append(Option(side, (_moved(tool, back), tool), links, number))
     return found
 
 

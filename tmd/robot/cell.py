@@ -16,7 +16,7 @@ from tmd.robot.motion import plan_line
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.pr2 import ARMS, Pr2
 from tmd.robot.scene import Handle, Scene
-from tmd.robot.simulator import Simulator
+from tmd.robot.simulator import WELD_FORCE, Simulator
 
 OPEN_SHARE = 0.6
 """A joint is open from this share of its way on."""
@@ -24,6 +24,8 @@ _SETTING_SHARE = 0.25
 """A knob is at a setting when it is not farther from it than this share of the way to the next one."""
 
 _BACK = 0.1
+_LIGHTLY = 15.0
+"""Newtons that a lid is lifted with, so that what it is on stays where it is."""
 _PINS = 0.015
 """Metres from the middle of a knob to the two points that the fingers hold it at."""
 
@@ -58,7 +60,7 @@ class Cell:
 
     def gap(self, side: str, item: str) -> float:
         """How far the item is from the gripper's surface, in metres; at most 1."""
-        found = self.sim.closest(self.robot.body, self.scene.bodies[item], 1.0)
+        found = self.sim.closest(self.robot.body, self.scene.place(item)[0], 1.0)
         hand = {self.robot.index[name] for name in self.robot.tree.below(f"{side[0]}_gripper_palm_link")}
         return min((c.distance for c in found if c.link in hand), default=1.0)
 
@@ -152,7 +154,8 @@ class Cell:
         palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
         apart = (-_PINS, _PINS) if handle.kind == "knob" else (0.0,)
         points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
-        pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point) for point in points]
+        force = _LIGHTLY if handle.kind == "lid" else WELD_FORCE
+        pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point, force) for point in points]
         try:
             yield
         finally:

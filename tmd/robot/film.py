@@ -31,16 +31,21 @@ _FAR = ("look", "drive")
 """Skills that are seen from afar."""
 
 
-def open_movie(path: Path) -> MovieFile:
-    """The file of a film, of the size that :class:`Film` gives its pictures.
+def open_movie(path: Path, picture: tuple[int, int] | None = None, fps: int | None = None) -> MovieFile:
+    """A file for a film with captions.
+
+    Args:
+        path: Where it goes; its suffix says what kind of film it is.
+        picture: Width and height of the pictures without their captions, even numbers; the kind's usual ones if not.
+        fps: Pictures a second; the kind's usual ones if not. The pauses of a GIF are hundredths of seconds.
 
     Raises:
         MissingToolError: What writes films of this kind is not installed.
         OutputError: It cannot be written there.
         TmdError: The suffix says no kind of film that is known.
     """
-    width, height = GIF_PICTURE if path.suffix == ".gif" else PICTURE
-    return MovieFile(path, (width, height + caption_height(width)), FPS.get(path.suffix, 0))
+    width, height = picture or (GIF_PICTURE if path.suffix == ".gif" else PICTURE)
+    return MovieFile(path, (width, height + caption_height(width)), fps or FPS.get(path.suffix, 1))
 
 
 class Film:
@@ -70,8 +75,9 @@ class Film:
         self._caption = Caption("")
         self._last: Pixels | None = None
         if movie is not None:
-            self._size = GIF_PICTURE if movie.path.suffix == ".gif" else PICTURE
-            self._fps = FPS[movie.path.suffix]
+            width, height = movie.size
+            self._size = width, height - caption_height(width)
+            self._fps = movie.fps
             self._time, self._shot = 0.0, 0.0
             self._steps, self._ticks = cell.sim.steps, cell.sim.ticks
             cell.sim.add_watcher(self._watch)
@@ -108,7 +114,7 @@ class Film:
         """End with how it ended."""
         done = sum(not step.failure and not step.mismatches for step in execution.steps)
         count = len(execution.steps)
-        repairs = f", the plan was mended {execution.repairs} times" if execution.repairs else ""
+        repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
         badge = "stopped" if execution.status is Status.STOPPED else ""
         note = execution.reason or "Every effect of the plan is confirmed."
         title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]

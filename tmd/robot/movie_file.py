@@ -32,6 +32,9 @@ class MovieFile:
         size: Width and height of every picture, in pixels; even numbers.
         fps: Pictures a second.
 
+    Attributes:
+        pictures: How many were added.
+
     Raises:
         MissingToolError: What writes films of this kind is not installed.
         OutputError: It cannot be written there.
@@ -40,6 +43,8 @@ class MovieFile:
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int) -> None:
         self.path = path
+        self.size = size
+        self.fps = fps
         self.pictures = 0
         self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
         known: dict[str, Callable[[Path, tuple[int, int], int], _Writer]] = {".mp4": _Mp4, ".gif": _Gif}
@@ -53,6 +58,9 @@ class MovieFile:
             self._writer: _Writer | None = known[path.suffix](self._draft, size, fps)
         except OSError as error:
             raise self._error(error) from error
+        except MissingToolError:
+            self._draft.unlink()
+            raise
 
     def __enter__(self) -> Self:
         return self

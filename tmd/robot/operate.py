@@ -16,6 +16,8 @@ from tmd.robot.simulator import Simulator
 BEFORE = 0.09
 TRAVEL = 0.012
 """Metres that a finger goes on beyond the surface of a button."""
+_ROUND = 0.02
+"""Metres from the fingers to the lid between them."""
 PRESSED = 0.5
 """A button is pressed from this share of its way on."""
 _WAYPOINTS = 8
@@ -87,9 +89,13 @@ def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
         with cell.pushed(side, handle):
             follow(cell, side, option.poses[2:], option.ignore)
         return
-    cell.robot.close_gripper(side)
-    if not cell.robot.touches(side, handle.body, handle.index):
-        raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
+    if handle.kind == "lid":  # on a thing that nothing holds: the fingers stand round its edge and do not press
+        if cell.gap(side, name) > _ROUND:
+            raise SkillError(Stage.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
+    else:
+        cell.robot.close_gripper(side)
+        if not cell.robot.touches(side, handle.body, handle.index):
+            raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
     try:
         with cell.gripped(side, handle):
             follow(cell, side, option.poses[2:], option.ignore)

@@ -185,7 +185,7 @@ def _take(cell: Cell, candidate: Candidate, stop: int | None) -> None:
     rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
     if rows is None:
         raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
-    path = plan_arm(cell.robot, side, rows[0], ignore=option.ignore, rng=cell.rng)
+    path = plan_arm(cell.robot, side, rows[0], rng=cell.rng)
     if path is None:
         raise SkillError(Stage.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
     if not cell.robot.move_arm(side, path):

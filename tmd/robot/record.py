@@ -74,7 +74,8 @@ class Recorder:
         self._performer = performer
         self._orders = tuple(orders)
         self._listeners = tuple(listeners)
-        self._done = 0
+        self._next = 0
+        self._open = False
 
     @property
     def clock(self) -> int:
@@ -83,22 +84,32 @@ class Recorder:
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Tell that it begins, and let it be done."""
-        next_one = self._done < len(self._orders) and self._orders[self._done].instruction == instruction
-        title = self._title(instruction, repair=not next_one)
+        title = self._title(instruction, self._place(instruction))
         for listener in self._listeners:
             listener.begin(title, sorted(gains))
         return self._performer.perform(instruction, gains, attempt)
 
     def watch(self, step: Step) -> None:
         """Tell that a step is over."""
-        title = self._title(step.instruction, repair=step.repair)
-        # as the executor does: an instruction that did what it is for is not tried again
-        if not step.repair and not step.failure and not any(m.expected for m in step.mismatches):
-            self._done += 1
+        place = None if step.repair else self._place(step.instruction)
+        title = self._title(step.instruction, place)
+        if place is not None:
+            done = not step.failure and not step.mismatches
+            self._next = place + 1 if done else place
+            self._open = not done and not step.failure
         for listener in self._listeners:
             listener.end(title, step)
 
-    def _title(self, instruction: Instruction, *, repair: bool) -> Title:
-        order = None if repair or self._done >= len(self._orders) else self._orders[self._done]
-        number = min(self._done + 1, len(self._orders))
-        return Title(instruction, number, len(self._orders), repair, order)
+    def _place(self, instruction: Instruction) -> int | None:
+        """Where in the plan it stands; ``None`` for a repair.
+
+        After a step whose facts are not as predicted, the executor may try it again or go on.
+        """
+        possible = range(self._next, min(self._next + 1 + self._open, len(self._orders)))
+        return next((place for place in possible if self._orders[place].instruction == instruction), None)
+
+    def _title(self, instruction: Instruction, place: int | None) -> Title:
+        count = len(self._orders)
+        if place is None:
+            return Title(instruction, min(self._next + 1, count), count, True, None)
+        return Title(instruction, place + 1, count, False, self._orders[place])
