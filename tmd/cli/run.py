@@ -83,6 +83,7 @@ def command(
     from tmd.cli.show_run import RunLog, Telling, plan_json, refusal_json
     from tmd.cli.stopping import stoppable
     from tmd.planning.backends import IN_PROCESS
+    from tmd.robot.captions import pillow
     from tmd.robot.film import Film, open_movie
     from tmd.robot.outcome import Status
     from tmd.robot.stage import Stage
@@ -99,18 +100,19 @@ def command(
         _check_writable(output)
     corpus, world = load_scene(roots, environment, domain_name)
     chosen = planner or IN_PROCESS
+    orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
         stack.enter_context(stoppable())
         movie = stack.enter_context(open_movie(video)) if video else None
+        if strip:
+            pillow()
         stage = stack.enter_context(
             Stage(
                 load_environment(path), corpus.folder, world.task.problem,
                 kinematic=kinematic, seed=seed, urdf=urdf, gui=gui, pictures=bool(video or strip),
             )
         )  # fmt: skip
-        if plan_file is not None:
-            orders = orders_of_file(plan_file, world)
-        else:
+        if orders is None:
             orders = orders_of_text(spoken or "", corpus, world, chosen)
         for line in orders.remarks:
             emit(line, error=True)

@@ -1,0 +1,275 @@
+"""``tmd run`` as people use it: short plans without physics in a bundled kitchen, and everything that can go wrong."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd
+from tmd.errors import ExitCode
+
+HIDE_PYBULLET = "import sys; sys.modules['pybullet'] = None"
+HIDE_FFMPEG = "import sys; sys.modules['imageio_ffmpeg'] = None"
+HIDE_PILLOW = "import sys; sys.modules['PIL'] = None"
+HIDE_PR2 = "import importlib.metadata as m\ndef files(name): raise m.PackageNotFoundError(name)\nm.files = files"
+STOP_WHEELS = (
+    "import tmd.robot.go as go\nfrom tmd.robot.outcome import SkillError, Stage\n"
+    "def drive(*_): raise SkillError(Stage.PATH, 'the wheels do not turn')\n"
+    "go.drive = drive"
+)
+KITCHEN = ("run", "--environment", "kitchen1", "--kinematic")
+PLAN = "(find pot1)\n(moveto pot1)\n"
+
+
+@pytest.fixture
+def robot() -> None:
+    """For tests that start the simulation."""
+    for package in ("pybullet", "PIL", "imageio_ffmpeg"):
+        pytest.importorskip(package, reason="needs the extra robot")
+
+
+@pytest.fixture
+def plan(tmp_path: Path) -> Path:
+    path = tmp_path / "short.plan"
+    path.write_text(PLAN)
+    return path
+
+
+def lines(path: Path) -> list[dict[str, object]]:
+    """A log."""
+    return [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+
+
+def frames(path: Path) -> int:
+    """How many pictures a film has."""
+    import imageio.v3 as iio
+
+    return sum(1 for _ in iio.imiter(path))
+
+
+@pytest.mark.usefixtures("robot")
+def test_a_plan_is_told_logged_and_drawn(tmd: Tmd, plan: Path, tmp_path: Path) -> None:
+    from PIL import Image
+
+    ended = tmd(*KITCHEN, "--plan", plan, "--log", "log.jsonl", "--strip", "strip.png")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert re.fullmatch(
+        r"plan: 2 instructions in kitchen1, without physics\n"
+        r"    1\. find\(pot1\) +ok: pot1 is in view, .*; confirmed \(found pr2 pot1\)\n"
+        r"    2\. moveto\(pot1\) +ok: pot1 is \d\.\d\d m away; confirmed \(near pr2 pot1\) .*\n"
+        r"done: every effect of every instruction is confirmed; 2 instructions, \d+\.\d s simulated\n",
+        ended.out,
+    )
+    log = lines(tmp_path / "log.jsonl")
+    assert [entry["event"] for entry in log] == ["plan", "begin", "step", "begin", "step", "end"]
+    assert (log[-1]["status"], log[-2]["outcome"]) == ("done", "ok")
+    with Image.open(tmp_path / "strip.png") as sheet:
+        assert sheet.format == "PNG"
+        assert min(sheet.size) > 300
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["log.jsonl", "short.plan", "strip.png"]
+
+
+@pytest.mark.usefixtures("robot")
+def test_the_record(tmd: Tmd) -> None:
+    """A text is grounded, and each step says which clause it is for."""
+    ended = tmd(*KITCHEN, "--text", "Take the cup.", "--json")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    record = json.loads(ended.out)
+    keys = ["text", "domain", "environment", "mode", "seed", "planner", "plan", "steps"]
+    assert list(record) == [*keys, "status", "reason", "repairs", "seconds"]
+    assert (record["text"], record["mode"], record["status"]) == ("Take the cup.", "kinematic", "done")
+    assert [step["action"] for step in record["steps"]] == [step["action"] for step in record["plan"]]
+    assert {step["clause"] for step in record["plan"]} == {0}
+    last = record["steps"][-1]
+    assert "(holding pr2 cup1)" in last["confirmed"]
+    assert (last["outcome"], last["mismatches"], last["failure"]) == ("ok", [], None)
+    assert last["begin"] < last["end"]
+
+
+@pytest.mark.usefixtures("robot")
+def test_the_same_run_gives_the_same_bytes(tmd: Tmd, plan: Path) -> None:
+    """Physics included: the robot turns its head to the pot under gravity, from places that the seed moved."""
+    plan.write_text("(find pot1)\n")
+    arguments = ("run", "--environment", "kitchen1", "--plan", plan, "--seed", "7", "--json")
+    ended = tmd(*arguments)
+    assert (ended.code, json.loads(ended.out)["mode"]) == (ExitCode.OK, "physics")
+    assert tmd(*arguments).out == ended.out
+
+
+@pytest.mark.usefixtures("robot")
+def test_a_robot_that_cannot_go_on_says_why(tmd: Tmd, plan: Path) -> None:
+    ended = tmd(*KITCHEN, "--plan", plan, "--repairs", "1", before=STOP_WHEELS)
+    assert ended.code == ExitCode.NOT_EXECUTED
+    assert ended.out.count("failed: path: the wheels do not turn") == 3  # twice as a step, once as the reason
+    assert re.search(r"^stopped: mended 1 times?, and then moveto\(pot1\) failed: path: ", ended.out, re.MULTILINE)
+
+
+@pytest.mark.usefixtures("robot")
+def test_no_plan_for_a_text(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd(*KITCHEN, "--text", "Flurble the pot", "--json", "--log", "log.jsonl", "--video", "out.mp4")
+    assert ended.code == ExitCode.NOT_GROUNDED
+    record = json.loads(ended.out)
+    assert (record["status"], record["steps"], record["plan"]) == ("not_grounded", [], [])
+    assert record["reason"].startswith("no plan: no demonstration has any of its verbs")
+    assert record["reason"] in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.usefixtures("robot")
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("(find pot1)\n(grasp pot1)\n", r"invalid: .*wrong\.plan:2:1: step 2, grasp\(pot1\): its precondition "),
+        ("(find pot9)\n", r"invalid: .*wrong\.plan:1:1: .*pot9"),
+    ],
+)
+def test_a_plan_that_does_not_work_is_not_begun(tmd: Tmd, tmp_path: Path, text: str, told: str) -> None:
+    path = tmp_path / "wrong.plan"
+    path.write_text(text)
+    ended = tmd(*KITCHEN, "--plan", path)
+    assert (ended.code, ended.out) == (ExitCode.INVALID_PLAN, "")
+    assert re.match(told, ended.err), ended.err
+
+
+URDF = '<robot name="box"><link name="base_footprint"/></robot>'
+OVERLAP = (
+    "name: mine\ndomain: kitchen\nobjects:\n  counter1: {class: counter}\n"
+    "  pot1: {class: pot, at: on counter1, position: [0, 0, 0.9]}\n"
+    "  pot2: {class: pot, at: on counter1, position: [0, 0, 0.9]}\n"
+)
+TEXT = ("--text", "Take the cup.")
+WRONG = {
+    "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
+    "text-and-plan": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--plan", "a"], "", r"error: give one of --text, .*--plan\n"),
+    "film-suffix": (
+        ExitCode.USAGE,
+        [*KITCHEN, *TEXT, "--video", "out.avi"],
+        "",
+        r"error: .*'out\.avi' does not end in \.mp4 or \.gif\n",
+    ),
+    "strip-suffix": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--strip", "out"], "", r"error: .*'out' does not end in \.png"),
+    "no-plan-file": (ExitCode.BAD_INPUT, [*KITCHEN, "--plan", "none.plan"], "", r"error: none\.plan.*cannot be read"),
+    "pddl": (
+        ExitCode.BAD_INPUT,
+        ["run", "--environment", BLOCKS / "p01.pddl", *TEXT],
+        "",
+        r"error: .*p01\.pddl: a PDDL problem .* no scene of it\nhint: give an environment",
+    ),
+    "no-film-directory": (
+        ExitCode.CANNOT_WRITE,
+        [*KITCHEN, *TEXT, "--video", "none/out.mp4"],
+        "",
+        r"error: none/out\.mp4 cannot be written: No such directory",
+    ),
+    "log-is-a-directory": (
+        ExitCode.CANNOT_WRITE,
+        [*KITCHEN, *TEXT, "--log", ROOT],
+        "",
+        r"error: .* cannot be written: Is a directory",
+    ),
+    "no-pybullet": (
+        ExitCode.MISSING_TOOL,
+        [*KITCHEN, *TEXT],
+        HIDE_PYBULLET,
+        r"error: .*pybullet is not installed\nhint: pip install 'tmd\[robot\]'",
+    ),
+    "no-ffmpeg": (
+        ExitCode.MISSING_TOOL,
+        [*KITCHEN, *TEXT, "--video", "out.mp4"],
+        HIDE_FFMPEG,
+        r"error: MP4 films need .*imageio-ffmpeg.*\nhint: pip install 'tmd\[robot\]', or ask for a GIF",
+    ),
+    "no-pillow": (
+        ExitCode.MISSING_TOOL,
+        [*KITCHEN, *TEXT, "--strip", "out.png"],
+        HIDE_PILLOW,
+        r"error: .*Pillow.*\nhint: pip install 'tmd\[robot\]'",
+    ),
+}
+WITH_ROBOT = {
+    "no-pr2": (ExitCode.MISSING_TOOL, [*KITCHEN, *TEXT], HIDE_PR2, r"error: the PR2's model is missing.*\nhint: pip "),
+    "no-display": (
+        ExitCode.MISSING_TOOL,
+        [*KITCHEN, *TEXT, "--gui"],
+        "import os; os.environ.pop('DISPLAY', None)",
+        r"error: no window can be opened.*\nhint: .*--video",
+    ),
+    "no-urdf": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "none.urdf"], "", r"error: .*none\.urdf"),
+    "other-robot": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "box.urdf"], "", r"error: box\.urdf is no PR2: "),
+    "overlap": (
+        ExitCode.BAD_INPUT,
+        ["run", "--environment", "overlap.yaml", *TEXT],
+        "",
+        r"error: overlap\.yaml:\d+:\d+: 'pot\d' and 'pot\d' are in each other by \d+ mm",
+    ),
+}
+
+
+def _refused(ended: Ended, code: ExitCode, told: str) -> None:
+    assert ended.code == code, ended.err
+    assert re.match(told, ended.err), ended.err
+    assert "Traceback" not in ended.err
+    assert ended.out == ""
+
+
+@pytest.mark.parametrize(("code", "arguments", "before", "told"), WRONG.values(), ids=list(WRONG))
+def test_what_cannot_be_run(
+    tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], before: str, told: str
+) -> None:
+    _refused(tmd(*arguments, before=before), code, told)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.usefixtures("robot")
+@pytest.mark.parametrize(("code", "arguments", "before", "told"), WITH_ROBOT.values(), ids=list(WITH_ROBOT))
+def test_what_cannot_be_simulated(
+    tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], before: str, told: str
+) -> None:
+    (tmp_path / "box.urdf").write_text(URDF)
+    (tmp_path / "overlap.yaml").write_text(OVERLAP)
+    _refused(tmd(*arguments, before=before), code, told)
+
+
+@pytest.mark.parametrize("missing", ["skills.yaml", "objects.yaml"])
+def test_a_domain_without_a_robot(tmd: Tmd, tmp_path: Path, missing: str) -> None:
+    folder = shutil.copytree(ROOT / "domains" / "kitchen", tmp_path / "domains" / "kitchen")
+    (folder / missing).unlink()
+    ended = tmd(*KITCHEN, *TEXT)
+    _refused(ended, ExitCode.BAD_INPUT, rf"error: .*{re.escape(missing)}.*\nhint: ")
+
+
+@pytest.mark.usefixtures("robot")
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_what_a_killed_run_has_written_is_readable(tmp_path: Path, plan: Path, how: signal.Signals) -> None:
+    command = [sys.executable, "-m", "tmd", *KITCHEN, "--plan", str(plan), "--log", "log.jsonl", "--video", "out.mp4"]
+    log, film = tmp_path / "log.jsonl", tmp_path / "out.mp4"
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        while process.poll() is None and not (log.exists() and log.read_text().count('"event": "begin"') >= 2):
+            time.sleep(0.05)
+        process.send_signal(how)
+        out, err = process.communicate(timeout=60)
+    steps = [entry["event"] for entry in lines(log)]
+    assert steps[:4] == ["plan", "begin", "step", "begin"]
+    if how is signal.SIGKILL:
+        film = tmp_path / "out.unfinished.mp4"
+        deadline = time.monotonic() + 30  # its writer is a process of its own, which ends by itself
+        while not film.stat().st_size and time.monotonic() < deadline:
+            time.sleep(0.1)
+    else:
+        assert (process.returncode, err) == (ExitCode.INTERRUPTED, "error: interrupted\n")
+        assert "done:" not in out
+        assert (steps[-1], lines(log)[-1]["status"]) == ("end", "interrupted")
+        assert not (tmp_path / "out.unfinished.mp4").exists()
+    assert frames(film) > 10

@@ -1,0 +1,318 @@
+"""Films: a short run is filmed once; the file, the captions and the angles are looked at."""
+
+from __future__ import annotations
+
+import math
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+pytest.importorskip("PIL", reason="needs the extra robot")
+pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
+
+from tests.cli.conftest import ROOT
+from tmd.errors import MissingToolError, OutputError, TmdError
+from tmd.pddl.model import GroundAtom, Instruction
+from tmd.pddl.plan_file import parse_instruction
+from tmd.robot.camera import View
+from tmd.robot.captions import Caption, caption_height, filmstrip, under
+from tmd.robot.film import Film, open_movie
+from tmd.robot.movie_file import MovieFile
+from tmd.robot.observe import Mismatch
+from tmd.robot.outcome import Execution, Status, Step
+from tmd.robot.record import Order, Recorder, Title
+from tmd.robot.stage import Stage
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import find_domain
+
+if TYPE_CHECKING:
+    from tmd.pddl.model import State
+
+SIZE, FPS = (160, 120), 2
+PLAN = ("find(mug1)", "moveto(mug1)", "grasp(mug1)")
+Pixels = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a filmed run left."""
+
+    film: Path
+    strip: Path
+    execution: Execution
+    pictures: int
+    poses: list[tuple[float, ...]]
+
+
+def frames(path: Path) -> list[Pixels]:
+    """All pictures of a film."""
+    import imageio.v3 as iio
+
+    return [np.asarray(frame)[..., :3] for frame in iio.imiter(path)]
+
+
+def stage(*, pictures: bool = True) -> Stage:
+    folder = find_domain("kitchen", ROOT / "domains")
+    corpus = Corpus(folder, ROOT / "problems" / "kitchen")
+    environment = load_environment(corpus.directory / "environments" / "kitchen1.yaml")
+    problem = corpus.world("kitchen1").task.problem
+    return Stage(environment, folder, problem, kinematic=True, pictures=pictures)
+
+
+def orders() -> list[Order]:
+    return [Order(parse_instruction(text), 0, index == 0, "Take the mug") for index, text in enumerate(PLAN)]
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
+    folder = tmp_path_factory.mktemp("film")
+    path, strip = folder / "run.mp4", folder / "run.png"
+    with stage() as ready, open_movie(path, SIZE, FPS) as movie:
+        film = Film(ready.cell, ready.skills, movie=movie, strip=True)
+        film.open("3 instructions", "Take the mug")
+        execution = ready.execute(orders(), [film])
+        film.close(execution)
+        film.write_strip(strip)
+        poses = [ready.sim.pose(body).position for body in ready.cell.scene.bodies.values()]
+    return Run(path, strip, execution, movie.pictures, poses)
+
+
+def test_the_film_has_every_picture(run: Run) -> None:
+    seen = frames(run.film)
+    assert run.execution.status is Status.DONE
+    assert len(seen) == run.pictures > 20
+    assert seen[0].shape == (SIZE[1] + caption_height(SIZE[0]), SIZE[0], 3)
+    assert [path.name for path in sorted(run.film.parent.iterdir())] == ["run.mp4", "run.png"]
+
+
+def test_the_pictures_show_something_that_moves(run: Run) -> None:
+    pictures = [frame[: SIZE[1]].astype(float) for frame in frames(run.film)]
+    assert all(picture.std() > 20 for picture in pictures)
+    assert np.abs(pictures[-1] - pictures[0]).mean() > 10
+
+
+def test_the_camera_does_not_jump(run: Run) -> None:
+    """From one picture to the next less changes than from the first to the last."""
+    pictures = [frame[: SIZE[1]].astype(float) for frame in frames(run.film)]
+    steps = [np.abs(b - a).mean() for a, b in pairwise(pictures)]
+    assert np.median(steps) < np.abs(pictures[-1] - pictures[0]).mean() / 2
+
+
+def test_the_strip_has_a_picture_for_each_instruction(run: Run) -> None:
+    from PIL import Image
+
+    sheet = np.asarray(Image.open(run.strip))
+    tile = np.array([300 + caption_height(400), 400]) + 10
+    assert sheet.shape == (2 * tile[0] + 10, 2 * tile[1] + 10, 3)  # 3 pictures: two columns, two rows
+    assert len(np.unique(sheet[tile[0] + 10 :, tile[1] + 10 :].reshape(-1, 3), axis=0)) == 1  # the fourth place
+
+
+def test_a_film_does_not_change_the_run(run: Run) -> None:
+    with stage(pictures=False) as ready:
+        execution = ready.execute(orders())
+        poses = [ready.sim.pose(body).position for body in ready.cell.scene.bodies.values()]
+    assert execution == run.execution
+    assert poses == run.poses
+
+
+def test_the_mug_is_seen_from_the_best_angle() -> None:
+    """What the camera looks at stands in the middle of the picture: repainted, it changes there."""
+    with stage() as ready:
+        from tmd.robot.camera import FOV, Camera
+
+        camera = Camera(ready.cell)
+        camera.follow(["mug1"], wide=False)
+        view = camera.best()
+        before = ready.sim.picture(view.eye, view.target, *SIZE, fov=FOV, shadow=False).astype(int)
+        ready.sim.colour(ready.cell.scene.bodies["mug1"], -1, (0.0, 1.0, 0.0, 1.0))
+        after = ready.sim.picture(view.eye, view.target, *SIZE, fov=FOV, shadow=False).astype(int)
+    changed = np.argwhere(np.abs(after - before).sum(axis=2) > 60)
+    assert len(changed) > 10
+    middle = np.array([SIZE[1], SIZE[0]]) / 2
+    assert np.all(np.abs(changed.mean(axis=0) - middle) < middle / 3)
+
+
+def test_a_view_turns_the_shorter_way() -> None:
+    one, other = View((0, 0, 0), math.radians(170), 0.5, 2.0), View((1, 0, 0), math.radians(-170), 0.5, 4.0)
+    half = one.towards(other, 0.5)
+    assert math.remainder(half.turn - math.pi, math.tau) == pytest.approx(0.0)
+    assert (half.target[0], half.distance) == (0.5, 3.0)
+    assert math.dist(half.eye, half.target) == pytest.approx(3.0)
+
+
+# files
+
+
+def noise(seed: int, count: int = 6) -> Iterator[Pixels]:
+    """Pictures of which only a part changes."""
+    rng = np.random.default_rng(seed)
+    picture = np.full((48, 64, 3), 90, np.uint8)
+    for index in range(count):
+        picture = picture.copy()
+        picture[8 + index : 24 + index, 16:40] = rng.integers(0, 4, 3) * 80
+        yield picture
+
+
+@pytest.mark.parametrize("name", ["out.mp4", "out.gif"])
+def test_pictures_come_back(tmp_path: Path, name: str) -> None:
+    given = list(noise(1))
+    with MovieFile(tmp_path / name, (64, 48), 10) as movie:
+        for picture in given:
+            movie.add(picture)
+    found = frames(tmp_path / name)
+    assert len(found) == len(given)
+    for one, other in zip(given, found, strict=True):
+        assert np.abs(one.astype(int) - other).mean() < 6
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_a_gif_lets_a_picture_stay(tmp_path: Path) -> None:
+    from PIL import Image
+
+    with MovieFile(tmp_path / "out.gif", (64, 48), 10) as movie:
+        for picture in noise(2, 2):
+            movie.add(picture, 5)
+            movie.add(picture, 2)
+    with Image.open(tmp_path / "out.gif") as gif:
+        assert (gif.n_frames, gif.info["duration"]) == (2, 700)
+
+
+@pytest.mark.parametrize("name", ["out.mp4", "out.gif"])
+def test_an_interrupted_film_is_readable(tmp_path: Path, name: str) -> None:
+    with pytest.raises(KeyboardInterrupt), MovieFile(tmp_path / name, (64, 48), 10) as movie:
+        for picture in noise(3):
+            movie.add(picture)
+        raise KeyboardInterrupt
+    assert len(frames(tmp_path / name)) == 6
+
+
+@pytest.mark.parametrize("name", ["out.mp4", "out.gif"])
+def test_a_film_without_pictures_leaves_nothing(tmp_path: Path, name: str) -> None:
+    with MovieFile(tmp_path / name, (64, 48), 10):
+        pass
+    assert not list(tmp_path.iterdir())
+
+
+def test_what_cannot_be_written_is_refused_at_once(tmp_path: Path) -> None:
+    with pytest.raises(OutputError, match=r"none/out\.gif cannot be written: No such file or directory"):
+        MovieFile(tmp_path / "none" / "out.gif", (64, 48), 10)
+    (tmp_path / "out.gif").mkdir()
+    with pytest.raises(OutputError, match="Is a directory"):
+        MovieFile(tmp_path / "out.gif", (64, 48), 10)
+    with pytest.raises(TmdError, match=r"films are \.mp4 or \.gif"):
+        open_movie(tmp_path / "out.avi")
+
+
+def test_no_ffmpeg(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(MissingToolError, match="imageio-ffmpeg"):
+        open_movie(tmp_path / "out.mp4")
+    assert not list(tmp_path.iterdir())
+
+
+# captions
+
+
+def words(caption: Caption, width: int = 640) -> Pixels:
+    return under(np.zeros((8, width, 3), np.uint8), caption)[8:]
+
+
+@pytest.mark.parametrize("width", [160, 480, 640, 1280])
+def test_nothing_is_written_over_the_edge(width: int) -> None:
+    """However long the words are, the last columns and rows stay empty."""
+    facts = tuple((f"(a_rather_long_predicate pr2 some_object{n} another_object{n})", "missing") for n in range(9))
+    caption = Caption("keep" * 60, "12/34", "said " * 80, facts, "measured " * 90, "mismatch")
+    pixels = words(caption, width)
+    edge = width // 100
+    assert pixels.shape == (caption_height(width), width, 3)
+    for border in (pixels[:, :edge], pixels[:, -edge:], pixels[-edge:], pixels[:edge]):
+        assert len(np.unique(border.reshape(-1, 3), axis=0)) == 1
+
+
+def test_marks_differ() -> None:
+    marks = [words(Caption("a", facts=(("(b)", mark),))) for mark in ("expected", "confirmed", "missing")]
+    assert not np.array_equal(marks[0], marks[1])
+    assert not np.array_equal(marks[1], marks[2])
+
+
+def test_a_sheet_has_at_most_four_columns() -> None:
+    tile = np.zeros((20, 30, 3), np.uint8)
+    assert filmstrip([tile] * 18).size == (4 * 40 + 10, 5 * 30 + 10)
+    assert filmstrip([tile]).size == (50, 40)
+
+
+# the record
+
+
+class Told:
+    """Writes down what it is told."""
+
+    def __init__(self) -> None:
+        self.begun: list[str] = []
+        self.ended: list[str] = []
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        self.begun.append(_name(title))
+
+    def end(self, title: Title, step: Step) -> None:
+        self.ended.append(_name(title))
+
+
+def _name(title: Title) -> str:
+    return f"{title.instruction.name} {'repair' if title.repair else title.number}"
+
+
+class Idle:
+    """Does nothing."""
+
+    clock = 0
+
+    def perform(self, instruction: Instruction, gains: object, attempt: int) -> str:
+        return ""
+
+
+def told(plan: str, steps: str) -> Told:
+    """What is told of ``steps``: each a letter, with ``!`` failed, with ``?`` not as predicted, with ``+`` a repair."""
+    listener = Told()
+    recorder = Recorder(Idle(), [Order(Instruction(name)) for name in plan.split()], [listener])
+    nothing: State = frozenset()
+    wrong = (Mismatch(GroundAtom("p"), True, "not so"),)
+    for word in steps.split():
+        instruction = Instruction(word[0])
+        recorder.perform(instruction, (), 0)
+        failure, mismatches = "it broke" * ("!" in word), wrong if "?" in word else ()
+        recorder.watch(Step(instruction, "+" in word, failure, "", (), mismatches, 0, 0, nothing))
+    return listener
+
+
+@pytest.mark.parametrize(
+    ("plan", "steps", "expected"),
+    [
+        ("a b c", "a b c", "a 1, b 2, c 3"),
+        ("a b", "a! a b", "a 1, a 1, b 2"),
+        ("a b", "a! r+ a b", "a 1, r repair, a 1, b 2"),
+        ("a b", "a? a b", "a 1, a 1, b 2"),
+        ("a b", "a? b", "a 1, b 2"),
+        ("a b c", "a? r+ b c", "a 1, r repair, b 2, c 3"),
+        ("a b", "a b r+", "a 1, b 2, r repair"),
+    ],
+)
+def test_steps_have_their_place_in_the_plan(plan: str, steps: str, expected: str) -> None:
+    listener = told(plan, steps)
+    assert ", ".join(listener.ended) == expected
+    assert listener.begun == listener.ended
+
+
+def test_a_strip_of_nothing_is_not_written(tmp_path: Path) -> None:
+    with stage(pictures=False) as ready:
+        Film(ready.cell, ready.skills, strip=True).write_strip(tmp_path / "none.png")
+    assert not list(tmp_path.iterdir())
