@@ -19,7 +19,7 @@ from tmd.robot.follow import hold
 from tmd.robot.performer import RobotPerformer
 from tmd.robot.pose import Pose
 from tmd.robot.pr2 import ARMS, finger_angle
-from tmd.robot.scene import Handle
+from tmd.robot.scene import Handle, Spot
 from tmd.robot.simulator import Simulator
 from tmd.robot.skill_file import Skills, Task
 
@@ -223,7 +223,7 @@ def _stuck(cell: Cell, name: str, log: list[Happening]) -> Iterator[None]:
     stuck = _Stuck(cell, handle)
     cell.sim.drive_joint(handle.body, handle.index, stuck.at, _LOCK)
     cell.sim.add_watcher(stuck)
-    log.append(Happening(cell.sim.ticks, f"{name} is stuck, {cell.how_open(name)}"))
+    log.append(Happening(cell.sim.ticks, f"a joint is stuck: {cell.how_open(name)}"))
     try:
         yield
     finally:
@@ -341,7 +341,7 @@ def _move(cell: Cell, item: str, rng: Generator) -> str:
     body = cell.scene.bodies[item]
     before = cell.sim.pose(body)
     for target in _surfaces(cell, here[0], rng):
-        for spot in cell.scene.support(target, "on", item)[:3]:
+        for spot in _roomy(cell, item, cell.scene.support(target, "on", item))[:3]:
             cell.sim.set_pose(body, spot.pose)
             others = [other for other in cell.sim.bodies() if other != body]
             if any(c.distance < -_FALL for other in others for c in cell.sim.closest(body, other, 0.0)):
@@ -351,6 +351,12 @@ def _move(cell: Cell, item: str, rng: Generator) -> str:
             return f"{item} was moved from {here[0]} to {target}"
     cell.sim.set_pose(body, before)
     return ""
+
+
+def _roomy(cell: Cell, item: str, spots: Sequence[Spot]) -> list[Spot]:
+    """The spots with those first that are far from other items: what is moved shall not bar the way to others."""
+    others = [cell.sim.pose(cell.scene.bodies[other]) for other in cell.scene.items() if other != item]
+    return sorted(spots, key=lambda spot: -min((spot.pose.distance(other) for other in others), default=0.0))
 
 
 def _surfaces(cell: Cell, without: str, rng: Generator) -> list[str]:

@@ -1,0 +1,122 @@
+"""Faults act on the simulation; the monitor sees each, and nothing that failed is claimed. Runs can be repeated."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+
+from experiments.execution.record import FAILED, Case, Record, append, read
+from experiments.execution.report import claimed_falsely, masked, report, seen
+from experiments.execution.run import corpus, holds, run, skills_of
+from tmd.pddl.model import GroundAtom
+from tmd.robot.faults import Fault, Happening, opportunities
+
+TAKE = ("find(ramen1)", "moveto(ramen1)", "grasp(ramen1)")
+
+
+def case(*plan: str, environment: str = "kitchen4", fault: str = "", repairs: int = 2, **more: bool | int) -> Case:
+    chosen = {"physics": False, "seed": 0, "twice": False} | more
+    return Case("a plan", "kitchen", "plan", environment, plan, (), fault=fault, repairs=repairs, **chosen)
+
+
+def told(record: Record) -> list[str]:
+    return [happening.text for happening in record.faults]
+
+
+def test_what_slips_is_seen_and_taken_again() -> None:
+    record = run(case(*TAKE, fault="slip"))
+    assert told(record) == ["ramen1 slipped out of the right hand"] or told(record) == [
+        "ramen1 slipped out of the left hand"
+    ]
+    first = next(line for line in record.lines if line.instruction == "grasp(ramen1)")
+    assert "slipped out" in first.failure
+    assert seen(record) and not claimed_falsely(record)
+    assert record.status == "recovered" or "ramen1" in record.reason
+
+
+def test_what_is_stuck_is_seen_and_tried_again() -> None:
+    record = run(
+        case("find(microwave1)", "moveto(microwave1)", "open(microwave1_door)", environment="kitchen1", fault="stuck")
+    )
+    assert told(record) == ["a joint is stuck: microwave1_door is 0 % open"]
+    first, *others = [line for line in record.lines if line.instruction == "open(microwave1_door)"]
+    assert first.failure
+    assert record.status == "recovered" and not any(line.failure for line in others[-1:])
+
+
+def test_a_button_that_shifts_is_missed_and_pressed_again() -> None:
+    record = run(
+        case("find(fridge1)", "moveto(fridge1)", "press(fridge1_button)", environment="kitchen3", fault="missed")
+    )
+    assert len(record.faults) == 1 and told(record)[0].startswith("fridge1 was shifted by ")
+    first = next(line for line in record.lines if line.instruction == "press(fridge1_button)")
+    assert first.failure
+    assert record.lines[-1].instruction == "press(fridge1_button)" and "went down" in record.lines[-1].evidence
+    assert record.status == "recovered", record.reason
+
+
+def test_what_is_moved_is_seen_and_fetched_from_there() -> None:
+    record = run(case("find(mug1)", *TAKE, fault="moved"))
+    assert len(record.faults) == 1 and told(record)[0].startswith("ramen1 was moved from ")
+    there = told(record)[0].split()[-1]
+    assert any(f"not (at ramen1 {there} on) was expected" in text for line in record.lines for text in line.mismatches)
+    assert seen(record) and not claimed_falsely(record)
+    assert record.status == "recovered", record.reason
+
+
+@pytest.mark.parametrize("physics", [False, True], ids=["kinematic", "physics"])
+def test_the_same_seed_gives_the_same_trajectory_to_the_byte(physics: bool) -> None:
+    record = run(case(*TAKE, physics=physics, twice=True))
+    assert record.status == "done", record.reason
+    assert record.repeated is True
+    if not physics:
+        other = run(case(*TAKE, physics=physics, twice=True, seed=1))
+        assert other.repeated is True and other.trajectory != record.trajectory
+
+
+@pytest.mark.parametrize("kind", list(Fault))
+def test_where_a_fault_can_come_about(kind: Fault) -> None:
+    skills = skills_of("kitchen")
+    wanted = {Fault.SLIP: {"grasp"}, Fault.STUCK: {"open", "close"}, Fault.MISSED: {"press"}}
+    found = 0
+    for demonstration in corpus("kitchen").demonstrations():
+        plan = demonstration.instructions
+        for index in opportunities(kind, plan, skills):
+            found += 1
+            if kind is Fault.MOVED:
+                assert any(i.name == "grasp" and i.args[0] not in plan[index].args for i in plan[index + 1 :])
+            else:
+                assert plan[index].name in wanted[kind]
+    assert found > 100
+
+
+def test_a_run_that_breaks_is_a_record_and_what_was_cut_off_is_not(tmp_path: Path) -> None:
+    broken = run(case("find(ramen1)", environment="kitchen9"))
+    assert broken.status == FAILED and "kitchen9" in broken.reason
+    append(tmp_path, broken)
+    with (tmp_path / "runs.jsonl").open("a") as file:
+        file.write('{"name": "cut o')
+    assert read(tmp_path) == [broken]
+    append(tmp_path, broken)
+    assert read(tmp_path) == [broken], "a run that was done again counts once"
+    assert "kitchen#" in report([broken], markdown=True)
+
+
+def test_literals_and_masks() -> None:
+    state = frozenset({GroundAtom("at", ("mug1", "table1", "on"))})
+    assert holds("(at mug1 table1 on)", state) and not holds("(not (at mug1 table1 on))", state)
+    assert holds("(not (hot mug1))", state) and not holds("(hot mug1)", state)
+    assert masked("no way to -0.40 1.25: 3 ways") == "no way to #: # ways"
+
+
+def test_a_claim_is_false_when_the_end_is_not_there_or_nothing_was_noticed() -> None:
+    record = run(case("find(ramen1)", fault="slip"))
+    assert record.faults == () and record.status == "done", "nothing is taken, so nothing can slip"
+    assert not claimed_falsely(record)
+    assert claimed_falsely(replace(record, goal=("(hot mug1)",)))
+    assert claimed_falsely(replace(record, faults=(Happening(1, "the mug is gone"),)))
+    assert not claimed_falsely(replace(record, status="stopped", goal=("(hot mug1)",)))
