@@ -45,7 +45,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.in_hand[side] = item
     away = _out(cell, below)
     _leave(cell, side, away, _links(cell, item))
-    cell.robot.tuck()
+    cell.fold()
     if cell.gap(side, item) > 0.03:
         raise SkillError(Stage.EFFECT, f"{item} slipped out of the {side} hand")
     return f"{item} is in the {side} hand"
@@ -83,7 +83,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     reach(cell, options, focus, cell.front(target), attempt)
     _release(cell, side, item)
     _leave(cell, side, None, _links(cell, item))
-    cell.robot.tuck()
+    cell.fold()
     now = cell.support(item)
     if now != (target, relation):
         where = f"{now[1]} {now[0]}" if now else "nowhere"
@@ -119,7 +119,7 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
     cell.robot.raise_torso(0.0)
     _release(cell, side, item)
     cell.settle(item)
-    cell.robot.tuck()
+    cell.fold()
     now = cell.support(item)
     if now != (target, "on"):
         raise SkillError(Stage.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}")
@@ -137,7 +137,7 @@ def _let_off(cell: Cell, side: str, chosen: Option) -> None:
     """Open the hand and go back to where it came from, if it can."""
     cell.robot.open_gripper(side)
     _leave(cell, side, None, chosen.ignore)
-    cell.robot.tuck()
+    cell.fold()
 
 
 def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:

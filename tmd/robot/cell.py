@@ -6,13 +6,13 @@ import itertools
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from math import hypot
+from math import cos, hypot, sin
 
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
 from tmd.robot.collision import Ignored
-from tmd.robot.motion import plan_line
+from tmd.robot.motion import plan_base, plan_line
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.pr2 import ARMS, Pr2
 from tmd.robot.scene import Handle, Scene
@@ -24,6 +24,9 @@ _SETTING_SHARE = 0.25
 """A knob is at a setting when it is not farther from it than this share of the way to the next one."""
 
 _BACK = 0.1
+_STEPS_BACK = (0.12, 0.25, 0.4)
+"""Metres that the base goes back where the arms have no room."""
+_NEARBY = 300
 _LIGHTLY = 15.0
 """Newtons that a lid is lifted with, so that what it is on stays where it is."""
 _PINS = 0.015
@@ -136,13 +139,26 @@ class Cell:
                 return
             before = now
 
+    def fold(self) -> bool:
+        """Tuck the arms; where there is no room for that, step back as far as is needed. Whether they are tucked."""
+        if self.robot.tuck():
+            return True
+        x, y, theta = self.robot.base()
+        pressed = {(body, link) for _, body, link, _ in self.robot.collides() if body != self.robot.body}
+        for away in _STEPS_BACK:
+            back = (x - away * cos(theta), y - away * sin(theta), theta)
+            path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
+            if path is not None and self.robot.drive(path) and self.robot.tuck():
+                return True
+        return False
+
     def retire(self, side: str, ignore: Ignored) -> None:
         """Draw a hand back the way it points, and tuck the arms."""
         back = self.robot.tool(side) * Pose((-_BACK, 0.0, 0.0))
         path = plan_line(self.robot, side, self.robot.tool(side), back, ignore=ignore)
         if path is not None:
             self.robot.move_arm(side, path)
-        self.robot.tuck()
+        self.fold()
 
     @contextmanager
     def gripped(self, side: str, handle: Handle) -> Iterator[None]:

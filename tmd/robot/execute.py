@@ -10,7 +10,7 @@ from tmd.energy.constraints import get_constraints
 from tmd.pddl.grounding import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply, first_broken
-from tmd.pddl.task import Cube
+from tmd.pddl.task import Bits, Cube, Operator
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Unreachable
 from tmd.robot.observe import Mismatch, Observer
@@ -139,6 +139,8 @@ class Executor:
         if len(known) < len(operators):
             lost = next(i for i, o in zip(waiting, operators, strict=True) if o is None)
             return f"{lost} can no longer be done"
+        if waiting and _runs(known, task.init):
+            return []
         if waiting:
             goal = get_constraints(known)[0]
         else:
@@ -174,6 +176,15 @@ class Executor:
 
 
 _Wanted = tuple[frozenset[GroundAtom], frozenset[GroundAtom]]
+
+
+def _runs(operators: Sequence[Operator], state: Bits) -> bool:
+    """Whether a sequence can be executed as it is."""
+    for operator in operators:
+        if not operator.applicable(state):
+            return False
+        state = operator.apply(state)
+    return True
 
 
 def _first(mismatches: Sequence[Mismatch]) -> str:

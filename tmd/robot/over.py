@@ -108,7 +108,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     tilt = _tilt(here, how)
     beside = _beside(cell, here.apply(how.at), target)
     follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
-    cell.robot.tuck()
+    cell.fold()
     said = (
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
@@ -142,7 +142,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
     follow(cell, side, (chosen.poses[0],), chosen.ignore)
-    cell.robot.tuck()
+    cell.fold()
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < -0.01 or beside > _BESIDE:
         raise SkillError(Stage.EFFECT, said)

@@ -147,7 +147,7 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
     """
     here = cell.robot.base()
     if hypot(base[0] - here[0], base[1] - here[1]) > 0.01 or abs(_wrapped(base[2] - here[2])) > 0.01:
-        cell.robot.tuck()
+        cell.fold()
         path = plan_base(cell.robot, base, rng=cell.rng)
         if path is None:
             raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
