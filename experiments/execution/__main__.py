@@ -3,7 +3,8 @@
     python -m experiments.execution --out runs/execution
     python -m experiments.execution --out runs/execution --physics --each 1
     python -m experiments.execution --out runs/execution --faults all --every 5
-    python -m experiments.execution --out runs/execution --report > tables.md
+    python -m experiments.execution --out runs/execution --report
+    python -m experiments.execution --out runs/execution --page docs/execution.md
 
 Each run is a line of DIR/runs.jsonl, written when the run ends. What is there already is not done again, so an
 experiment that was interrupted goes on where it was; remove the file to begin anew.
@@ -20,20 +21,26 @@ from experiments.execution.cases import ALL, ONE, demonstrations, plans, with_fa
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import report
 from experiments.execution.run import corpus, run, skills_of
-from tmd.atomic import make_directory
+from tmd.atomic import make_directory, write_text
 from tmd.errors import ExitCode, TmdError
+from tmd.pddl.syntax import read_text
 from tmd.robot.execute import MOST_REPAIRS
+
+OPENING, CLOSING = "<!-- tables -->", "<!-- end of tables -->"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run what is missing and print the tables; the exit code."""
     asked = _parser().parse_args(arguments)
     try:
-        if not asked.report:
+        if not asked.report and asked.page is None:
             _execute(asked)
         records = read(asked.out)
         if not records:
             raise TmdError(f"there are no runs in {asked.out}")
+        if asked.page is not None:
+            _put(asked.page, report(records, markdown=True))
+            return ExitCode.OK
     except TmdError as error:
         print(f"error: {error}", file=sys.stderr)
         return ExitCode.BAD_INPUT
@@ -66,6 +73,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--twice", action="store_true", help="run each two times, and compare the trajectories to the byte")
     add("--jobs", type=_positive, default=1, metavar="N", help="so many processes")
     add("--report", action="store_true", help="run nothing; print the tables of DIR as Markdown")
+    add("--page", type=Path, metavar="FILE", help="run nothing; put the tables of DIR into this page")
     return parser
 
 
@@ -89,6 +97,16 @@ def _execute(asked: argparse.Namespace) -> None:
     for number, record in enumerate(runs, start=1):
         append(directory, record)
         print(f"{number}/{len(waiting)} {_line(record)}", file=sys.stderr, flush=True)
+
+
+def _put(page: Path, tables: str) -> None:
+    """Put tables between the marks of a page."""
+    text = read_text(page)
+    before, opening, rest = text.partition(OPENING)
+    _, closing, after = rest.partition(CLOSING)
+    if not opening or not closing:
+        raise TmdError(f"{page} has no place for tables", hint=f"write the lines {OPENING} and {CLOSING} into it")
+    write_text(page, f"{before}{opening}\n\n{tables}\n\n{closing}{after}")
 
 
 def _line(record: Record) -> str:

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from tmd.errors import Location, TmdError
 from tmd.robot.faults import Happening
 
 Key: TypeAlias = tuple[str, str, str, int]
@@ -136,16 +137,26 @@ def append(directory: Path, record: Record) -> None:
 
 
 def read(directory: Path) -> list[Record]:
-    """The records of a directory in their order; none where there is no file. A line that was cut off is left out."""
+    """The records of a directory in their order; none where there is no file. A line that was cut off is left out.
+
+    Raises:
+        TmdError: A line is whole and no run.
+    """
     path = directory / FILE
     if not path.exists():
         return []
     found = {}
-    for text in path.read_text(encoding="utf-8").splitlines():
+    for number, text in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
         try:
             record = _record(json.loads(text))
-        except (ValueError, KeyError, TypeError):
+        except ValueError:
             continue
+        except (KeyError, TypeError) as error:
+            raise TmdError(
+                "this line is not a run of this version",
+                location=Location(str(path), number, 1),
+                hint="move the file away to begin anew",
+            ) from error
         found[record.key] = record
     return sorted(found.values(), key=lambda record: (record.task, record.environment, record.key))
 

@@ -9,9 +9,11 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
+from experiments.execution.__main__ import CLOSING, OPENING, main
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
+from tmd.errors import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.robot.faults import Fault, Happening, opportunities
 
@@ -104,6 +106,25 @@ def test_a_run_that_breaks_is_a_record_and_what_was_cut_off_is_not(tmp_path: Pat
     append(tmp_path, broken)
     assert read(tmp_path) == [broken], "a run that was done again counts once"
     assert "kitchen#" in report([broken], markdown=True)
+    with (tmp_path / "runs.jsonl").open("a") as file:
+        file.write('{"name": "of another version"}\n')
+    with pytest.raises(TmdError, match=r"runs\.jsonl:4:1.* not a run"):
+        read(tmp_path)
+
+
+def test_tables_are_put_into_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    page = tmp_path / "page.md"
+    page.write_text(f"before\n{OPENING}\nold\n{CLOSING}\nafter\n")
+    where = ["--out", str(tmp_path), "--page", str(page)]
+    assert main(where) == ExitCode.BAD_INPUT and "there are no runs" in capsys.readouterr().err
+    append(tmp_path, run(case("find(ramen1)", environment="kitchen9")))
+    for _ in range(2):
+        assert main(where) == ExitCode.OK
+        text = page.read_text()
+        assert text.startswith(f"before\n{OPENING}\n\n### ") and text.endswith(f"|\n\n{CLOSING}\nafter\n")
+        assert "old" not in text and text.count("| plan | kitchen9 | 1 | 0 (0%) |") == 1
+    page.write_text("no place")
+    assert main(where) == ExitCode.BAD_INPUT and "no place for tables" in capsys.readouterr().err
 
 
 def test_literals_and_masks() -> None:
