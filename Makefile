@@ -5,6 +5,9 @@ TASK ?= ramen
 DATA ?= bundled
 VEIL500 ?= $(VEIL500_DIR)
 OUT ?= runs/$(TASK)-$(DATA)
+KITCHEN ?= kitchen4
+# section VII of the paper
+AFFOGATO := Take some coffee in a cup. Add ice cream of your choice. Finally, add raspberry syrup to the mixture.
 
 VENV := .venv
 BIN := $(VENV)/bin
@@ -13,13 +16,14 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.made-from-pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help setup experiment test check style format lint types docs examples bench clean
+.PHONY: help setup experiment demo test check style format lint types docs examples bench clean
 
 help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 	@echo
 	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
 	@echo "  STEP=all|report, and ARGS='…' for any other option of tmd experiment"
+	@echo "  make demo takes KITCHEN=kitchen4 SEED=N, and ARGS='--kinematic' or any other option of tmd run"
 	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
 
 setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
@@ -38,6 +42,12 @@ experiment: setup ## Run the main job: train, predict, score, print the table.
 	@$(BIN)/tmd experiment --task '$(TASK)' --data '$(DATA)' --out '$(OUT)' \
 		$(if $(VEIL500),--veil500 '$(VEIL500)') $(if $(MODELS),--models '$(MODELS)') \
 		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)') $(if $(STEP),--step '$(STEP)') $(ARGS)
+
+demo: setup ## Let a simulated PR2 make the affogato of the paper, and film it.
+	@mkdir -p runs/demo
+	@$(BIN)/tmd run --environment '$(KITCHEN)' --text '$(AFFOGATO)' --seed '$(or $(SEED),0)' \
+		--video runs/demo/affogato.mp4 --strip runs/demo/affogato.png --log runs/demo/affogato.jsonl $(ARGS); \
+	code=$$?; echo "film: runs/demo/affogato.mp4, one picture for each instruction: runs/demo/affogato.png"; exit $$code
 
 test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
 	@$(BIN)/python -m pytest -n auto

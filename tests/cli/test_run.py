@@ -84,7 +84,7 @@ def test_the_record(tmd: Tmd) -> None:
     ended = tmd(*KITCHEN, "--text", "Take the cup.", "--json")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
     record = json.loads(ended.out)
-    keys = ["text", "domain", "environment", "mode", "seed", "planner", "plan", "steps"]
+    keys = ["text", "domain", "environment", "mode", "seed", "fault", "planner", "plan", "steps", "faults"]
     assert list(record) == [*keys, "status", "reason", "repairs", "seconds"]
     assert (record["text"], record["mode"], record["status"]) == ("Take the cup.", "kinematic", "done")
     assert [step["action"] for step in record["steps"]] == [step["action"] for step in record["plan"]]
@@ -111,6 +111,17 @@ def test_a_robot_that_cannot_go_on_says_why(tmd: Tmd, plan: Path) -> None:
     assert ended.code == ExitCode.NOT_EXECUTED
     assert ended.out.count("failed: path: the wheels do not turn") == 3  # twice as a step, once as the reason
     assert re.search(r"^stopped: mended 1 times?, and then moveto\(pot1\) failed: path: ", ended.out, re.MULTILINE)
+
+
+@pytest.mark.usefixtures("robot")
+def test_a_fault_is_told_and_overcome(tmd: Tmd, plan: Path) -> None:
+    plan.write_text(f"{PLAN}(grasp pot1)\n")
+    ended = tmd(*KITCHEN, "--plan", plan, "--fault", "slip")
+    assert ended.code == ExitCode.OK, ended.out
+    assert re.search(
+        r"^    !  fault: pot1 slipped out of the \w+ hand\n    3\. grasp\(pot1\) ", ended.out, re.MULTILINE
+    )
+    assert re.search(r"^recovered: everything that the plan is for is confirmed, after \d", ended.out, re.MULTILINE)
 
 
 @pytest.mark.usefixtures("robot")

@@ -41,6 +41,11 @@ class _File(click.Path):
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="How often a plan is mended.")
 @click.option("--kinematic", is_flag=True, help="Move without physics: faster, and less is shown by it.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option(
+    "--fault",
+    type=click.Choice(["slip", "stuck", "moved", "missed"]),
+    help="Let this go wrong once, to see what the robot makes of it.",
+)
 @click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
@@ -59,6 +64,7 @@ def command(
     repairs: int,
     kinematic: bool,
     seed: int,
+    fault: str | None,
     urdf: Path | None,
     gui: bool,
     video: Path | None,
@@ -84,6 +90,7 @@ def command(
     from tmd.cli.stopping import stoppable
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.captions import pillow
+    from tmd.robot.faults import Fault
     from tmd.robot.film import Film, open_movie
     from tmd.robot.outcome import Status
     from tmd.robot.stage import Stage
@@ -122,21 +129,28 @@ def command(
             "environment": world.name,
             "mode": "kinematic" if kinematic else "physics",
             "seed": seed,
+            "fault": fault,
             "planner": chosen,
             "plan": plan_json(orders.orders),
         }
         if orders.status:
             if as_json:
-                emit_json({**asked, "steps": [], **refusal_json(orders.status, orders.remarks[-1])})
+                emit_json({**asked, "steps": [], "faults": [], **refusal_json(orders.status, orders.remarks[-1])})
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
         film = Film(stage.cell, stage.skills, movie=movie, strip=bool(strip)) if movie or strip else None
         if film and strip:
             stack.callback(film.write_strip, strip)
-        told = Telling(asked, orders.orders, journal, as_json=as_json)
+        told = Telling(asked, orders.orders, journal, lambda: stage.happenings, as_json=as_json)
         if film:
             film.open(told.heading, spoken or "")
-        execution = stage.execute(orders.orders, [told, film] if film else [told], planner=chosen, repairs=repairs)
+        execution = stage.execute(
+            orders.orders,
+            [told, film] if film else [told],
+            planner=chosen,
+            repairs=repairs,
+            fault=Fault(fault) if fault else None,
+        )
         if film:
             film.close(execution)
         told.log_ending(execution, stage.sim.steps)

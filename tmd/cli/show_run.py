@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Self
@@ -12,6 +12,7 @@ from tmd.cli.output import emit, emit_json
 from tmd.errors import OutputError
 from tmd.pddl.model import GroundAtom
 from tmd.robot.engine import STEPS_PER_SECOND
+from tmd.robot.faults import Happening
 from tmd.robot.outcome import Execution, Status, Step
 from tmd.robot.record import Order, Title
 
@@ -74,6 +75,7 @@ class Telling:
         asked: What was asked, as the beginning of the record.
         orders: The plan.
         journal: The log.
+        happenings: The faults that came about so far.
         as_json: Print JSON, and nothing before the end.
 
     Attributes:
@@ -81,10 +83,18 @@ class Telling:
     """
 
     def __init__(
-        self, asked: dict[str, object], orders: Sequence[Order], journal: RunLog | None, *, as_json: bool
+        self,
+        asked: dict[str, object],
+        orders: Sequence[Order],
+        journal: RunLog | None,
+        happenings: Callable[[], Sequence[Happening]],
+        *,
+        as_json: bool,
     ) -> None:
         self._asked = asked
         self._journal = journal
+        self._happenings = happenings
+        self._told = 0
         self._as_json = as_json
         self._steps: list[dict[str, object]] = []
         self._width = max(len(str(order.instruction)) for order in orders)
@@ -100,6 +110,10 @@ class Telling:
 
     def end(self, title: Title, step: Step) -> None:
         """It is over."""
+        for happening in self._happenings()[self._told :]:
+            self._told += 1
+            self._log({"event": "fault", "what": happening.text, "tick": happening.tick})
+            self._print(f"    !  fault: {happening.text}\n")
         told = step_json(title, step)
         self._steps.append(told)
         self._log({"event": "step", **told})
@@ -114,7 +128,8 @@ class Telling:
     def print_ending(self, execution: Execution, steps: int) -> None:
         """What is printed last, when all files are written: how it ended, or the whole record."""
         if self._as_json:
-            emit_json({**self._asked, "steps": self._steps, **execution_json(execution, steps)})
+            faults = [{"what": happening.text, "tick": happening.tick} for happening in self._happenings()]
+            emit_json({**self._asked, "steps": self._steps, "faults": faults, **execution_json(execution, steps)})
         else:
             emit(_ending(execution, steps))
 

@@ -14,7 +14,8 @@ from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.cell import Cell
 from tmd.robot.engine import STEPS_PER_SECOND
-from tmd.robot.execute import MOST_REPAIRS, Executor
+from tmd.robot.execute import MOST_REPAIRS, Executor, Performer
+from tmd.robot.faults import Fault, FaultyPerformer, Happening
 from tmd.robot.observe import Observer
 from tmd.robot.outcome import Execution, Step
 from tmd.robot.performer import RobotPerformer
@@ -49,6 +50,7 @@ class Stage:
         sim: The simulation.
         cell: Robot and scene.
         skills: The domain's.
+        happenings: The faults that came about.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -68,7 +70,9 @@ class Stage:
         pictures: bool = False,
     ) -> None:
         self.problem = problem
+        self._seed = seed
         self.skills = load_skills(folder)
+        self.happenings: list[Happening] = []
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
@@ -97,6 +101,7 @@ class Stage:
         *,
         planner: str = IN_PROCESS,
         repairs: int = MOST_REPAIRS,
+        fault: Fault | None = None,
     ) -> Execution:
         """Carry out a plan.
 
@@ -105,16 +110,22 @@ class Stage:
             listeners: Who is told how it goes.
             planner: Mends it.
             repairs: How often.
+            fault: Goes wrong once on the way; where is drawn by the stage's seed.
 
         Returns:
             How it went; listeners were told where in the plan each step stands.
         """
-        listeners = (_Signs(self), *listeners)
-        recorder = Recorder(RobotPerformer(self.cell, self.skills), orders, listeners)
+        plan = [order.instruction for order in orders]
+        robot = RobotPerformer(self.cell, self.skills)
+        performer: Performer = robot
+        if fault is not None:
+            performer = faulty = FaultyPerformer(robot, fault, np.random.default_rng([self._seed, 1]), plan)
+            self.happenings = faulty.log
+        recorder = Recorder(performer, orders, (_Signs(self), *listeners))
         executor = Executor(
             self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
         )
-        return executor.execute([order.instruction for order in orders])
+        return executor.execute(plan)
 
 
 class _Signs:
