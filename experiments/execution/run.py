@@ -5,24 +5,20 @@ from __future__ import annotations
 import re
 import time
 import traceback
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
-
-import numpy as np
 
 from experiments.execution.record import FAILED, Case, Line, Record
 from experiments.execution.trace import Trace
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.execute import Executor
-from tmd.robot.faults import Fault, Happening, with_fault
-from tmd.robot.observe import Observer
+from tmd.robot.faults import Fault, Happening
 from tmd.robot.outcome import Step
-from tmd.robot.performer import RobotPerformer
-from tmd.robot.scene import Scene
-from tmd.robot.simulator import STEPS_PER_SECOND, Simulator
+from tmd.robot.record import Order, Title
+from tmd.robot.simulator import STEPS_PER_SECOND
 from tmd.robot.skill_file import Skills, load_skills
-from tmd.robot.workcell import make_cell
+from tmd.robot.stage import Stage
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root
@@ -60,42 +56,34 @@ def _guarded(case: Case) -> Record:
 
 def _run(case: Case) -> Record:
     begin = time.perf_counter()
-    found, skills = corpus(case.domain), skills_of(case.domain)
+    found = corpus(case.domain)
     problem = found.world(case.environment).task.problem
     environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
-    plan = [parse_instruction(text) for text in case.plan]
-    with Simulator() as sim:
-        scene = Scene(sim, environment, found.folder, rng=np.random.default_rng(case.seed) if case.seed else None)
-        cell = make_cell(sim, scene, seed=case.seed, kinematic=not case.physics)
-        observer = Observer(problem, found.folder, skills, cell)
-        robot = RobotPerformer(cell, skills)
-        draws = np.random.default_rng([case.seed, 1])
-        faulty = with_fault(robot, Fault(case.fault), draws, plan) if case.fault else None
+    orders = [Order(parse_instruction(text)) for text in case.plan]
+    fault = Fault(case.fault) if case.fault else None
+    with Stage(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as stage:
         trace = Trace()
         if case.twice:
-            sim.add_watcher(trace)
-        ready, steps = time.perf_counter(), sim.steps
-        watch = _Watch(skills)
-        executor = Executor(problem, observer, faulty or robot, most_repairs=case.repairs, watch=watch)
-        execution = executor.execute(plan)
-        end = time.perf_counter()
-        seen = observer.now(execution.state)
+            stage.sim.add_watcher(trace)
+        ready, steps = time.perf_counter(), stage.sim.steps
+        notes = _Notes(stage.skills)
+        execution = stage.execute(orders, [notes], repairs=case.repairs, fault=fault)
         return _record(
             case,
             status=execution.status.value,
             reason=execution.reason,
             repairs=execution.repairs,
-            lines=tuple(watch.lines),
-            faults=tuple(faulty.log) if faulty else (),
-            goal=tuple(literal for literal in case.end_state if not holds(literal, seen)),
+            lines=tuple(notes.lines),
+            faults=tuple(stage.happenings),
+            goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
             setup=round(ready - begin, 3),
-            seconds=round(end - ready, 3),
-            simulated=round((sim.steps - steps) / STEPS_PER_SECOND, 3),
+            seconds=round(time.perf_counter() - ready, 3),
+            simulated=round((stage.sim.steps - steps) / STEPS_PER_SECOND, 3),
             trajectory=trace.digest() if case.twice else "",
         )
 
 
-class _Watch:
+class _Notes:
     """Writes down each step, and how long it took."""
 
     def __init__(self, skills: Skills) -> None:
@@ -103,7 +91,11 @@ class _Watch:
         self.lines: list[Line] = []
         self._last = time.perf_counter()
 
-    def __call__(self, step: Step) -> None:
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins."""
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over."""
         now = time.perf_counter()
         self.lines.append(
             Line(
