@@ -284,3 +284,20 @@ def test_what_a_killed_run_has_written_is_readable(tmp_path: Path, plan: Path, h
         assert (steps[-1], lines(log)[-1]["status"]) == ("end", "interrupted")
         assert not (tmp_path / "out.unfinished.mp4").exists()
     assert frames(film) > 10
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_in_made_code_keeps_its_exit_code(tmp_path: Path, number: int) -> None:
+    """A plain KeyboardInterrupt would let the interpreter end by SIGINT."""
+    (tmp_path / "stopped.py").write_text(
+        "import os, sys\n"
+        "from tmd.cli.stopping import stoppable\n"
+        "try:\n"
+        "    with stoppable():\n"
+        f"        exec('os.kill(os.getpid(), {int(number)})')\n"
+        "except KeyboardInterrupt:\n"
+        "    sys.exit(130)\n"
+    )
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    ended = subprocess.run([sys.executable, "-m", "stopped"], cwd=tmp_path, env=environment, check=False)
+    assert ended.returncode == ExitCode.INTERRUPTED

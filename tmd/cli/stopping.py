@@ -6,16 +6,27 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+class Stopped(KeyboardInterrupt):
+    """The program shall stop.
+
+    It has a type of its own because of a habit of Python: a plain KeyboardInterrupt that passes through ``exec`` of a
+    text (making a dataclass is enough) lets the interpreter end by SIGINT, whatever exit code it was given later.
+    """
+
 
 @contextmanager
 def stoppable() -> Iterator[None]:
-    """SIGTERM is raised as :class:`KeyboardInterrupt`."""
+    """SIGINT and SIGTERM are raised as :class:`Stopped`."""
 
     def stop(number: int, frame: object) -> None:
-        raise KeyboardInterrupt
+        raise Stopped
 
-    before = signal.signal(signal.SIGTERM, stop)
+    before = {number: signal.signal(number, stop) for number in _SIGNALS}
     try:
         yield
     finally:
-        signal.signal(signal.SIGTERM, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
