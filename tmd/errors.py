@@ -62,6 +62,7 @@ class TmdError(Exception):
         location: Where, if it stands in a text.
         hint: What to do about it, in one line.
         source: The source line at ``location``, shown with a caret when the error is printed at length.
+        code: Which kind of fault it is, by its name in ``docs/errors.md``; empty where no checker finds it.
     """
 
     exit_code = ExitCode.BAD_INPUT
@@ -73,12 +74,14 @@ class TmdError(Exception):
         location: Location | None = None,
         hint: str | None = None,
         source: str | None = None,
+        code: str = "",
     ) -> None:
         super().__init__(message)
         self.message = message
         self.location = location
         self.hint = hint
         self.source = source
+        self.code = code
 
     def __str__(self) -> str:
         place = f"{self.location}: " if self.location else ""
