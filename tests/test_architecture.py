@@ -18,6 +18,7 @@ FLOORS = {
     "planning": 3,
     "veil": 3,
     "energy": 4,
+    "policy": 4,
     "ground": 4.5,
     "evaluation": 5,
     "robot": 5,

@@ -16,13 +16,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.evaluation.dataset import BundledData, Example
-from tmd.evaluation.tree import InstructionTree, _lessons, _number, _steps_made, bag, mentioned
-from tmd.evaluation.tree_features import FIRST, Features, Menu
-from tmd.evaluation.tree_reward import Made, ascend, likelihood, log_probabilities
-from tmd.evaluation.tree_syntax import Things, learn_syntax
+from tmd.evaluation.tree import InstructionTree
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
+from tmd.policy.features import FIRST, Features, Menu
+from tmd.policy.learn import number, steps_made, study
+from tmd.policy.policy import bag, mentioned
+from tmd.policy.reward import Made, ascend, likelihood, log_probabilities
+from tmd.policy.syntax import Things, learn_syntax
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World, make_world
 
@@ -97,11 +99,11 @@ def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "k
 
 
 def prepared(data: Kitchens, examples: Sequence[Example]) -> tuple[Features, list[Made]]:
-    found = _lessons(examples, data)
+    found = study((e.demonstration for e in examples), data.world, data.lexicon)
     syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found], certain=0.95, cover=0.99)
-    features = _number(found, syntax, grounded=True)
+    features = number(found, syntax, grounded=True)
     menus = {x.things: Menu(features, x.things, syntax.menu(x.things)) for x in found}
-    return features, [made for x in found for made in _steps_made(x, menus[x.things], grounded=True)]
+    return features, [made for x in found for made in steps_made(x, menus[x.things], grounded=True)]
 
 
 @pytest.mark.parametrize("x", THINGS)

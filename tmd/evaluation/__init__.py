@@ -13,10 +13,7 @@ module              holds
 ``models``          what is compared, each behind one small interface
 ``crf``             the paper's own model among them, its ablations, and our variants
 ``predefined``      Predefined Templates: a library that people wrote
-``tree``            Instruction-Tree Search, and the policy that it is for others
-``tree_features``   its features
-``tree_reward``     its reward: likelihood, gradient, ascent
-``tree_syntax``     what it may try at all
+``tree``            Instruction-Tree Search
 ``units``           the unit of work: one model, one training set, the folds that share it
 ``backends``        who does the units: this process, others on this machine, a cluster
 ``cluster``         units on the workers of a dask scheduler

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tmd.evaluation.tree_features import REALS, Features, Floats, Ints, Steps
+from tmd.policy.features import REALS, Features, Floats, Ints, Steps
 
 _BATCH = 8
 """Sequences between two steps of the ascent."""

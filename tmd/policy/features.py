@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.evaluation.tree_syntax import Syntax, Things
 from tmd.pddl.model import Instruction
+from tmd.policy.syntax import Syntax, Things
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
