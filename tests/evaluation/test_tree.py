@@ -21,7 +21,7 @@ from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.policy.features import FIRST, Features, Menu
-from tmd.policy.learn import number, steps_made, study
+from tmd.policy.learn import number_features, steps_made, study
 from tmd.policy.policy import bag, mentioned
 from tmd.policy.reward import Made, ascend, likelihood, log_probabilities
 from tmd.policy.syntax import Things, learn_syntax
@@ -101,7 +101,7 @@ def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "k
 def prepared(data: Kitchens, examples: Sequence[Example]) -> tuple[Features, list[Made]]:
     found = study((e.demonstration for e in examples), data.world, data.lexicon)
     syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found], certain=0.95, cover=0.99)
-    features = number(found, syntax, grounded=True)
+    features = number_features(found, syntax, grounded=True)
     menus = {x.things: Menu(features, x.things, syntax.menu(x.things)) for x in found}
     return features, [made for x in found for made in steps_made(x, menus[x.things], grounded=True)]
 

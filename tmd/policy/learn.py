@@ -60,7 +60,7 @@ def learn_policy(
     lessons = study(demonstrations, world_of, lexicon)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
     syntax = learn_syntax(sequences, certain=certain, cover=_COVER)
-    features = number(lessons, syntax, grounded=grounded)
+    features = number_features(lessons, syntax, grounded=grounded)
     menus: dict[Things, Menu] = {}
     data = []
     for lesson in lessons:
@@ -90,7 +90,7 @@ def study(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
     return found
 
 
-def number(lessons: Sequence[Lesson], syntax: Syntax, *, grounded: bool) -> Features:
+def number_features(lessons: Sequence[Lesson], syntax: Syntax, *, grounded: bool) -> Features:
     """Number the features that the training data have."""
     words: set[str] = set()
     seen: set[tuple[str, ...]] = set()
