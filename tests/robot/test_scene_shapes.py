@@ -37,8 +37,9 @@ def test_every_class_of_a_bundled_domain_says_its_shape(folder: Path) -> None:
 
 @pytest.mark.parametrize("folder", DOMAINS, ids=lambda p: p.name)
 def test_every_blueprint_is_a_tree_of_links_with_mass(folder: Path) -> None:
+    shapes = Shapes(DomainFolder(folder))
     for name in whole_classes(folder):
-        blueprint = Shapes(DomainFolder(folder)).blueprint(name)
+        blueprint = shapes.blueprint(name)
         robot = ElementTree.fromstring(blueprint.urdf)
         links = {link.get("name") for link in robot.iter("link")}
         children = [joint.find("child") for joint in robot.iter("joint")]
