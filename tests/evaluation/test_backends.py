@@ -115,31 +115,27 @@ def test_every_unit_is_in_one_share() -> None:
             assert sum(Shard(number, of).has(index) for number in range(1, of + 1)) == 1
 
 
-@pytest.mark.parametrize("options", [("--shard", "1/2"), ("--jobs", "1")], ids=["shards", "twins"])
-def test_two_processes_at_once_in_one_directory(
-    tmp_path: Path, serial: dict[str, bytes], options: tuple[str, str]
-) -> None:
-    """Two shards, and the same command twice, which does everything twice."""
+def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    """Two shards, and the whole of it beside them, which does everything twice."""
     out = tmp_path / "out"
-    other = ("--shard", "2/2") if options[0] == "--shard" else options
-    processes = [begin(out, *options), begin(out, *other)]
+    processes = [begin(out, *options) for options in (("--shard", "1/2"), ("--shard", "2/2"), ("--jobs", "1"))]
     told = [process.communicate(timeout=300) for process in processes]
-    assert [process.returncode for process in processes] == [0, 0], told
+    assert [process.returncode for process in processes] == [0, 0, 0], told
     run(config(out))
     assert outcome(out) == serial
     assert not list(out.rglob(".*")), "drafts were left behind"
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="there is no bash here")
-def test_the_script_for_slurm(tmp_path: Path) -> None:
-    """The script in the page, with the variables that Slurm sets; three shares come first, then the last."""
+def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
+    """The script in the page, with the variables that Slurm sets; the second share comes first."""
     page = (ROOT / "docs" / "clusters.md").read_text(encoding="utf-8")
     script = re.search(r"<!-- slurm -->\n```bash\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
     assert script
     assert re.search(r"#SBATCH --array=1-(\d+)$", script[1], re.MULTILINE)[1] == "10"  # type: ignore[index]
-    text = script[1].replace("--task all", "--task boiling_water").replace("empty,nearest", "empty,chance")
-    text = text.replace("shards=10", "shards=4")
-    assert text.count("boiling_water") == text.count("chance") == text.count("shards=4") == 1
+    text = script[1].replace("--task all", "--task ramen --train-tasks ramen").replace("empty,nearest", "empty,chance")
+    text = text.replace("shards=10", "shards=2")
+    assert text.count("--train-tasks") == text.count("chance") == text.count("shards=2") == 1
     (tmp_path / "all.sh").write_text(text)
     tmd = tmp_path / "bin" / "tmd"
     tmd.parent.mkdir()
@@ -156,14 +152,13 @@ def test_the_script_for_slurm(tmp_path: Path) -> None:
             check=False,
         )
 
-    assert [submit(number=number).returncode for number in (3, 1, 2)] == [0, 0, 0]
+    assert submit(number=2).returncode == ExitCode.OK
     early = submit("report")
     assert early.returncode == ExitCode.BAD_INPUT
-    assert b"4 of 20 parts are not done" in early.stderr
-    assert submit(number=4).returncode == ExitCode.OK
+    assert b"10 of 20 parts are not done" in early.stderr
+    assert submit(number=1).returncode == ExitCode.OK
     assert submit("report").returncode == ExitCode.OK
-    run(config(tmp_path / "here", task="boiling_water", train_tasks=None))
-    assert outcome(tmp_path / "runs" / "all") == outcome(tmp_path / "here")
+    assert outcome(tmp_path / "runs" / "all") == serial
 
 
 @needs_signals

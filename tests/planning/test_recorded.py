@@ -40,8 +40,8 @@ def test_there_are_enough(queries_of: Queries) -> None:
 
 
 def test_hardly_any_search_ends_at_its_cap(queries_of: Queries) -> None:
-    """Of what Fast Downward solved in ten seconds, 99 % is solved within the usual cap."""
-    solvable = [query for name in NAMES for query in queries_of(name) if query.verdict == "solved"]
+    """Of what Fast Downward solved in ten seconds, 99 % is solved within the usual cap: asked of every third."""
+    solvable = [query for name in NAMES for query in queries_of(name) if query.verdict == "solved"][::3]
     fillers = {name: GapFiller(queries_of(name)[0].task) for name in NAMES}
     capped = [
         query.name
@@ -90,7 +90,7 @@ def test_plans_work_under_the_semantics_of_the_lifted_domain(name: str, queries_
 def test_a_sample_is_asked_of_fast_downward_again(queries_of: Queries) -> None:
     pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
     queries = [query for query in queries_of(NAMES[0]) if query.verdict != "gave up"]
-    chosen = queries[:: len(queries) // 7][:8]
+    chosen = queries[1 :: len(queries) // 3][:3]
     reference = fast_downward(queries[0].task)
     try:
         task = queries[0].task
