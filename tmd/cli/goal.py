@@ -7,8 +7,8 @@ from dataclasses import replace
 from tmd.errors import Location
 from tmd.pddl.check import check_problem
 from tmd.pddl.model import Problem
+from tmd.pddl.parentheses import parse
 from tmd.pddl.read_formula import read_condition
-from tmd.pddl.syntax import parse
 
 _PLACE = "--goal"
 

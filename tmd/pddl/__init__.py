@@ -5,7 +5,7 @@ module                  holds
 ======================  ==========================================================================
 ``model``               types, objects, atoms, formulas, effects, action schemas, domain, problem
 ``hierarchy``           which type is a kind of which, and the objects of each type
-``syntax``              nested parentheses with their places
+``syntax``              words and groups with their places; ``parentheses`` makes them from text
 ``read_names``          names, typed lists and numbers
 ``read_formula``        conditions and effects
 ``read_sections``       the sections of domains and problems; ``read_init`` the initial state

@@ -38,7 +38,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
 
     The faults carry their source lines where ``source``, the text that was read, is given.
     """
-    check = _Check(domain, domain.constants)
+    check = _Check(domain, domain.constants, source)
     check.declarations()
     for action in domain.actions:
         check.action(action)
@@ -48,7 +48,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
 
 def check_problem(problem: Problem, source: Source | None = None) -> list[TmdError]:
     """Every fault of ``problem`` itself (its domain is taken as checked); otherwise as :func:`check_domain`."""
-    check = _Check(problem.domain, problem.all_objects())
+    check = _Check(problem.domain, problem.all_objects(), source)
     check.objects(problem)
     for atom in sorted(problem.init):
         place = problem.init_locations.get(atom)
@@ -70,16 +70,17 @@ def _in_order(faults: list[TmdError], source: Source | None) -> list[TmdError]:
 class _Check:
     """Names in scope, and the faults found so far."""
 
-    def __init__(self, domain: Domain, objects: Sequence[TypedName]) -> None:
+    def __init__(self, domain: Domain, objects: Sequence[TypedName], source: Source | None = None) -> None:
         self.domain = domain
+        self.source = source or Source("", ())
         self.hierarchy = TypeHierarchy(domain.types)
         self.predicates = {p.name: p for p in domain.predicates}
         self.functions = {f.name: f for f in domain.functions}
         self.known_objects = {o.name: o.types for o in objects}
         self.faults: list[TmdError] = []
 
-    def fault(self, message: str, location: Location | None, hint: str | None = None) -> None:
-        self.faults.append(TmdError(message, location=location, hint=hint))
+    def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
+        self.faults.append(TmdError(message, location=location, hint=hint, code=code))
 
     def declarations(self) -> None:
         """Types, constants, predicates and functions."""
@@ -90,7 +91,7 @@ class _Check:
         self.unique(domain.actions, "action")
         self.unique(domain.constants, "constant")
         for declared in domain.types:
-            self.type_known(declared.parent, declared.location)
+            self.type_known(declared.parent, self.source.type_of(declared.location, declared.parent))
             self.no_cycle(declared.name, declared.location)
         for constant in domain.constants:
             self.one_type(constant, "constant")
@@ -98,7 +99,9 @@ class _Check:
             self.parameters(signature.parameters, {})
         for signature in domain.functions:
             if signature.name == TOTAL_COST and signature.parameters:
-                self.fault(f"{TOTAL_COST} has no parameters", signature.location)
+                self.fault(
+                    f"{TOTAL_COST} has no parameters", signature.location, f"write ({TOTAL_COST})", "wrong-arity"
+                )
 
     def unique(self, declared: Iterable[TypedName | Predicate | ActionSchema | object], what: str) -> None:
         seen: set[str] = set()
@@ -109,13 +112,14 @@ class _Check:
                     f'{what} "{name}" is declared twice',
                     getattr(item, "location", None),
                     "rename one of them",
+                    "duplicate-name",
                 )
             seen.add(name)
 
     def type_known(self, name: str, location: Location | None) -> None:
         if not self.hierarchy.known(name):
             names = [OBJECT, *self.hierarchy.parents]
-            self.fault(f'unknown type "{name}"', location, nearest(name, names, what="types"))
+            self.fault(f'unknown type "{name}"', location, nearest(name, names, what="types"), "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
         chain: list[str] = []
@@ -124,16 +128,17 @@ class _Check:
             chain.append(current)
             current = self.hierarchy.parents.get(current)
         if current == name:
-            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)))
+            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")
 
     def one_type(self, declared: TypedName, what: str) -> None:
         for name in declared.types:
-            self.type_known(name, declared.location)
+            self.type_known(name, self.source.type_of(declared.location, name))
         if len(declared.types) > 1:
             self.fault(
                 f'{what} "{declared.name}" must have one type, "either" belongs to parameters',
                 declared.location,
                 "declare a common parent type",
+                "not-supported",
             )
 
     def parameters(
@@ -143,9 +148,10 @@ class _Check:
         inner = dict(scope)
         for parameter in parameters:
             for name in parameter.types:
-                self.type_known(name, parameter.location)
+                self.type_known(name, self.source.type_of(parameter.location, name))
             if parameter.name in inner:
-                self.fault(f'variable "{parameter.name}" is declared twice', parameter.location, "rename one of them")
+                message = f'variable "{parameter.name}" is declared twice'
+                self.fault(message, parameter.location, "rename one of them", "duplicate-name")
             inner[parameter.name] = parameter.types
         return inner
 
@@ -158,7 +164,8 @@ class _Check:
             self.atom(action.cost, scope, self.functions, "function")
         if action.cost is not None and TOTAL_COST not in self.functions:
             place = action.cost.location if isinstance(action.cost, Atom) else action.location
-            self.fault(f'unknown function "{TOTAL_COST}"', place, f"declare (:functions ({TOTAL_COST}) - number)")
+            hint = f"declare (:functions ({TOTAL_COST}) - number)"
+            self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function")
 
     def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
         inner = self.parameters(effect.parameters, scope)
@@ -169,8 +176,8 @@ class _Check:
         if isinstance(formula, Atom):
             self.atom(formula, scope, self.predicates, "predicate")
         elif isinstance(formula, Equals):
-            for term in (formula.left, formula.right):
-                self.term(term, scope, formula.location)
+            for number, term in enumerate((formula.left, formula.right), start=1):
+                self.term(term, scope, formula.location, number)
         elif isinstance(formula, Not):
             self.formula(formula.part, scope)
         elif isinstance(formula, And | Or):
@@ -189,9 +196,9 @@ class _Check:
         signature = signatures.get(atom.predicate)
         if signature is None:
             hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
-            self.fault(f'unknown {what} "{atom.predicate}"', atom.location, hint)
-            for term in atom.terms:
-                self.term(term, scope, atom.location)
+            self.fault(f'unknown {what} "{atom.predicate}"', self.word(atom, 0), hint, f"unknown-{what}")
+            for number, term in enumerate(atom.terms, start=1):
+                self.term(term, scope, atom.location, number)
             return
         shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
         if len(atom.terms) != len(signature.parameters):
@@ -199,31 +206,39 @@ class _Check:
                 f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), found {len(atom.terms)}',
                 atom.location,
                 f"declared as {shown}",
+                "wrong-arity",
             )
             return
-        for term, parameter in zip(atom.terms, signature.parameters, strict=True):
-            given = self.term(term, scope, atom.location)
+        for number, (term, parameter) in enumerate(zip(atom.terms, signature.parameters, strict=True), start=1):
+            given = self.term(term, scope, atom.location, number)
             known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
             if given is not None and known and not self.hierarchy.accepts(parameter.types, given):
                 self.fault(
                     f'"{term}" is of type {_either(given)}, '
                     f"{parameter.name} of {shown} needs {_either(parameter.types)}",
-                    atom.location,
+                    self.word(atom, number),
+                    None,
+                    "wrong-type",
                 )
 
+    def word(self, atom: Atom, number: int) -> Location | None:
+        """Where the predicate (0) or an argument of ``atom`` stands."""
+        return self.source.word(atom.location, number)
+
     def term(
-        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None
+        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None, number: int
     ) -> tuple[str, ...] | None:
-        """The types of ``term``; ``None`` where it is not declared (which is a fault)."""
+        """The types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
         if term.startswith("?"):
             if term not in scope:
-                self.fault(f'free variable "{term}"', location, nearest(term, list(scope), what="variables here"))
+                hint = nearest(term, list(scope), what="variables here")
+                self.fault(f'free variable "{term}"', self.source.word(location, number), hint, "free-variable")
             return scope.get(term)
         if term not in self.known_objects:
             hint = nearest(term, list(self.known_objects), what="objects")
             if f"?{term}" in scope:
                 hint = f'did you mean "?{term}"?'
-            self.fault(f'unknown object "{term}"', location, hint)
+            self.fault(f'unknown object "{term}"', self.source.word(location, number), hint, "unknown-object")
         return self.known_objects.get(term)
 
     def objects(self, problem: Problem) -> None:
@@ -233,7 +248,8 @@ class _Check:
         for declared in problem.objects:
             self.one_type(declared, "object")
             if constants.get(declared.name, declared.types) != declared.types:
-                self.fault(f'"{declared.name}" is a constant of another type', declared.location, "rename the object")
+                message = f'"{declared.name}" is a constant of another type'
+                self.fault(message, declared.location, "rename the object", "duplicate-name")
 
     def values(self, problem: Problem) -> None:
         """The values of cost functions, and that there is a cost to minimise."""
@@ -241,7 +257,8 @@ class _Check:
             place = problem.init_locations.get(function)
             self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
         if problem.minimize_cost and TOTAL_COST not in self.functions:
-            self.fault(f'the metric needs the function "{TOTAL_COST}"', problem.location, "declare it in the domain")
+            message = f'the metric needs the function "{TOTAL_COST}"'
+            self.fault(message, problem.location, "declare it in the domain", "unknown-function")
 
 
 def _either(types: Sequence[str]) -> str:

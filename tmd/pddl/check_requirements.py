@@ -24,6 +24,8 @@ from tmd.pddl.model import (
 
 _QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
 _IMPLIED = {
+    ":fluents": (":action-costs",),
+    ":numeric-fluents": (":action-costs",),
     ":quantified-preconditions": _QUANTIFIED,
     ":adl": (
         ":typing",
@@ -59,7 +61,12 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
         if before is None or (use[2] and before[2] and use[2] < before[2]):
             first[use[0]] = use
     return [
-        TmdError(f"{feature} needs {name}", location=place, hint=f"add {name} to (:requirements ...)")
+        TmdError(
+            f"{feature} needs {name}",
+            location=place,
+            hint=f"add {name} to (:requirements ...)",
+            code="missing-requirement",
+        )
         for name, feature, place in first.values()
         if name not in declared
     ]

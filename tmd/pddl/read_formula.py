@@ -6,6 +6,7 @@ Effects come out flat. ``and`` and ``forall`` are spread out, and the conditions
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from tmd.pddl.conjunctions import free_variables
@@ -41,9 +42,20 @@ _UNSUPPORTED_CONDITIONS = {
     "<=": "numeric conditions",
     ">=": "numeric conditions",
     "oneof": "non-deterministic effects",
-}
+    "unknown": "partial observability",
+    **dict.fromkeys(
+        (
+            "always", "sometime", "within", "at-most-once", "sometime-after", "sometime-before", "always-within",
+            "hold-during", "hold-after",
+        ),
+        "trajectory constraints",
+    ),
+}  # fmt: skip
+_NEVER_PREDICATES = frozenset({"preference", "<", ">", "<=", ">="})
+"""The others may be names of predicates as well, and then have no conditions in them."""
 _UNSUPPORTED_EFFECTS = {
     "assign": "numeric and object fluents",
+    "change": "numeric and object fluents",
     "decrease": "numeric fluents",
     "scale-up": "numeric fluents",
     "scale-down": "numeric fluents",
@@ -62,10 +74,11 @@ def read_condition(node: Node, source: Source) -> Formula:
     if isinstance(node, Word):
         raise source.error(f'expected a condition, found "{node.text}"', node.location, f"write ({node.text})")
     if not node.parts:
+        source.warn("() is empty, and some tools read it as false", node.location, "write (and)", "empty-condition")
         return And((), node.location)
     head, parts, place = node.head, node.parts[1:], node.location
     if head in ("and", "or"):
-        inner = tuple(read_condition(p, source) for p in parts)
+        inner = _read_parts(parts, source)
         return And(inner, place) if head == "and" else Or(inner, place)
     if head == "not":
         _expect(node, 1, "(not condition)", source)
@@ -79,12 +92,19 @@ def read_condition(node: Node, source: Source) -> Formula:
         return Forall(parameters, part, place) if head == "forall" else Exists(parameters, part, place)
     if head == "=":
         _expect(node, 2, "(= term term)", source)
+        if any(isinstance(p, Group) or p.text[0].isdigit() for p in parts):
+            raise unsupported(source, "numeric conditions and object fluents", head, place)
         return Equals(read_term(parts[0], source), read_term(parts[1], source), place)
     if head == "when":
-        raise source.error('"when" belongs in effects', place, 'write "imply" in conditions')
-    if head in _UNSUPPORTED_CONDITIONS:
+        raise source.error('"when" belongs in effects', place, 'write "imply" in conditions', "when-in-condition")
+    if head in _NEVER_PREDICATES or (head in _UNSUPPORTED_CONDITIONS and any(isinstance(p, Group) for p in parts)):
         raise unsupported(source, _UNSUPPORTED_CONDITIONS[head], head, place)
     return read_atom(node, source)
+
+
+def _read_parts(parts: Sequence[Node], source: Source) -> tuple[Formula, ...]:
+    read = (source.recover(None, read_condition, p, source) for p in parts)
+    return tuple(part for part in read if part is not None)
 
 
 def read_atom(node: Group, source: Source) -> Atom:
@@ -138,13 +158,20 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
     head, parts = node.head, node.parts[1:]
     if head == "and" or not node.parts:
         for part in parts:
-            _read_effect(part, source, around, found)
+            source.recover(None, _read_effect, part, source, around, found)
     elif head == "forall":
         _expect(node, 2, "(forall (parameters) effect)", source)
         _read_effect(parts[1], source, _quantified(node, source, around), found)
     elif head == "when":
         _expect(node, 2, "(when condition effect)", source)
-        condition = read_condition(parts[0], source)
+        if around.conditions:
+            source.warn(
+                'a "when" within a "when" is read as one with both conditions; most planners refuse it',
+                node.location,
+                "write one (when (and ...) ...)",
+                "nested-when",
+            )
+        condition = source.recover(TRUE, read_condition, parts[0], source)
         inside = _Around(around.parameters, (*around.conditions, condition))
         _read_effect(parts[1], source, inside, found)
     elif head == "increase":
@@ -152,7 +179,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
     elif head in _UNSUPPORTED_EFFECTS:
         raise unsupported(source, _UNSUPPORTED_EFFECTS[head], head, node.location, _ONLY_COSTS)
     elif head in ("or", "exists", "imply", "="):
-        raise source.error(f'"{head}" cannot be an effect', node.location, "it belongs in conditions")
+        hint = "it belongs in conditions"
+        raise source.error(f'"{head}" cannot be an effect', node.location, hint, "not-an-effect")
     else:
         found.flat.append(_read_literal(node, source, around))
 
@@ -179,7 +207,10 @@ def _read_literal(node: Group, source: Source, around: _Around) -> Effect:
         inner = node.parts[1]
     if isinstance(inner, Word) or inner.head in RESERVED or inner.head == "=":
         raise source.error(
-            'only an atom can stand in an effect\'s "not"', inner.location, "write (not (predicate ...))"
+            'only an atom can stand in an effect\'s "not"',
+            inner.location,
+            "write (not (predicate ...))",
+            "not-an-effect",
         )
     return Effect(read_atom(inner, source), positive, around.condition(), around.parameters, node.location)
 
@@ -191,10 +222,7 @@ def _read_cost(node: Group, source: Source, around: _Around, found: Effects) -> 
     if name != TOTAL_COST:
         raise unsupported(source, "numeric fluents", name, node.location, _ONLY_COSTS)
     if around.parameters or around.conditions:
-        raise source.error(
-            "a cost that depends on conditions is not supported: increase inside when or forall",
-            node.location,
-        )
+        raise unsupported(source, "costs that depend on conditions", "increase", node.location)
     if found.cost is not None:
         raise source.error("the cost of this action is given twice", node.location)
     if isinstance(amount, Group):

@@ -29,14 +29,16 @@ class InitReader:
             TmdError: An entry is no ground atom or value, or contradicts another one.
         """
         for node in _spread(group.parts[1:]):
-            if isinstance(node, Word):
-                raise self.source.error(f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})")
-            self._read_entry(node)
+            self.source.recover(None, self._read_entry, node)
         for atom in self.denied:
             if atom in self.atoms:
-                raise self._contradiction(atom)
+                self.source.fault(self._contradiction(atom))
 
-    def _read_entry(self, node: Group) -> None:
+    def _read_entry(self, node: Node) -> None:
+        if isinstance(node, Word):
+            raise self.source.error(f'expected an atom, found "{node.text}"', node.location, f"write ({node.text})")
+        if node.head in ("unknown", "oneof") and any(isinstance(p, Group) for p in node.parts):
+            raise unsupported(self.source, "uncertain initial states", node.head, node.location)
         if node.head == "=":
             self._read_value(node)
         elif node.head == "at" and len(node.parts) == 3 and read_number(node.parts[1], self.source) is not None:
@@ -46,7 +48,7 @@ class InitReader:
             if isinstance(inner, Word):
                 raise self.source.error("expected (not (predicate ...))", inner.location)
             self.denied[self._ground(inner)] = None
-        elif node.head in ("or", "oneof", "forall", "exists", "imply", "when"):
+        elif node.head in ("or", "forall", "exists", "imply", "when"):
             raise self.source.error(f'"{node.head}" cannot stand in :init', node.location, "list the atoms that hold")
         else:
             self.atoms[self._ground(node)] = None
@@ -55,7 +57,8 @@ class InitReader:
         atom = read_atom(node, self.source)
         for term in atom.terms:
             if term.startswith("?"):
-                raise self.source.error(f'variable "{term}" in :init', node.location, "write the name of an object")
+                hint = "write the name of an object"
+                raise self.source.error(f'variable "{term}" in :init', node.location, hint, "free-variable")
         ground = GroundAtom(atom.predicate, atom.terms)
         self.locations.setdefault(ground, node.location)
         return ground
@@ -76,7 +79,8 @@ class InitReader:
         self.values[function] = number
 
     def _contradiction(self, atom: GroundAtom) -> TmdError:
-        return self.source.error(f"{atom} is said to hold and not to hold", self.locations[atom])
+        message = f"{atom} is said to hold and not to hold"
+        return self.source.error(message, self.locations[atom], "remove one of the two", "contradictory-init")
 
 
 def _spread(nodes: Iterable[Node]) -> list[Node]:

@@ -23,7 +23,7 @@ def is_variable(term: str) -> bool:
 
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
     """The error for a construct of PDDL that is outside the supported part."""
-    return source.error(f'{what} are not supported: "{name}"', location, hint)
+    return source.error(f'{what} are not supported: "{name}"', location, hint, "not-supported")
 
 
 def read_name(node: Node, source: Source, what: str) -> Word:
@@ -35,9 +35,10 @@ def read_name(node: Node, source: Source, what: str) -> Word:
             f'"{node.text}" is not {what}',
             node.location,
             "names begin with a letter and hold letters, digits, - and _",
+            "bad-name",
         )
     if node.text in RESERVED:
-        raise source.error(f'"{node.text}" is a word of PDDL and cannot be {what}', node.location)
+        raise source.error(f'"{node.text}" is a word of PDDL and cannot be {what}', node.location, code="bad-name")
     return node
 
 
@@ -53,7 +54,7 @@ def read_term(node: Node, source: Source) -> str:
         )
     if is_variable(node.text):
         if not _VARIABLE.fullmatch(node.text):
-            raise source.error(f'"{node.text}" is not a variable', node.location, "write ?name")
+            raise source.error(f'"{node.text}" is not a variable', node.location, "write ?name", "bad-name")
         return node.text
     return read_name(node, source, "a name or ?variable").text
 
@@ -76,25 +77,34 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     while rest:
         node = rest.pop()
         if isinstance(node, Word) and node.text == "-":
-            types = _read_types(rest.pop() if rest else None, node.location, source)
+            types = _types_after(node, rest, source)
             if not waiting:
-                raise source.error(f"this type belongs to no {what}", node.location)
+                source.fault(source.error(f"this type belongs to no {what}", node.location))
             found.extend(TypedName(w.text, types, w.location) for w in waiting)
             waiting.clear()
         else:
-            waiting.append(_read_listed(node, source, variables, what))
+            waiting.extend(_read_listed(node, source, variables, what))
     found.extend(TypedName(w.text, (OBJECT,), w.location) for w in waiting)
     return tuple(found)
 
 
-def _read_listed(node: Node, source: Source, variables: bool, what: str) -> Word:
+def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:
+    node = rest.pop() if rest else None
+    return source.recover((OBJECT,), _read_types, node, dash.location, source)
+
+
+def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list[Word]:
+    """The name at ``node``; nothing where it is none and faults are collected."""
     if not variables:
-        return read_name(node, source, f"the name of {what}")
+        return source.recover([], lambda: [read_name(node, source, f"the name of {what}")])
     if isinstance(node, Group):
-        raise source.error(f"expected {what} such as ?x, found a parenthesis", node.location)
+        source.fault(source.error(f"expected {what} such as ?x, found a parenthesis", node.location))
+        return []
     if not _VARIABLE.fullmatch(node.text):
-        raise source.error(f'"{node.text}" is not {what}', node.location, f'write "?{node.text.lstrip("?")}"')
-    return node
+        hint = f'write "?{node.text.lstrip("?")}"'
+        source.fault(source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name"))
+        node = Word(f"?{node.text.lstrip('?')}", node.location)
+    return [node]
 
 
 def _read_types(node: Node | None, dash: Location, source: Source) -> tuple[str, ...]:

@@ -3,7 +3,17 @@
 from __future__ import annotations
 
 from tmd.pddl.hierarchy import parents_first
-from tmd.pddl.model import OBJECT, TOTAL_COST, TRUE, ActionSchema, Domain, Formula, Predicate, TypeDeclaration
+from tmd.pddl.model import (
+    OBJECT,
+    TOTAL_COST,
+    TRUE,
+    ActionSchema,
+    Domain,
+    Formula,
+    Predicate,
+    TypeDeclaration,
+    TypedName,
+)
 from tmd.pddl.read_formula import Effects, read_condition, read_effects
 from tmd.pddl.read_names import read_name, read_parameters, read_typed_list, unsupported
 from tmd.pddl.syntax import Document, Group, Node, Source, Word, nearest
@@ -23,13 +33,21 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
     names: list[str] = []
     for node in group.parts[1:]:
         if isinstance(node, Group) or not node.text.startswith(":"):
-            raise source.error("a requirement begins with a colon", node.location)
+            source.fault(source.error("a requirement begins with a colon", node.location))
+            continue
         if node.text in _UNSUPPORTED_REQUIREMENTS:
-            raise unsupported(source, _UNSUPPORTED_REQUIREMENTS[node.text], node.text, node.location)
-        if node.text not in REQUIREMENTS:
-            raise source.error(
-                f'"{node.text}" is not a known requirement', node.location, nearest(node.text, REQUIREMENTS)
+            what = _UNSUPPORTED_REQUIREMENTS[node.text]
+            source.warn(
+                f"{what} are not supported: {node.text}",
+                node.location,
+                "the requirement is ignored; what uses it is refused",
+                "unsupported-requirement",
             )
+        elif node.text not in REQUIREMENTS:
+            message = f'"{node.text}" is not a known requirement'
+            hint = nearest(node.text, [*REQUIREMENTS, *_UNSUPPORTED_REQUIREMENTS])
+            source.fault(source.error(message, node.location, hint, "unknown-requirement"))
+            continue
         if node.text not in names:
             names.append(node.text)
     return tuple(names)
@@ -63,6 +81,18 @@ _UNSUPPORTED_REQUIREMENTS = {
     ":preferences": "preferences",
     ":constraints": "trajectory constraints",
     ":non-deterministic": "non-deterministic effects",
+    ":probabilistic-effects": "probabilistic effects",
+    ":rewards": "rewards",
+    ":mdp": "probabilistic effects and rewards",
+    ":multi-agent": "several agents",
+    ":unfactored-privacy": "private facts of agents",
+    ":factored-privacy": "private facts of agents",
+    ":hierarchy": "hierarchical tasks",
+    ":htn": "hierarchical tasks",
+    ":method-preconditions": "hierarchical tasks",
+    ":goal-utilities": "utilities of goals",
+    ":supply-demand": "supply and demand",
+    ":contingent": "partial observability",
 }
 
 
@@ -71,25 +101,50 @@ def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
     found = []
     for typed in read_typed_list(group.parts[1:], source, variables=False, what="a type"):
         if len(typed.types) > 1:
-            raise unsupported(source, "types with several parents", typed.name, typed.location or group.location)
+            place = typed.location or group.location
+            source.fault(unsupported(source, "types with several parents", typed.name, place))
         if typed.name != OBJECT:
             found.append(TypeDeclaration(typed.name, typed.types[0], typed.location))
         elif typed.types[0] != OBJECT:
-            raise source.error('"object" is the root of all types and has no parent', typed.location)
-    return parents_first(found)
+            message = '"object" is the root of all types and has no parent'
+            source.fault(source.error(message, typed.location, code="type-cycle"))
+    ordered = parents_first(found)
+    if source.report is not None:
+        _warn_of_children_first(found, source)
+    return ordered
+
+
+def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
+    """Some readers want every parent before its children."""
+    later = {declared.name: place for place, declared in enumerate(found)}
+    for place, declared in enumerate(found):
+        if later.get(declared.parent, 0) > place:
+            source.warn(
+                f'type "{declared.name}" stands before its parent "{declared.parent}"; some tools refuse that',
+                declared.location,
+                f'declare "{declared.parent}" first',
+                "parent-after-child",
+            )
 
 
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """``(:predicates ...)``, each with the comment that stands beside it."""
     declared = group.parts[1:]
     following = [*(n.location.line for n in declared[1:]), group.end.line + 1]
-    found = []
+    found: list[Predicate] = []
     for node, next_line in zip(declared, following, strict=True):
-        if isinstance(node, Word):
-            raise document.source.error(f'expected (predicate ...), found "{node.text}"', node.location)
-        last = node.end.line != next_line
-        found.append(_read_signature(node, document, comment=document.comments.get(node.end.line, "") if last else ""))
+        last = isinstance(node, Group) and node.end.line != next_line
+        comment = document.comments.get(node.end.line, "") if isinstance(node, Group) and last else ""
+        found.extend(document.source.recover((), _read_predicate, node, document, comment))
     return tuple(found)
+
+
+def _read_predicate(node: Node, document: Document, comment: str) -> tuple[Predicate]:
+    if isinstance(node, Word):
+        raise document.source.error(f'expected (predicate ...), found "{node.text}"', node.location)
+    if node.head == ":private":
+        raise unsupported(document.source, "private facts of agents", node.head, node.location)
+    return (_read_signature(node, document, comment),)
 
 
 def _read_signature(node: Group, document: Document, comment: str = "") -> Predicate:
@@ -103,19 +158,26 @@ def _read_signature(node: Group, document: Document, comment: str = "") -> Predi
 
 def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
     """``(:functions ...)``, which are numbers, all of them."""
-    found = []
+    source = document.source
+    found: list[Predicate] = []
     nodes = list(group.parts[1:])
     while nodes:
         node = nodes.pop(0)
         if isinstance(node, Word):
-            raise document.source.error(f'expected (function ...), found "{node.text}"', node.location)
-        found.append(_read_signature(node, document))
+            source.fault(source.error(f'expected (function ...), found "{node.text}"', node.location))
+            continue
+        found.extend(source.recover((), _read_function, node, document))
         if nodes and isinstance(nodes[0], Word) and nodes[0].text == "-":
             value = nodes[1] if len(nodes) > 1 else nodes[0]
             if isinstance(value, Group) or value.text != "number":
-                raise unsupported(document.source, "object fluents", node.head, node.location, "a function is a number")
+                hint = "a function is a number"
+                source.fault(unsupported(source, "object fluents", node.head, node.location, hint))
             del nodes[:2]
     return tuple(found)
+
+
+def _read_function(node: Group, document: Document) -> tuple[Predicate]:
+    return (_read_signature(node, document),)
 
 
 def read_action(group: Group, source: Source) -> ActionSchema:
@@ -123,38 +185,72 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     if len(group.parts) < 2:
         raise source.error("this action has no name", group.location)
     name = read_name(group.parts[1], source, "the name of an action")
-    parts: dict[str, Node] = {}
-    nodes = iter(group.parts[2:])
-    for keyword in nodes:
-        if isinstance(keyword, Group):
-            raise source.error("expected :parameters, :precondition or :effect, found a parenthesis", keyword.location)
-        known = (":parameters", ":precondition", ":effect")
-        if keyword.text not in known:
-            raise source.error(
-                f'"{keyword.text}" is not a part of an action', keyword.location, nearest(keyword.text, known)
-            )
-        if keyword.text in parts:
-            raise source.error(f'"{keyword.text}" appears twice in action "{name.text}"', keyword.location)
-        value = next(nodes, None)
-        if value is None or (isinstance(value, Word) and value.text.startswith(":")):
-            raise source.error(f'nothing follows "{keyword.text}"', keyword.location)
-        parts[keyword.text] = value
-    effects = read_effects(parts[":effect"], source) if ":effect" in parts else Effects()
+    parts = _parts_of_action(group, name.text, source)
+    effects = Effects()
     precondition: Formula = TRUE
+    parameters: tuple[TypedName, ...] = ()
+    if ":effect" in parts:
+        effects = source.recover(effects, read_effects, parts[":effect"], source)
     if ":precondition" in parts:
-        precondition = read_condition(parts[":precondition"], source)
-    parameters = read_parameters(parts[":parameters"], source) if ":parameters" in parts else ()
+        precondition = source.recover(TRUE, read_condition, parts[":precondition"], source)
+    if ":parameters" in parts:
+        parameters = source.recover((), read_parameters, parts[":parameters"], source)
     return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location)
+
+
+_PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
+_UNSUPPORTED_PARTS = {
+    ":vars": "variables beside the parameters",
+    ":agent": "several agents",
+    ":observe": "partial observability",
+    ":sense": "partial observability",
+    ":duration": "durative actions",
+    ":condition": "durative actions",
+}
+
+
+def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Node]:
+    """What follows each keyword of an action."""
+    parts: dict[str, Node] = {}
+    nodes = list(group.parts[2:])
+    while nodes:
+        keyword = nodes.pop(0)
+        if isinstance(keyword, Group):
+            message = "expected :parameters, :precondition or :effect, found a parenthesis"
+            source.fault(source.error(message, keyword.location, "use (and ...) for several conditions or effects"))
+            continue
+        value = nodes[0] if nodes else None
+        if value is None or (isinstance(value, Word) and value.text.startswith(":")):
+            source.fault(source.error(f'nothing follows "{keyword.text}"', keyword.location))
+            continue
+        source.recover(None, _known_part, keyword, action, parts, source)
+        parts.setdefault(keyword.text, nodes.pop(0))
+    return parts
+
+
+def _known_part(keyword: Word, action: str, seen: dict[str, Node], source: Source) -> None:
+    if keyword.text in _UNSUPPORTED_PARTS:
+        raise unsupported(source, _UNSUPPORTED_PARTS[keyword.text], keyword.text, keyword.location)
+    if keyword.text not in _PARTS_OF_ACTIONS:
+        hint = nearest(keyword.text, _PARTS_OF_ACTIONS, what="parts of an action")
+        message = f'"{keyword.text}" is not a part of an action'
+        raise source.error(message, keyword.location, hint, "unknown-keyword")
+    if keyword.text in seen:
+        message = f'"{keyword.text}" appears twice in action "{action}"'
+        raise source.error(message, keyword.location, code="duplicate-section")
 
 
 def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
     """``(:domain name)``, which must name ``domain``."""
     name = read_name(only_part(group, source), source, "the name of a domain")
     if name.text != domain.name:
-        raise source.error(
-            f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
-            name.location,
-            f"write (:domain {domain.name})",
+        source.fault(
+            source.error(
+                f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
+                name.location,
+                f"write (:domain {domain.name})",
+                "domain-mismatch",
+            )
         )
     return name.text
 

@@ -13,10 +13,12 @@ from typing import Any
 from tmd.errors import Location, TmdError
 from tmd.pddl.check import check_domain, check_problem
 from tmd.pddl.model import (
+    TRUE,
     ActionSchema,
     Domain,
     Problem,
 )
+from tmd.pddl.parentheses import parse
 from tmd.pddl.read_formula import read_condition
 from tmd.pddl.read_init import InitReader
 from tmd.pddl.read_names import read_name, read_typed_list, unsupported
@@ -30,11 +32,9 @@ from tmd.pddl.read_sections import (
     read_requirements,
     read_types,
 )
-from tmd.pddl.syntax import Document, Group, Source, Word, nearest, parse, read_text
+from tmd.pddl.syntax import Document, Group, Report, Source, Word, nearest, read_text
 
 _DEEPEST = 100
-_DOMAIN_SECTIONS = (":requirements", ":types", ":constants", ":predicates", ":functions", ":action")
-_PROBLEM_SECTIONS = (":domain", ":requirements", ":objects", ":init", ":goal", ":metric")
 _UNSUPPORTED_SECTIONS = {
     ":derived": "derived predicates",
     ":durative-action": "durative actions",
@@ -42,6 +42,16 @@ _UNSUPPORTED_SECTIONS = {
     ":event": "events",
     ":constraints": "trajectory constraints",
     ":length": "plan length limits",
+    ":task": "hierarchical tasks",
+    ":method": "hierarchical tasks",
+    ":htn": "hierarchical tasks",
+    ":axiom": "derived predicates",
+    ":vars": "state variables",
+    ":agents": "several agents",
+    ":goal-reward": "rewards",
+    ":observable": "partial observability",
+    ":sensing-action": "partial observability",
+    ":class": "processes and classes",
 }
 
 
@@ -82,13 +92,15 @@ def _raise_first(faults: list[TmdError]) -> None:
         raise faults[0]
 
 
-def parse_domain_unchecked(text: str, file: str = "<text>") -> tuple[Domain, Source]:
+def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | None = None) -> tuple[Domain, Source]:
     """The domain that ``text`` describes, before its meaning is checked, and the text's lines.
+
+    Where there is a ``report``, it gets every fault, and only a text without any domain is an error.
 
     Raises:
         TmdError: It is not PDDL, or not of the supported part.
     """
-    document = parse(text, file)
+    document = parse(text, file, report)
     source = document.source
     name, sections = _definition(document, "domain")
     parts: dict[str, Any] = {}
@@ -101,22 +113,22 @@ def parse_domain_unchecked(text: str, file: str = "<text>") -> tuple[Domain, Sou
         ":functions": lambda g: read_functions(g, document),
         ":action": lambda g: actions.append(read_action(g, source)),
     }
-    for group in sections:
-        section = _section(group, _DOMAIN_SECTIONS, parts, source)
-        value = readers[section](group)
-        if section != ":action":
-            parts[section] = value
+    _read_sections(sections, readers, parts, source)
     keywords = {keyword.removeprefix(":"): value for keyword, value in parts.items()}
     return Domain(name.text, **keywords, actions=tuple(actions), location=name.location), source
 
 
-def parse_problem_unchecked(text: str, domain: Domain, file: str = "<text>") -> tuple[Problem, Source]:
+def parse_problem_unchecked(
+    text: str, domain: Domain, file: str = "<text>", report: Report | None = None
+) -> tuple[Problem, Source]:
     """The problem that ``text`` describes, before its meaning is checked, and the text's lines.
+
+    Where there is a ``report``, it gets every fault, and only a text without any problem is an error.
 
     Raises:
         TmdError: It is not PDDL, not of the supported part, or belongs to another domain.
     """
-    document = parse(text, file)
+    document = parse(text, file, report)
     source = document.source
     name, sections = _definition(document, "problem")
     init = InitReader(source)
@@ -129,18 +141,18 @@ def parse_problem_unchecked(text: str, domain: Domain, file: str = "<text>") -> 
         ":goal": lambda g: read_condition(only_part(g, source), source),
         ":metric": lambda g: read_metric(g, source),
     }
-    for group in sections:
-        section = _section(group, _PROBLEM_SECTIONS, parts, source)
-        parts[section] = readers[section](group)
+    _read_sections(sections, readers, parts, source)
+    heads = {section.head for section in sections}
     for needed in (":domain", ":goal"):
-        if needed not in parts:
-            raise source.error(f"the problem has no ({needed} ...)", name.location)
+        if needed not in heads:
+            message = f"the problem has no ({needed} ...)"
+            source.fault(source.error(message, name.location, "add it", "missing-section"))
     problem = Problem(
         name.text,
         domain,
         objects=parts.get(":objects", ()),
         init=frozenset(init.atoms),
-        goal=parts[":goal"],
+        goal=parts.get(":goal", TRUE),
         function_values=init.values,
         minimize_cost=parts.get(":metric", False),
         requirements=parts.get(":requirements", ()),
@@ -150,19 +162,39 @@ def parse_problem_unchecked(text: str, domain: Domain, file: str = "<text>") -> 
     return problem, source
 
 
+def _read_sections(
+    sections: list[Group], readers: dict[str, Callable[[Group], object]], parts: dict[str, Any], source: Source
+) -> None:
+    """Read every section into ``parts``; actions, of which there are many, go where their reader puts them."""
+
+    def read(group: Group) -> None:
+        section = _section(group, tuple(readers), parts, source)
+        parts[section] = readers[section](group)
+        if section == ":action":
+            del parts[section]
+
+    for group in sections:
+        source.recover(None, read, group)
+
+
 def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     """The name and sections of ``(define (kind name) section ...)``."""
     source = document.source
     if not document.groups:
-        raise source.error(f"there is no {kind} here", Location(source.file, 1, 1), f"write (define ({kind} name) ...)")
+        hint = f"write (define ({kind} name) ...)"
+        raise source.error(f"there is no {kind} here", Location(source.file, 1, 1), hint, "empty-file")
     first = document.groups[0]
     if document.deepest is not None and document.deepest.depth > _DEEPEST:
-        raise source.error(f"nested more than {_DEEPEST} levels deep", document.deepest.location)
+        place = document.deepest.location
+        raise source.error(f"nested more than {_DEEPEST} levels deep", place, None, "nested-too-deeply")
     if len(document.groups) > 1:
-        raise source.error(
-            f'this parenthesis closes "({first.head}" too early: more text follows',
-            first.end,
-            'a ")" before it is too many',
+        source.fault(
+            source.error(
+                f'this parenthesis closes "({first.head}" too early: more text follows',
+                first.end,
+                'a ")" before it is too many',
+                "extra-parenthesis",
+            )
         )
     if first.head != "define" or len(first.parts) < 2:
         raise source.error(f"expected (define ({kind} name) ...)", first.location)
@@ -173,10 +205,12 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
     name = read_name(title.parts[1], source, f"the name of a {kind}")
     for section in sections:
         if isinstance(section, Word):
-            raise source.error(
-                f'"{section.text}" stands outside its section',
-                section.location,
-                "a parenthesis before it is too many",
+            source.fault(
+                source.error(
+                    f'"{section.text}" stands outside its section',
+                    section.location,
+                    "a parenthesis before it is too many",
+                )
             )
     return name, [s for s in sections if isinstance(s, Group)]
 
@@ -187,7 +221,8 @@ def _section(group: Group, known: tuple[str, ...], seen: dict[str, Any], source:
         raise unsupported(source, _UNSUPPORTED_SECTIONS[head], head, group.location)
     if head not in known:
         shown = f'"({head} ...)"' if head else "this group"
-        raise source.error(f"{shown} is not a section", group.location, nearest(head, known, what="sections"))
+        hint = nearest(head, known, what="sections")
+        raise source.error(f"{shown} is not a section", group.location, hint, "unknown-section")
     if head in seen:
-        raise source.error(f'the section "{head}" appears twice', group.location)
+        raise source.error(f'the section "{head}" appears twice', group.location, "join the two", "duplicate-section")
     return head

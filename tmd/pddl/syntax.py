@@ -1,24 +1,22 @@
 """Tokens and nested parentheses of PDDL, each with its file, line and column.
 
 Nothing here recurses, so a text may nest as deeply as it likes. What the groups mean is
-:mod:`tmd.pddl.reader`'s affair; only the place of PDDL's section keywords is used, to tell which parenthesis
-was left open.
+:mod:`tmd.pddl.reader`'s affair; :mod:`tmd.pddl.parentheses` makes the groups. A :class:`Source` either raises the
+first fault, or hands every fault to whoever collects them, and reading goes on behind it.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
-from typing import TypeAlias
+from typing import ParamSpec, TypeAlias, TypeVar
 
 from tmd.errors import Location, TmdError
 
-_TOKEN = re.compile(r"[()]|[^\s();]+")
-_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
-_PARTS_OF_SECTIONS = frozenset({":parameters", ":precondition", ":effect"})
+TOKEN = re.compile(r"[()]|[^\s();]+")
 _LONGEST_LIST_IN_HINT = 8
 
 
@@ -46,14 +44,23 @@ class Group:
 
 
 Node: TypeAlias = Word | Group
+P = ParamSpec("P")
+S = TypeVar("S")
+T = TypeVar("T")
+Report: TypeAlias = Callable[[TmdError], None]
+"""Takes a fault, so that reading can go on."""
 
 
 @dataclass(frozen=True, slots=True)
 class Source:
-    """A text that is being read: it knows its lines, so every error can show the one it speaks of."""
+    """A text that is being read: it knows its lines, so every error can show the one it speaks of.
+
+    ``report`` takes the faults; without it the first one is raised.
+    """
 
     file: str
     lines: tuple[str, ...]
+    report: Report | None = field(default=None, compare=False, repr=False)
 
     def line(self, location: Location | None) -> str | None:
         """The source line at ``location``, if it lies in this text."""
@@ -61,9 +68,64 @@ class Source:
             return None
         return self.lines[location.line - 1]
 
-    def error(self, message: str, location: Location | None, hint: str | None = None) -> TmdError:
+    def error(self, message: str, location: Location | None, hint: str | None = None, code: str = "syntax") -> TmdError:
         """An error at ``location`` that carries its source line."""
-        return TmdError(message, location=location, hint=hint, source=self.line(location))
+        return TmdError(message, location=location, hint=hint, source=self.line(location), code=code)
+
+    def fault(self, error: TmdError) -> None:
+        """Raise ``error``, or report it and return."""
+        if self.report is None:
+            raise error
+        self.report(error)
+
+    def warn(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
+        """Report what is no fault but worth telling; nobody is told where faults are raised."""
+        if self.report is not None:
+            self.report(self.error(message, location, hint, code))
+
+    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
+        """What ``read`` returns; where it fails and faults are reported, ``otherwise``."""
+        if self.report is None:
+            return read(*arguments, **named)
+        try:
+            return read(*arguments, **named)
+        except TmdError as error:
+            self.report(error)
+            return otherwise
+
+    def word(self, location: Location | None, number: int) -> Location | None:
+        """Where the word ``number`` of the group at ``location`` stands (its head is 0); groups count as one."""
+        place = None
+        depth = count = 0
+        for token, place in self.tokens(location):
+            if depth == 1 and token != ")":
+                if count == number:
+                    return place
+                count += 1
+            depth += {"(": 1, ")": -1}.get(token, 0)
+            if depth <= 0:
+                break
+        return location
+
+    def type_of(self, location: Location | None, name: str) -> Location | None:
+        """Where the type ``name`` of the typed name at ``location`` stands."""
+        after_dash = False
+        for token, place in self.tokens(location):
+            if after_dash and token.lower() == name:
+                return place
+            if token == ")" or (after_dash and token not in ("(", "either")):
+                break
+            after_dash |= token == "-"
+        return location
+
+    def tokens(self, location: Location | None) -> Iterator[tuple[str, Location]]:
+        """The tokens from ``location`` on, as they are written."""
+        if self.line(location) is None or location is None:
+            return
+        for number in range(location.line, len(self.lines) + 1):
+            code = self.lines[number - 1].partition(";")[0]
+            for match in TOKEN.finditer(code, location.column - 1 if number == location.line else 0):
+                yield match[0], Location(self.file, number, match.start() + 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,18 +136,6 @@ class Document:
     groups: tuple[Group, ...]
     comments: dict[int, str]
     deepest: Group | None
-
-
-@dataclass(slots=True)
-class _Open:
-    """A group that is still open."""
-
-    location: Location
-    parts: list[Node]
-
-    @property
-    def head(self) -> str:
-        return self.parts[0].text if self.parts and isinstance(self.parts[0], Word) else ""
 
 
 def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> str | None:
@@ -108,9 +158,9 @@ def read_text(path: str | Path) -> str:
     try:
         data = Path(path).read_bytes()
     except OSError as error:
-        raise TmdError(f"cannot be read: {error.strerror or error}", location=place) from error
+        raise TmdError(f"cannot be read: {error.strerror or error}", location=place, code="unreadable") from error
     if b"\0" in data:
-        raise TmdError("is not a text file", location=place, hint="save it as UTF-8 text")
+        raise TmdError("is not a text file", location=place, hint="save it as UTF-8 text", code="not-text")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError as error:
@@ -121,98 +171,10 @@ def read_text(path: str | Path) -> str:
             f"is not UTF-8: byte 0x{data[error.start]:02x}",
             location=Location(str(path), line, column),
             hint="save the file as UTF-8 text",
+            code="not-utf8",
         ) from error
 
 
 def split_lines(text: str) -> tuple[str, ...]:
     """The lines of ``text``, whatever ends them, without byte order mark."""
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
-
-
-def parse(text: str, file: str) -> Document:
-    """Split ``text`` into groups.
-
-    Raises:
-        TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
-    """
-    lines = split_lines(text)
-    source = Source(file, lines)
-    comments: dict[int, str] = {}
-    groups: list[Group] = []
-    stack: list[_Open] = []
-    deepest: Group | None = None
-    for number, line in enumerate(lines, start=1):
-        code, mark, comment = line.partition(";")
-        control = _CONTROL.search(code)
-        if control:
-            place = Location(file, number, control.start() + 1)
-            raise source.error(f"control character 0x{ord(control[0]):02x}", place, "save it as plain text")
-        if mark:
-            comments[number] = comment.lstrip(";").strip()
-        for match in _TOKEN.finditer(code):
-            location = Location(file, number, match.start() + 1)
-            token = match[0].lower()
-            if token == "(":
-                stack.append(_Open(location, []))
-            elif token == ")":
-                group = _close(stack, groups, location, source)
-                if deepest is None or group.depth > deepest.depth:
-                    deepest = group
-            else:
-                _add_word(Word(token, location), stack, groups, source)
-    if stack:
-        raise _never_closed(stack[-1], source)
-    return Document(source, tuple(groups), comments, deepest)
-
-
-def _close(stack: list[_Open], groups: list[Group], location: Location, source: Source) -> Group:
-    if not stack:
-        raise source.error("there is no opening parenthesis for this one", location, "remove it")
-    opened = stack.pop()
-    group = Group(tuple(opened.parts), opened.location, location, len(stack))
-    if stack:
-        stack[-1].parts.append(group)
-    else:
-        groups.append(group)
-    return group
-
-
-def _add_word(word: Word, stack: list[_Open], groups: list[Group], source: Source) -> None:
-    if not stack:
-        if groups:
-            raise _closed_too_early(groups[-1], source)
-        raise source.error(f'"{word.text}" stands outside all parentheses', word.location)
-    opened = stack[-1]
-    if word.text.startswith(":"):
-        _refuse_misplaced_keyword(word, stack, groups, source)
-    opened.parts.append(word)
-
-
-def _refuse_misplaced_keyword(word: Word, stack: list[_Open], groups: list[Group], source: Source) -> None:
-    """A section keyword deep inside another group shows which parenthesis was left open."""
-    opened = stack[-1]
-    if not opened.parts and len(stack) == 1 and groups:
-        raise _closed_too_early(groups[-1], source)
-    if not opened.parts and len(stack) > 2 and word.text not in _PARTS_OF_SECTIONS:
-        raise _never_closed(stack[-2], source)
-    if word.text in _PARTS_OF_SECTIONS and opened.parts and not opened.head.startswith(":"):
-        if opened.head == "define":
-            raise source.error(
-                f'"{word.text}" stands outside its action',
-                word.location,
-                "a parenthesis before it is too many",
-            )
-        raise _never_closed(opened, source)
-
-
-def _never_closed(opened: _Open, source: Source) -> TmdError:
-    name = f' "({opened.head}"' if opened.head else ""
-    return source.error(f"this parenthesis{name} is never closed", opened.location, 'add the missing ")"')
-
-
-def _closed_too_early(group: Group, source: Source) -> TmdError:
-    return source.error(
-        f'this parenthesis closes "({group.head}" too early: more text follows',
-        group.end,
-        'a ")" before it is too many',
-    )

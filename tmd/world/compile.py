@@ -22,10 +22,11 @@ from tmd.pddl.model import (
     State,
     TypedName,
 )
+from tmd.pddl.parentheses import parse
 from tmd.pddl.read_formula import read_effects
 from tmd.pddl.reader import parse_domain
 from tmd.pddl.semantics import apply
-from tmd.pddl.syntax import nearest, parse, read_text
+from tmd.pddl.syntax import nearest, read_text
 from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
