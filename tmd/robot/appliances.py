@@ -178,12 +178,12 @@ def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
     middle, front, half = (y0 + y1) / 2, x - 0.03, 0.13
     back, plate, head = front - 0.34, stand + 0.03, height - 0.09
+    at = front - 0.07  # a spoon must get over a cup that stands there, with a hand that stays outside
     model.slab((back, middle - half, stand), (front, middle + half, plate), look.colour)
-    model.cylinder((front - 0.11, middle, plate), 0.055, 0.002, look.accent, solid=False)
+    model.cylinder((at, middle, plate), 0.055, 0.002, look.accent, solid=False)
     model.slab((back, middle - half, plate), (front - 0.22, middle + half, head), look.colour)
     slot, rim = 0.034, height - 0.03
     model.slab((back, middle - half, head), (front, middle + half, rim), look.colour)
-    at = front - 0.11
     for low, high in (
         ((at + slot, middle - half), (front, middle + half)),
         ((back, middle - half), (at - slot, middle + half)),

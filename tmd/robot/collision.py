@@ -22,12 +22,13 @@ from tmd.robot.pr2_urdf import TOOL
 
 if TYPE_CHECKING:
     from tmd.robot.pr2 import Pr2
+    from tmd.robot.simulator import Simulator
 
 Collision: TypeAlias = tuple[str, int, int, float]
 """The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep."""
 Ignored: TypeAlias = Collection[tuple[int, int | None]]
 """Bodies and links that may be touched; None: all links of the body."""
-_TOUCH = 1e-4
+TOUCH = 1e-4
 """Metres: surfaces that are not deeper in each other than this do not collide."""
 
 
@@ -141,17 +142,10 @@ class Checker:
     def _add_held(self, held: Held, tree: Tree, frames: Mapping[str, Array]) -> None:
         tool = f"{held.side[0]}_{TOOL}"
         group = self._rank[tool] + 1
-        lower, upper = self._sim.extents(held.body)
-        corners = np.array(
-            [[x, y, z] for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])]
-        )
-        back = self._sim.pose(held.body).inverse().homogeneous()
-        inside = corners @ back[:3, :3].T + back[:3, 3]
         self._links = [*self._links, tool]
         self._groups.append(group)
         self._relative.append(self._inverse[group] @ frames[tool] @ held.grip.homogeneous())
-        low, high = inside.min(axis=0), inside.max(axis=0)
-        self._boxes.append(Box((low + high) / 2, (high - low) / 2))
+        self._boxes.append(box_of(self._sim, held.body))
 
     def _find_obstacles(self) -> list[tuple[int, int, Vector, Vector]]:
         """Links of other bodies with their boxes."""
@@ -172,7 +166,7 @@ class Checker:
         number = {name: index for index, name in enumerate(self._links)}
         hand = {held.side: set(self._robot.tree.below(f"{held.side[0]}_wrist_flex_link")) for held in self._helds}
         result: list[tuple[int, int | str]] = []
-        resting = []
+        resting: dict[str, None] = {}
         for index, name in enumerate(self._links):
             for other in self._robot.boxes:
                 second = number.get(other, -1)
@@ -185,8 +179,12 @@ class Checker:
                     continue
                 result.append((index, second if second >= 0 else other))
                 if second < 0:
-                    resting.append(other)
-        self._resting = {name: _moved(self._robot.boxes[name], frames[name][None]) for name in resting}
+                    resting[other] = None
+        boxes = [moved(self._robot.boxes[name], frames[name][None]) for name in resting]
+        self._resting = tuple(np.array([box[end][0] for box in boxes]).reshape(-1, 3) for end in (0, 1))
+        place = {name: len(self._links) + row for row, name in enumerate(resting)}
+        self._first = np.array([mover for mover, _ in result], dtype=int)
+        self._second = np.array([o if isinstance(o, int) else place[o] for _, o in result], dtype=int)
         return result
 
     # checks
@@ -221,6 +219,14 @@ class Checker:
                 return False
         return True
 
+    def each_free(self, configurations: Array) -> list[bool]:
+        """For each of (n, joints) whether it touches nothing."""
+        frames = self.frames(configurations)
+        return [
+            not self._narrow(configuration, frame, pairs, every=False)
+            for configuration, frame, pairs in zip(configurations, frames, self._candidates(frames), strict=True)
+        ]
+
     def apart(self, configurations: Array) -> list[bool]:
         """For each of (n, joints) whether not even boxes overlap: then it is free, else nothing is known."""
         return [not pairs for pairs in self._candidates(self.frames(configurations))]
@@ -235,16 +241,17 @@ class Checker:
         for row, mover, obstacle in np.argwhere(near):
             body, link, *_ = self._obstacles[obstacle]
             result[row].append((int(mover), body, link))
-        for mover, other in self._pairs:
-            if isinstance(other, int):
-                low, high = lower[:, other], upper[:, other]
-                name = self._links[other]
-            else:
-                low, high = self._resting[other]
-                name = other
-            touching = np.all((lower[:, mover] <= high) & (upper[:, mover] >= low), axis=1)
-            for row in np.flatnonzero(touching):
-                result[row].append((mover, self._robot.body, self._robot.index[name]))
+        low, high = (
+            np.concatenate([own, np.broadcast_to(rest, (len(frames), *rest.shape))], axis=1)
+            for own, rest in zip((lower, upper), self._resting, strict=True)
+        )
+        meeting = np.all(
+            (lower[:, self._first] <= high[:, self._second]) & (upper[:, self._first] >= low[:, self._second]), axis=2
+        )
+        for row, pair in np.argwhere(meeting):
+            mover, other = self._pairs[pair]
+            name = self._links[other] if isinstance(other, int) else other
+            result[row].append((mover, self._robot.body, self._robot.index[name]))
         return result
 
     def _narrow(
@@ -264,7 +271,7 @@ class Checker:
             else:
                 points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
             depth = max((-point.distance for point in points), default=-np.inf)
-            if depth > self.allowed.get((name, body, link), _TOUCH - self._margin):
+            if depth > self.allowed.get((name, body, link), TOUCH - self._margin):
                 found.append((name, body, link, float(depth)))
                 if not every:
                     break
@@ -311,7 +318,20 @@ def _corners(collision: ET.Element) -> Array | None:
     return moved
 
 
-def _moved(box: Box, frames: Array) -> tuple[Array, Array]:
+def box_of(sim: Simulator, body: int) -> Box:
+    """A box round a body, in the frame of its root."""
+    lower, upper = sim.extents(body)
+    corners = np.array(
+        [[x, y, z] for x in (lower[0], upper[0]) for y in (lower[1], upper[1]) for z in (lower[2], upper[2])]
+    )
+    back = sim.pose(body).inverse().homogeneous()
+    inside = corners @ back[:3, :3].T + back[:3, 3]
+    low, high = inside.min(axis=0), inside.max(axis=0)
+    return Box((low + high) / 2, (high - low) / 2)
+
+
+def moved(box: Box, frames: Array) -> tuple[Array, Array]:
+    """The least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
     centre = frames[:, :3, :3] @ box.centre + frames[:, :3, 3]
     half = np.abs(frames[:, :3, :3]) @ box.half
     return centre - half, centre + half

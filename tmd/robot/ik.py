@@ -32,6 +32,9 @@ _STRIDE = 0.4
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
 _LEAP = 0.5
+"""Radians that a joint may move between two poses of a motion."""
+_SMOOTH = 0.25
+"""Radians that it may move without another roll being looked at."""
 _ENDLESS = (4, 6)
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
@@ -56,6 +59,7 @@ class ArmKinematics:
         arm = {link.joint: link for link in self._chain if link.joint in self.joints}
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
+        self._fits: bool | None = None
         self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * MARGIN) / (ROLLS - 1)
 
     def tool(self, torso: float, arms: Array) -> Array:
@@ -127,14 +131,20 @@ class ArmKinematics:
         closed = None if numeric else _closed_form(self.side)
         start = np.asarray(seed, dtype=float)
         if closed is None:
-            found = self._descend(start[None], tool, torso)
-        else:
-            found = self._closed(closed, tool, torso, seed[_ROLL] + _DETOURS)
-        arms = self._kept(found, tool, torso, seed)
-        far = np.abs(arms - start).max(axis=1, initial=0.0)
-        if not len(arms) or far.min() > _LEAP:
-            return None
-        return tuple(float(value) for value in arms[int(np.argmin(far))])
+            return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), _LEAP)
+        # the same roll as before first: mostly it will do
+        for rolls, most in ((_DETOURS[:1], _SMOOTH), (_DETOURS, _LEAP)):
+            arms = self.near(self._closed(closed, tool, torso, seed[_ROLL] + rolls), seed)
+            found = _next_to(start, arms[self.inside(arms)], most)
+            if found is not None and self._reaches(found, tool, torso):
+                return found
+        return None
+
+    def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
+        """Whether the closed form is right: always for the PR2 that it was made for, perhaps not for another one."""
+        if self._fits is None:
+            self._fits = len(self._kept(np.array([arm]), tool, torso, arm)) == 1
+        return self._fits
 
     def _kept(self, arms: Array, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
         """Those within the limits that reach the pose: another PR2 than the solver was made for may not."""
@@ -180,6 +190,15 @@ class ArmKinematics:
             step *= np.minimum(1.0, _STRIDE / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-12))
             arms = np.clip(arms + step, self.lower + MARGIN + 1e-9, self.upper - MARGIN - 1e-9)
         return arms
+
+
+def _next_to(start: Array, arms: Array, most: float) -> tuple[float, ...] | None:
+    """The row of ``arms`` (n, 7) that is nearest to ``start``, if no joint is farther away than ``most``."""
+    if not len(arms):
+        return None
+    far = np.abs(arms - start).max(axis=1)
+    best = int(np.argmin(far))
+    return tuple(float(value) for value in arms[best]) if far[best] <= most else None
 
 
 def _error(target: Array, frames: Array) -> Array:

@@ -6,7 +6,7 @@ elsewhere, so that a skill can see whether all its motions exist before it makes
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import pi, sin
 from typing import TYPE_CHECKING
 
@@ -33,6 +33,7 @@ DEEPEST = 0.01
 """Metres: an arm may be this deep in something where it starts (contacts are soft), never deeper on its way."""
 _ENDLESS = (4, 6)
 _BRANCHES = 12
+_CHUNK = 8
 
 
 def plan_arm(
@@ -189,16 +190,28 @@ def plan_poses(
             for collision in checker.collisions(seed):
                 if collision[3] <= DEEPEST:
                     checker.allowed[collision[:3]] = collision[3] + 1e-3
-            rows = [seed]
-            for pose in poses[1:]:
-                row = kinematics.track(back * pose, height, rows[-1])
-                if row is None:
-                    break
-                rows.append(row)
-            if len(rows) == len(poses) and checker.free(np.array(rows)):
+            rows = _along(checker, lambda pose, last: kinematics.track(back * pose, height, last), seed, poses)
+            if rows is not None:
                 return rows
             checker.allowed.clear()
     return None
+
+
+def _along(
+    checker: Checker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
+) -> list[Arm] | None:
+    """Free rows from ``seed`` on; what is blocked is noticed before all of them are worked out."""
+    rows, looked_at = [seed], 0
+    for number, pose in enumerate(poses[1:], 1):
+        row = track(pose, rows[-1])
+        if row is None:
+            return None
+        rows.append(row)
+        if len(rows) - looked_at == _CHUNK or number == len(poses) - 1:
+            if not checker.free(np.array(rows[looked_at:])):
+                return None
+            looked_at = len(rows)
+    return rows if len(poses) > 1 or checker.free(np.array(rows)) else None
 
 
 def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import product
+from collections.abc import Iterator, Mapping, Sequence
 from math import cos, pi, sin
 
 from tmd.robot.cell import Cell
@@ -22,11 +22,12 @@ PRESSED = 0.5
 """A button is pressed from this share of its way on."""
 _WAYPOINTS = 8
 _PUSHES = ((0.5, 1.0), (0.75, 1.0), (0.3, 1.0), (1.0, 1.0), (0.0, 0.5))
-"""How a flap is pushed: at which part of its way the hand is square to it, and how far it keeps its heading."""
+"""How a flap, or a door that is to be shut, is pushed."""
 _PARTS = (1.0, 0.8, 0.65)
 """How far a door is opened, as a part of its way."""
-_FOLLOWS = (1.0, 0.5, 0.0)
-"""How far the hand keeps its heading while a door turns: 1 keeps it, 0 turns with the door."""
+_PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
+"""How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
+_PULLED, _PUSHED = 0, 1
 
 
 def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
@@ -42,14 +43,16 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
         raise SkillError(Stage.PRECONDITION, "both hands are full")
     ignore: Links = frozenset({(handle.body, handle.index)})
     options = []
-    headings = _PUSHES if handle.kind == "flap" else tuple((0.0, f) for f in (_FOLLOWS if handle.turns else (1.0,)))
-    for part, (lead, follows) in product(_PARTS if opened else (1.0,), headings):
+    for part in _PARTS if opened else (1.0,):
         goal = start + part * ((handle.open if opened else handle.closed) - start)
-        way = goal - start
         tools = _tools(cell, name, handle, start, goal)
-        turned = [_turned(tool, handle, (share - lead) * way * follows) for share, tool in tools.items()]
-        before = turned[0] * Pose((-BEFORE, 0.0, 0.0))
-        options += [Option(side, (before, *turned), ignore) for side in hands]
+        options += [
+            Option(side, poses, ignore, spot) for spot, poses in _ways(handle, tools, goal - start) for side in hands
+        ]
+        if not opened and handle.turns and handle.kind == "door":
+            pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
+            ways = _ways(handle, pushed, goal - start, _PUSHES)
+            options += [Option(side, poses, ignore, _PUSHED) for _, poses in ways for side in hands]
     for side in hands:
         cell.robot.open_gripper(side, handle.opening)
     middle = options[0].poses[len(options[0].poses) // 2]
@@ -59,6 +62,18 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     if cell.is_open(name) != opened:
         raise SkillError(Stage.EFFECT, f"{cell.how_open(name)} after it was pulled")
     return cell.how_open(name)
+
+
+def _ways(
+    handle: Handle, tools: Mapping[float, Pose], way: float, headings: Sequence[tuple[float, float]] | None = None
+) -> Iterator[tuple[int, tuple[Pose, ...]]]:
+    """Tool poses that move a handle, each with whether it is pushed: before it, at it, and along."""
+    pushes = handle.kind == "flap" or headings is not None
+    if headings is None:
+        headings = _PUSHES if pushes else _PULLS if handle.turns else _PULLS[:1]
+    for lead, follows in headings:
+        turned = [_turned(tool, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
+        yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-BEFORE, 0.0, 0.0)), *turned)
 
 
 def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> dict[float, Pose]:
@@ -72,20 +87,20 @@ def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> 
     return found
 
 
-def _turned(tool: Pose, handle: Handle, angle: float) -> Pose:
+def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
     """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
     x, y, z = handle.axis
     half = -angle / 2
     back = Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
     turned = (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation
-    tips = TIP if handle.kind == "flap" else 0.0
+    tips = TIP if pushes else 0.0
     return Pose(tool.apply((tips, 0.0, 0.0)), turned) * Pose((-tips, 0.0, 0.0))
 
 
 def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
     """Close the hand on the handle and move it along."""
     side = option.side
-    if handle.kind == "flap":  # it has no handle, and is pushed
+    if option.spot == _PUSHED:
         with cell.pushed(side, handle):
             follow(cell, side, option.poses[2:], option.ignore)
         return

@@ -10,22 +10,28 @@ from math import acos, cos, degrees, hypot, pi, sin
 from tmd.robot.cell import Cell
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose, Vector
-from tmd.robot.reach import Links, Option, follow, reach
+from tmd.robot.reach import Links, Option, follow, reach, with_room
 
-ABOVE = 0.06
-"""Metres between a rim and the mouth that is tipped over it."""
+ABOVE = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.02), (0.03, 0.03), (0.01, 0.03))
+"""Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth on the
+hand's side. The best is first: under a spout there is little room."""
 TIPPED = (1.8, 1.3)
 """Radians by which a thing is tipped, best first; a right angle is 1.57."""
 _SHAKEN = 0.5
 """Radians by which what hangs from the hand is swung."""
+_ABOVE = (0.05, 0.02)
+"""Metres above a rim from which a spoon goes down."""
 DEEP = 0.02
 """Metres that a spoon goes below a rim."""
 _ENOUGH = 1.2
 """Radians from which contents run out."""
 _RIM = 0.85
 """The height of a rim, as a part of the height of the vessel with its handle."""
+_OUTSIDE = 0.18
+"""Metres in front of a niche."""
 _BESIDE = 0.04
 """Metres that the mouth may be beside the rim of what it is held over."""
+_ENOUGH_WAYS = 6
 _HEADINGS = 8
 _STAGES = 4
 
@@ -38,11 +44,13 @@ class Mouth:
         at: In the thing's frame.
         out: The direction that must point down for contents to leave, in the thing's frame.
         turn: The axis about which it is tipped, in the thing's frame.
+        both: It may be tipped either way.
     """
 
     at: Vector
     out: Vector
     turn: Vector
+    both: bool = False
 
 
 def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
@@ -60,18 +68,19 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
         hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
         if hangs:
             return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
-        return [_rim(low, high, axis) for axis in _axes(tool, middle)]
+        top = high[2] * (_RIM if cell.scene.holds_contents(item) else 1.0)
+        return [_rim(low, high, top, axis) for axis in _axes(tool, middle)]
     far = high if tool.position[longest] < middle[longest] else low
     at, turn = list(middle), [0.0, 0.0, 0.0]
     at[longest] = far[longest] - 0.015 * (1 if far is high else -1)
     turn[longest] = 1.0
-    return [Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]))]
+    return [Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]), both=True)]
 
 
-def _rim(low: Vector, high: Vector, axis: Vector) -> Mouth:
+def _rim(low: Vector, high: Vector, top: float, axis: Vector) -> Mouth:
     """The point of the rim that is lowest when a vessel is tipped about ``axis``."""
     x, y = axis[1], -axis[0]
-    at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), _RIM * high[2])
+    at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), top)
     return Mouth(at, (0.0, 0.0, 1.0), axis)
 
 
@@ -92,15 +101,13 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         SkillError: It is not held, cannot be held there, or its mouth was not over the target.
     """
     side = _side(cell, item)
-    grip = cell.in_tool(side, item).inverse()
-    over = _over(cell, target, ABOVE)
-    options, known = [], mouths(cell, item, side)
-    for angle, (index, how), number in product(TIPPED, enumerate(known), range(_HEADINGS)):
-        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
-        turned = angle if how.out[2] > 0 else _SHAKEN
-        poses = tuple(_over_rim(stood, how, over, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
-        options.append(Option(side, poses, _hands(cell, item), index))
-    chosen = reach(cell, options, Pose(over), cell.front(target), attempt)
+    known = mouths(cell, item, side)
+    options: list[Option] = []
+    for room in ABOVE:
+        options += with_room(cell, tip_options(cell, item, target, known, *room, closed=squeezed))
+        if len(options) >= _ENOUGH_WAYS:
+            break
+    chosen = reach(cell, options, Pose(_over(cell, target, ABOVE[0][0])), cell.front(target), attempt)
     how = known[chosen.spot]
     if squeezed:
         cell.robot.close_gripper(side, _SQUEEZE)
@@ -117,6 +124,49 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     return said.replace("its mouth 0.0 cm beside the rim of", "its mouth over")
 
 
+def tip_options(
+    cell: Cell, item: str, target: str, known: Sequence[Mouth], height: float, near: float, *, closed: bool
+) -> list[Option]:
+    """Ways to tip what is held over a rim, and as near to its edge; the spot of an option is the number of its mouth.
+
+    What is ``closed`` until it is squeezed may be tipped before it is brought into a niche.
+    """
+    side = _side(cell, item)
+    grip = cell.in_tool(side, item).inverse()
+    over = _over(cell, target, height)
+    options = []
+    for angle, (index, how), number in product(TIPPED, enumerate(known), range(_HEADINGS)):
+        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+        x, y, _ = stood.rotate(how.at)
+        nearer = near / max(hypot(x, y), 0.01)
+        at = (over[0] - x * nearer, over[1] - y * nearer, over[2])
+        for turned in (angle, -angle) if how.both else (angle if how.out[2] > 0 else _SHAKEN,):
+            poses = tuple(_over_rim(stood, how, at, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
+            outside = before(cell, target, poses[0])
+            options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
+            if outside and closed:
+                tipped = _over_rim(stood, how, at, turned) * grip
+                (end,) = before(cell, target, tipped)
+                start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
+                options.append(Option(side, (start, end, tipped), _hands(cell, item), index))
+    return options
+
+
+def _moved_up(pose: Pose, by: float) -> Pose:
+    x, y, z = pose.position
+    return Pose((x, y, z + by), pose.orientation)
+
+
+def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
+    """Where the hand begins to go straight to ``first``: outside of the niche or the cupboard that a thing is in."""
+    place = cell.support(target)
+    x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
+    if abs(z) > 0.5:
+        return ()
+    a, b, c = first.position
+    return (Pose((a - x * _OUTSIDE, b - y * _OUTSIDE, c), first.orientation),)
+
+
 _SQUEEZE = 40.0
 
 
@@ -129,19 +179,19 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     side = _side(cell, item)
     how = mouths(cell, item, side)[0]
     grip = cell.in_tool(side, item).inverse()
-    above = _over(cell, target, 0.05)
     ignore = _hands(cell, item, target)
     options = []
-    for number in range(_HEADINGS):
+    for height, number in product(_ABOVE, range(_HEADINGS)):
+        above = _over(cell, target, height)
         for lean in (0.9, 0.5, 1.3, 0.2, 0.0):
             inside = _over(cell, target, -DEEP * min(1.0, lean / 0.5))  # the rim is in the way of a level spoon
             stood = _leaning(Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS), how, lean)
             poses = tuple(_held_at(stood, how, at, 0.0) * grip for at in (above, inside))
-            options.append(Option(side, poses, ignore, number))
-    chosen = reach(cell, options, Pose(above), cell.front(target), attempt)
+            options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
+    chosen = reach(cell, options, Pose(_over(cell, target, _ABOVE[0])), cell.front(target), attempt)
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
-    follow(cell, side, (chosen.poses[0],), chosen.ignore)
+    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
     cell.fold()
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < -0.01 or beside > _BESIDE:

@@ -454,7 +454,7 @@ class Pr2:
             ignore=ignore,
             margin=margin,
         ) as checker:
-            return [checker.free(np.array([arm], dtype=float)) for arm in arms]
+            return checker.each_free(np.array(arms, dtype=float))
 
 
 def finger_gap(angle: float) -> float:

@@ -13,7 +13,8 @@ from itertools import islice, pairwise
 from math import atan2, ceil, cos, hypot, pi, sin, sqrt
 
 from tmd.robot.cell import Cell
-from tmd.robot.motion import between, plan_arm, plan_base, plan_poses
+from tmd.robot.hand import HandChecker
+from tmd.robot.motion import DEEPEST, between, plan_arm, plan_base, plan_poses
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose
 
@@ -91,9 +92,12 @@ def reach(
         SkillError: None can be reached (stance), there is no way (path), or the robot did not get there (execution).
     """
     if not options:
-        raise SkillError(Stage.PRECONDITION, "there is nothing to reach for")
-    found = candidates(cell, options, focus, front)
-    last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(options)} ways were tried")
+        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}")
+    fitting = with_room(cell, options)
+    if not fitting:
+        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
+    found = candidates(cell, fitting, focus, front)
+    last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
     for candidate in islice(found, 2 * attempt, 2 * attempt + MOST_TRIES):
         try:
             _take(cell, candidate, stop)
@@ -102,6 +106,20 @@ def reach(
         else:
             return candidate.option
     raise last
+
+
+def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
+    """The options whose poses have room for the hand and for what it holds, wherever the robot stands."""
+    checkers: dict[tuple[str, Links], HandChecker] = {}
+    found = []
+    for option in options:
+        key = option.side, option.ignore
+        if key not in checkers:
+            checkers[key] = HandChecker(cell.robot, *key)
+        depths = checkers[key].depth(option.poses)
+        if not depths[-1] and max(depths) <= DEEPEST:
+            found.append(option)
+    return found
 
 
 def candidates(cell: Cell, options: Sequence[Option], focus: Pose, front: float | None) -> Iterator[Candidate]:

@@ -23,7 +23,7 @@ def utensil(model: Model, look: Look, parts: Parts) -> None:
     model.slab((-x + head - 0.004, -0.006, height - 0.012), (x, 0.006, height), look.accent)
     model.slab((-x + head - 0.004, -0.006, 0.0), (-x + head + 0.004, 0.006, height), look.accent)
     model.slab((x - 0.02, -0.012, 0.0), (x - 0.012, 0.012, height - 0.012), look.accent)
-    bar_grasps(model, [(x - 0.05, 0.0, max(height - 0.006, _LOW)), (0.02, 0.0, max(height - 0.006, _LOW))], 0.012)
+    bar_grasps(model, [(x - 0.035, 0.0, max(height - 0.006, _LOW)), (0.02, 0.0, max(height - 0.006, _LOW))], 0.012)
     if look.kind in ("spoon", "scoop"):
         model.link("content")
         model.ball((-x + head / 2, 0.0, height), width * 0.42, "white", link="content")
