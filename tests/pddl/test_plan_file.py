@@ -58,7 +58,12 @@ def test_files(tmp_path: Path) -> None:
         ("(a b\n", 1, 1, "one (name argument ...) a line"),
         ("; nothing\n()\n", 2, 1, "() is no instruction"),
         ("(a b!c)\n", 1, 4, '"b!c" is not a name'),
-        ("0.000: (a b) [1.0]\n", 1, 1, "temporal plans are not supported"),
+        ("0.0.0: (a b) [1.0]\n", 1, 1, '"0.0.0" is no time'),
+        ("0.000: (a b) [1.0.1]\n", 1, 15, '"1.0.1" is no time'),
+        ("0.000: (a b!c) [1.0]\n", 1, 11, '"b!c" is not a name'),
+        ("0.000: a b [1.0]\n", 1, 8, "one (name argument ...) a line"),
+        ("0.000: (a b) [1.0]\n(c)\n", 2, 1, "this line has no time"),
+        ("0.000: (a) [2.0]\n; then\n 1.000: (b) [1.0]\n", 3, 2, "b() starts at 1.000, before a() has ended at 2.000"),
     ],
 )
 def test_faults_of_plans(text: str, line: int, column: int, message: str) -> None:
@@ -94,3 +99,42 @@ def test_faults_of_instructions(text: str, column: int, message: str) -> None:
 def test_spaces_and_case_do_not_matter() -> None:
     assert parse_instruction(" Keep ( Mug1 ,counter1,  ON ) ") == Instruction("keep", ("mug1", "counter1", "on"))
     assert parse_plan("\ufeff  (GRASP  mug1 ) ; now\r\n").instructions == (Instruction("grasp", ("mug1",)),)
+
+
+POPF = """Number of literals: 9
+Constructing lookup tables: [10%] [100%]
+b (2.000 | 6.001)
+; Plan found with metric 6.001
+;;;; Solution Found
+; States evaluated: 9
+0.000: (grasp mug1)  [9.000]
+;;;; Solution Found
+; Cost: 6.001
+; Time 0.01
+0.000: (grasp mug1)  [5.000]
+5.001: (wait)  [1.000]
+"""
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "(grasp mug1)\n(wait)\n; cost = 2 (unit cost)\n",
+        "0.000: (grasp mug1) [5.000]\n5.001: (wait) [1.000]\n",
+        "0: (GRASP MUG1)\n1: (WAIT)\n",
+        "5.0005: (wait) [D:1.000; C:0.1]\n0.0003: (grasp mug1) [D:5.001; C:0.1]\n",
+        POPF,
+        "plan: \n0:\t(grasp mug1)\t[5]\n5:\t(wait)\t[1]\n",
+    ],
+    ids=["ipc", "val", "steps", "lpg", "popf", "plansys2"],
+)
+def test_forms_of_plans(text: str) -> None:
+    assert parse_plan(text).instructions == (Instruction("grasp", ("mug1",)), Instruction("wait"))
+
+
+@given(st.text(alphabet="()[]:;. \t\nab01D\u0660"))
+def test_any_text_is_a_plan_or_a_clear_error(text: str) -> None:
+    try:
+        parse_plan(text)
+    except TmdError as error:
+        assert error.location is not None and "\n" not in error.message

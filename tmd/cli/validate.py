@@ -20,16 +20,18 @@ from tmd.errors import ExitCode
 def command(roots: Roots, domain: str, problem: Path, plan: Path, as_json: bool) -> ExitCode:
     """Execute PLAN in PROBLEM and name the first precondition that does not hold.
 
-    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain; PLAN has one (action argument ...) a
-    line. Ends with 0 for a plan that works and 11 for one that does not.
+    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. PLAN has one (action argument ...) a line;
+    plans with times are read as well, as VAL, POPF and PlanSys2 have them. Ends with 0 for a plan that works and 11
+    for one that does not.
     """
+    from tmd.export.strips import restored
     from tmd.pddl.plan_file import read_plan
     from tmd.pddl.reader import read_problem
     from tmd.pddl.validator import validate
 
     world = read_problem(problem, roots.domain(domain))
     told = read_plan(plan)
-    verdict = validate(world, told.instructions)
+    verdict = validate(world, restored(world, told.instructions))
     place = told.locations[verdict.step - 1] if verdict.step else None
     if as_json:
         emit_json(

@@ -1,16 +1,19 @@
 """Plans as text: the plan files of the planning competitions, and the functional notation of instructions.
 
 A plan file has one ``(name arg ...)`` a line; ``;`` begins a comment, and the last line tells the cost:
-``; cost = 3 (unit cost)``. The functional notation of an instruction is ``keep(mug1, counter1, on)``.
+``; cost = 3 (unit cost)``. Plans with times, as VAL, POPF and PlanSys2 have them, are read as well. The functional
+notation of an instruction is ``keep(mug1, counter1, on)``.
 """
 
 from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
+from decimal import Decimal, InvalidOperation
+from itertools import pairwise
 from pathlib import Path
 
 from tmd.errors import Location, OutputError, TmdError
@@ -19,7 +22,13 @@ from tmd.pddl.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)
-_STAMP = re.compile(r"[0-9.]+\s*:")
+_STAMP = re.compile(r"([0-9.]+)\s*:\s*")
+_DURATION = re.compile(r"\s*\[\s*(?:D:)?\s*([0-9.]+)[^\]]*\]$", re.IGNORECASE)
+_CODE = re.compile(r"[^;\[]*(?:\[[^\]]*\])?[^;]*")
+"""What stands before a comment; LPG has a ``;`` within the brackets of a duration."""
+_TOLERANCE = Decimal("0.001")
+"""Times are printed with three decimals; what overlaps by less does not."""
+_ANNOUNCED = re.compile(r"(?:;*\s*solution found.*|plan:)", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,27 +52,96 @@ def read_plan(path: str | Path) -> Plan:
 def parse_plan(text: str, file: str = "<text>") -> Plan:
     """The plan that ``text`` lists; ``file`` names it in errors.
 
+    Besides plan files of the planning competitions this takes plans with times: those that VAL reads
+    (``0.000: (grasp mug1) [1.000]``), what the planner POPF prints (the last plan after ``Solution Found``), and what
+    PlanSys2's terminal prints (``plan:``, then ``0: (grasp mug1) [1]``). Their instructions are put in the order of
+    their times.
+
     Raises:
-        TmdError: A line is no instruction.
+        TmdError: A line is no instruction, or two instructions overlap in time.
     """
-    instructions: list[Instruction] = []
-    locations: list[Location] = []
+    lines = split_lines(text)
+    first = _after_preamble(lines)
+    steps: list[_Line] = []
     cost: int | None = None
-    for number, line in enumerate(split_lines(text), start=1):
+    for number, line in enumerate(lines[first:], start=first + 1):
         claimed = _COST.match(line.strip())
         if claimed:
             cost = int(claimed[1])
-        code = line.partition(";")[0]
+        code = _CODE.match(line)[0]  # type: ignore[index]  # it matches the empty text
         if code.strip():
             place = Location(file, number, len(code) - len(code.lstrip()) + 1)
-            instructions.append(_parse_line(code.strip(), place, line))
-            locations.append(place)
-    return Plan(tuple(instructions), cost, tuple(locations))
+            steps.append(_parse_line(code.strip(), place, line))
+    steps = _in_time(steps)
+    return Plan(tuple(s.instruction for s in steps), cost, tuple(s.place for s in steps))
 
 
-def _parse_line(code: str, place: Location, line: str) -> Instruction:
-    if _STAMP.match(code):
-        raise TmdError("temporal plans are not supported", location=place, source=line, hint="remove the time")
+@dataclass(frozen=True, slots=True)
+class _Line:
+    """A line of a plan: its instruction, and when it starts and ends if that is said."""
+
+    instruction: Instruction
+    place: Location
+    source: str
+    start: Decimal | None = None
+    end: Decimal | None = None
+
+
+def _after_preamble(lines: Sequence[str]) -> int:
+    """Where the plan begins: behind the last line with which POPF or PlanSys2 announce one, else at the start."""
+    found = 0
+    for number, line in enumerate(lines, start=1):
+        if _ANNOUNCED.fullmatch(line.strip()):
+            found = number
+    return found
+
+
+def _in_time(steps: list[_Line]) -> list[_Line]:
+    """The lines in the order of their times; as they are where there are none."""
+    timed = [step for step in steps if step.start is not None]
+    if not timed:
+        return steps
+    if len(timed) < len(steps):
+        stray = next(step for step in steps if step.start is None)
+        raise TmdError(
+            "this line has no time, and others have", location=stray.place, source=stray.source, hint="give all or none"
+        )
+    ordered = sorted(timed, key=lambda step: step.start or Decimal(0))
+    for before, after in pairwise(ordered):
+        if before.end is not None and after.start is not None and after.start < before.end - _TOLERANCE:
+            raise TmdError(
+                f"{after.instruction} starts at {after.start}, before {before.instruction} has ended at {before.end}",
+                location=after.place,
+                source=after.source,
+                hint="one instruction follows the other here; plans in which they overlap are not supported",
+            )
+    return ordered
+
+
+def _parse_line(code: str, place: Location, line: str) -> _Line:
+    start = end = None
+    column = place.column
+    stamp = _STAMP.match(code)
+    if stamp:
+        start = _seconds(stamp[1], place, line)
+        column += stamp.end()
+        code = code[stamp.end() :]
+        duration = _DURATION.search(code)
+        if duration:
+            code = code[: duration.start()]
+            end = start + _seconds(duration[1], Location(place.file, place.line, column + duration.start(1)), line)
+    instruction = _parse_instruction(code, Location(place.file, place.line, column), line)
+    return _Line(instruction, place, line, start, end)
+
+
+def _seconds(text: str, place: Location, line: str) -> Decimal:
+    try:
+        return Decimal(text)
+    except InvalidOperation:
+        raise TmdError(f'"{_shown(text)}" is no time', location=place, source=line) from None
+
+
+def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
     if not (code.startswith("(") and code.endswith(")")) or code.count("(") != 1 or code.count(")") != 1:
         raise TmdError(
             "a plan has one (name argument ...) a line",

@@ -1,0 +1,98 @@
+"""Writing a directory of files, whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from collections.abc import Mapping
+from contextlib import suppress
+from pathlib import Path
+from shutil import rmtree
+
+from tmd.atomic import write_bytes
+from tmd.errors import OutputError
+
+
+def check_directory(directory: Path, *, overwrite: bool = False) -> None:
+    """Refuse a directory that cannot be written, before any work is done for it.
+
+    Raises:
+        OutputError: It is no directory, holds other files, or may not be written to.
+    """
+    reason, hint = "", "name a directory that does not exist yet"
+    try:
+        if directory.exists() and not directory.is_dir():
+            reason = "it is no directory"
+        elif directory.is_dir() and any(directory.iterdir()) and not overwrite:
+            reason, hint = "it is not empty", "name another directory, or give --overwrite"
+        elif not _first_above(directory).is_dir():
+            reason = f"{_first_above(directory)} is no directory"
+        elif not os.access(_first_above(directory), os.W_OK | os.X_OK):
+            reason, hint = "permission denied", "name a directory that you may write to"
+    except OSError as error:
+        reason = error.strerror or str(error)
+    if reason:
+        raise OutputError(f"{directory} cannot be written: {reason}", hint=hint)
+
+
+def _first_above(path: Path) -> Path:
+    """``path``, or the nearest directory above it that is there."""
+    found = path.absolute()
+    while not found.exists() and found != found.parent:
+        found = found.parent
+    return found
+
+
+def write_directory(directory: Path, files: Mapping[str, bytes], *, overwrite: bool = False) -> None:
+    """Write ``files`` into ``directory``, which becomes what they are in one step where it was empty or not there.
+
+    Args:
+        directory: Where to.
+        files: Contents by path within the directory, with ``/`` between its parts.
+        overwrite: Whether the directory may hold other files; those stay, and those of the same name are replaced,
+            each of them whole.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    check_directory(directory, overwrite=overwrite)
+    try:
+        if overwrite and directory.is_dir() and any(directory.iterdir()):
+            _replace_files(directory, files)
+        else:
+            _appear(directory, files)
+    except OSError as error:
+        raise OutputError(
+            f"{directory} cannot be written: {error.strerror or error}", hint="name a directory you may write to"
+        ) from error
+
+
+def _replace_files(directory: Path, files: Mapping[str, bytes]) -> None:
+    for name, data in files.items():
+        target = directory / name
+        target.parent.mkdir(parents=True, exist_ok=True)
+        write_bytes(target, data)
+
+
+def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
+    """Write everything beside ``directory`` and rename it; an empty directory is replaced by that."""
+    target = directory.resolve()
+    above = [parent for parent in target.parents if not parent.exists()]
+    target.parent.mkdir(parents=True, exist_ok=True)
+    draft = Path(tempfile.mkdtemp(prefix=f".{target.name[:100]}.", suffix=".part", dir=target.parent))
+    try:
+        _replace_files(draft, files)
+        draft.chmod(0o777 & ~_umask())
+        draft.replace(target)
+    except BaseException:
+        rmtree(draft, ignore_errors=True)
+        for parent in above:
+            with suppress(OSError):
+                parent.rmdir()
+        raise
+
+
+def _umask() -> int:
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,154 @@
+"""The formats by name, and the files that each of them consists of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from tmd.export.planned import Planned
+from tmd.export.strips import Strips
+from tmd.pddl.plan_file import format_plan
+from tmd.pddl.writer import format_domain, format_problem
+
+Files: TypeAlias = Mapping[str, bytes]
+"""File names with contents."""
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A format.
+
+    Attributes:
+        name: Its name on the command line.
+        about: What it is, in one line.
+        write: Makes its files.
+    """
+
+    name: str
+    about: str
+    write: Callable[[Planned], Files]
+
+
+def _adl(source: Planned) -> Files:
+    plan = format_plan(source.plan, source.cost, unit=source.unit_cost)
+    return _texts(
+        {
+            "domain.pddl": format_domain(source.portable.domain),
+            "problem.pddl": format_problem(source.portable),
+            "plan.plan": plan,
+        }
+    )
+
+
+def _ipc(source: Planned) -> Files:
+    return _texts({"plan.plan": format_plan(source.plan, source.cost, unit=source.unit_cost)})
+
+
+def _strips(source: Planned) -> Files:
+    from tmd.export.strips import strips
+
+    found = strips(source)
+    lines = [f"{step.pddl()} ; {found.instructions[step.name].pddl()}" for step in found.plan]
+    text = "".join(f"{line}\n" for line in [*lines, f"; cost = {len(lines)} (unit cost)"])
+    return _texts(
+        {
+            "domain.pddl": _with_origins(format_domain(found.problem.domain), found),
+            "problem.pddl": format_problem(found.problem),
+            "plan.plan": text,
+        }
+    )
+
+
+def _with_origins(text: str, found: Strips, keyword: str = "action") -> str:
+    """The text of a domain with the instruction before each action that stands for it."""
+    for action in found.problem.domain.actions:
+        head = f"  (:{keyword} {action.name}\n"
+        text = text.replace(head, f"  ; {found.instructions[action.name].pddl()}\n{head}")
+    return text
+
+
+def _durative(source: Planned) -> Files:
+    from tmd.export.durative import format_durative_domain, format_durative_problem
+    from tmd.export.temporal import format_temporal
+
+    return _texts(
+        {
+            "domain.pddl": format_durative_domain(source.portable.domain),
+            "problem.pddl": format_durative_problem(source.portable),
+            "plan.plan": format_temporal(source.plan),
+        }
+    )
+
+
+def _plansys2(source: Planned) -> Files:
+    from tmd.export.durative import format_durative_domain, format_durative_problem
+    from tmd.export.strips import strips
+    from tmd.export.temporal import format_popf
+
+    found = strips(source)
+    domain = format_durative_domain(found.problem.domain)
+    return _texts(
+        {
+            "domain.pddl": _with_origins(domain, found, "durative-action"),
+            "problem.pddl": format_durative_problem(found.problem),
+            "plan.plan": format_popf(found.plan),
+        }
+    )
+
+
+def _anml(source: Planned) -> Files:
+    from tmd.export.unified import format_anml
+
+    return _texts({"problem.anml": format_anml(source)})
+
+
+def _protobuf(source: Planned) -> Files:
+    from tmd.export.unified import messages
+
+    problem, plan = messages(source)
+    return {"problem.pb": problem, "plan.pb": plan}
+
+
+def _tree(source: Planned) -> Files:
+    from tmd.export.tree import format_tree
+
+    return _texts({"tree.xml": format_tree(source)})
+
+
+def _sas(source: Planned) -> Files:
+    from tmd.export.sas import format_sas
+
+    plan = format_plan(source.plan, source.cost, unit=source.unit_cost)
+    return _texts({"output.sas": format_sas(source), "sas_plan": plan})
+
+
+def _json(source: Planned) -> Files:
+    from tmd.export.record import format_record, format_schema
+
+    return _texts({"plan.json": format_record(source), "plan.schema.json": format_schema()})
+
+
+def _texts(files: Mapping[str, str]) -> Files:
+    return {name: text.encode("utf-8") for name, text in files.items()}
+
+
+DEFAULT = "adl"
+"""What is written where no format is asked for."""
+
+FORMATS: Mapping[str, Format] = {
+    form.name: form
+    for form in (
+        Format("adl", "flat typed ADL: domain, problem and plan side by side", _adl),
+        Format("ipc", "the plan alone, as the planning competitions write it", _ipc),
+        Format("strips", "ground STRIPS with the plan's conditional effects decided, and its plan", _strips),
+        Format("durative", "PDDL 2.1 with durative actions, and a plan with times", _durative),
+        Format("anml", "ANML, by unified-planning", _anml),
+        Format("protobuf", "problem and plan as protocol buffers of unified-planning", _protobuf),
+        Format("plansys2", "PlanSys2: durative STRIPS, and the plan as POPF prints it", _plansys2),
+        Format("bt", "a behaviour tree for BehaviorTree.CPP 4", _tree),
+        Format("sas", "SAS+ by Fast Downward's translator, and the plan", _sas),
+        Format("json", "problem and plan in a form of our own, and its JSON Schema", _json),
+    )
+}
+"""Every format by its name, in the order in which they are documented."""

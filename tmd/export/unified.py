@@ -1,0 +1,141 @@
+"""Problems and plans as objects of unified-planning, and the forms that it writes: ANML and protocol buffers.
+
+unified-planning is imported when it is first needed, which takes about a third of a second.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Iterable
+from dataclasses import replace
+from importlib.util import find_spec
+from typing import Any, TypeAlias
+
+from tmd.errors import MissingToolError, TmdError
+from tmd.export.planned import Planned
+from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.portable import portable
+from tmd.pddl.writer import format_domain, format_problem
+
+UpProblem: TypeAlias = Any
+"""A ``unified_planning.model.Problem``; the package ships no types."""
+UpPlan: TypeAlias = Any
+"""A plan of unified-planning."""
+
+
+def to_unified_planning(problem: Problem) -> UpProblem:
+    """``problem`` as a ``unified_planning.model.Problem``, made by unified-planning's own reader.
+
+    Names stay as they are. The name of the domain is lost: unified-planning has no place for it.
+
+    Raises:
+        MissingToolError: unified-planning is not installed.
+        TmdError: The problem cannot be written in the form that other tools read.
+    """
+    _needed("unified_planning", "unified-planning")
+    from unified_planning.io import PDDLReader
+
+    plain = portable(_without_idle_costs(problem))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return PDDLReader().parse_problem_string(format_domain(plain.domain), format_problem(plain))
+
+
+def _without_idle_costs(problem: Problem) -> Problem:
+    """``problem`` without costs that nothing minimises: unified-planning would take them for numeric fluents."""
+    if problem.minimize_cost or not problem.domain.functions:
+        return problem
+    actions = tuple(replace(action, cost=None) for action in problem.domain.actions)
+    return replace(problem, domain=replace(problem.domain, functions=(), actions=actions), function_values={})
+
+
+def plan_to_unified_planning(plan: Iterable[Instruction], problem: UpProblem) -> UpPlan:
+    """A plan as a ``SequentialPlan`` for ``problem``.
+
+    Args:
+        plan: The instructions.
+        problem: What :func:`to_unified_planning` returned.
+
+    Raises:
+        TmdError: An instruction names what ``problem`` does not have.
+    """
+    from unified_planning.exceptions import UPValueError
+    from unified_planning.plans import ActionInstance, SequentialPlan
+
+    expressions = problem.environment.expression_manager
+    steps = []
+    for instruction in plan:
+        try:
+            objects = [expressions.ObjectExp(problem.object(name)) for name in instruction.args]
+            steps.append(ActionInstance(problem.action(instruction.name), objects))
+        except (UPValueError, AssertionError) as error:
+            raise TmdError(f"{instruction} cannot be said in this problem: {error}") from error
+    return SequentialPlan(steps, problem.environment)
+
+
+def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
+    """The instructions of a plan of unified-planning: of a sequential one, or of one with times, by their start.
+
+    Raises:
+        TmdError: It is a plan of another kind.
+    """
+    from unified_planning.plans import SequentialPlan, TimeTriggeredPlan
+
+    if isinstance(plan, SequentialPlan):
+        actions = plan.actions
+    elif isinstance(plan, TimeTriggeredPlan):
+        actions = [action for _, action, _ in sorted(plan.timed_actions, key=lambda timed: timed[0])]
+    else:
+        raise TmdError(f"a {type(plan).__name__} is no sequence of instructions", hint="give a SequentialPlan")
+    return tuple(
+        Instruction(a.action.name.lower(), tuple(str(argument).lower() for argument in a.actual_parameters))
+        for a in actions
+    )
+
+
+def format_anml(source: Planned) -> str:
+    """The problem as ANML, by unified-planning's writer.
+
+    Hyphens and other characters that ANML's names cannot have are replaced there. ANML has no costs of actions.
+
+    Raises:
+        MissingToolError: unified-planning is not installed.
+        TmdError: unified-planning refuses the problem.
+    """
+    _needed("unified_planning", "unified-planning")
+    from unified_planning.exceptions import UPException
+    from unified_planning.io import ANMLWriter
+
+    problem = to_unified_planning(replace(source.problem, minimize_cost=False))
+    try:
+        text: str = ANMLWriter(problem).get_problem()
+    except UPException as error:
+        raise TmdError(f"unified-planning cannot write this problem as ANML: {error}") from error
+    return text
+
+
+def messages(source: Planned) -> tuple[bytes, bytes]:
+    """Problem and plan as the protocol buffers ``Problem`` and ``Plan`` of unified-planning.
+
+    Raises:
+        MissingToolError: unified-planning or protobuf is not installed.
+        TmdError: The problem cannot be written in the form that other tools read.
+    """
+    _needed("unified_planning", "unified-planning")
+    _needed("google.protobuf", "protobuf")
+    from unified_planning.grpc.proto_writer import ProtobufWriter
+
+    problem = to_unified_planning(source.problem)
+    writer = ProtobufWriter()
+    converted = (writer.convert(problem), writer.convert(plan_to_unified_planning(source.plan, problem)))
+    written: tuple[bytes, bytes] = tuple(message.SerializeToString(deterministic=True) for message in converted)
+    return written
+
+
+def _needed(module: str, package: str) -> None:
+    try:
+        found = find_spec(module)
+    except (ModuleNotFoundError, ValueError):
+        found = None
+    if found is None:
+        raise MissingToolError(f"the package {package} is not installed", hint=f"pip install {package}")
