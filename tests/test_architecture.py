@@ -21,7 +21,10 @@ FLOORS = {
     "policy": 4,
     "ground": 4.5,
     "evaluation": 5,
+    "export": 5,
     "robot": 5,
+    "trial": 5.5,
+    "check": 5.5,
     "cli": 6,
 }
 HEAVY = {
