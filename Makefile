@@ -5,6 +5,7 @@ TASK ?= ramen
 DATA ?= bundled
 VEIL500 ?= $(VEIL500_DIR)
 OUT ?= runs/$(TASK)-$(DATA)
+ROBOT ?= kinematic
 KITCHEN ?= kitchen4
 # section VII of the paper
 AFFOGATO := Take some coffee in a cup. Add ice cream of your choice. Finally, add raspberry syrup to the mixture.
@@ -22,7 +23,7 @@ help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
 	@echo
 	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
-	@echo "  STEP=all|report, and ARGS='…' for any other option of tmd experiment"
+	@echo "  STEP=all|robot|report, ROBOT=kinematic|physics|off, and ARGS='…' for any other option of tmd experiment"
 	@echo "  make demo takes KITCHEN=kitchen4 SEED=N, and ARGS='--kinematic' or any other option of tmd run"
 	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
 
@@ -41,7 +42,7 @@ $(STAMP):
 experiment: setup ## Run the main job: train, predict, score, print the table.
 	@$(BIN)/tmd experiment --task '$(TASK)' --data '$(DATA)' --out '$(OUT)' \
 		$(if $(VEIL500),--veil500 '$(VEIL500)') $(if $(MODELS),--models '$(MODELS)') \
-		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)') $(if $(STEP),--step '$(STEP)') $(ARGS)
+		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)') $(if $(STEP),--step '$(STEP)') --robot '$(ROBOT)' $(ARGS)
 
 demo: setup ## Let a simulated PR2 make the affogato of the paper, and film it.
 	@mkdir -p runs/demo

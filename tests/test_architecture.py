@@ -19,6 +19,7 @@ FLOORS = {
     "veil": 3,
     "energy": 4,
     "policy": 4,
+    "learned": 4.4,
     "ground": 4.5,
     "evaluation": 5,
     "export": 5,

@@ -35,17 +35,17 @@ def test_make_alone_lists_every_target(tmp_path: Path) -> None:
 
 def test_options_are_passed_on(tmp_path: Path) -> None:
     """``-n`` prints the commands; the set-up it prints first is that of an empty directory."""
-    options = ["TASK=all", "DATA=veil500", "VEIL500=/a b", "MODELS=empty,nearest", "JOBS=3", "SEED=7", "OUT=o"]
+    options = ["TASK=all", "DATA=veil500", "VEIL500=/a b", "MODELS=empty,nearest", "JOBS=3", "SEED=7", "OUT=o", "ROBOT=off"]
     shown = " ".join(make(tmp_path, "-n", "experiment", *options).stdout.replace("\\\n", " ").split())
     assert shown.endswith(
         "tmd experiment --task 'all' --data 'veil500' --out 'o' --veil500 '/a b' --models 'empty,nearest'"
-        " --jobs '3' --seed '7'"
+        " --jobs '3' --seed '7' --robot 'off'"
     )
 
 
 def test_options_that_are_not_given_are_not_passed_on(tmp_path: Path) -> None:
     shown = " ".join(make(tmp_path, "-n", "experiment", "TASK=ramen").stdout.replace("\\\n", " ").split())
-    assert shown.endswith("tmd experiment --task 'ramen' --data 'bundled' --out 'runs/ramen-bundled'")
+    assert shown.endswith("tmd experiment --task 'ramen' --data 'bundled' --out 'runs/ramen-bundled' --robot 'kinematic'")
 
 
 def test_an_old_interpreter_is_refused_in_one_line(tmp_path: Path) -> None:

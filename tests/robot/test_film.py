@@ -110,7 +110,7 @@ def test_the_camera_does_not_jump(run: Run) -> None:
 def test_the_strip_has_a_picture_for_each_instruction(run: Run) -> None:
     from PIL import Image
 
-    sheet = np.asarray(Image.open(run.strip))
+    sheet = np.asarray(Image.open(run.strip).convert("RGB"))
     tile = np.array([300 + caption_height(400), 400]) + 10
     assert sheet.shape == (2 * tile[0] + 10, 2 * tile[1] + 10, 3)  # 3 pictures: two columns, two rows
     assert len(np.unique(sheet[tile[0] + 10 :, tile[1] + 10 :].reshape(-1, 3), axis=0)) == 1  # the fourth place

@@ -93,10 +93,15 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
 @click.option("--shard", callback=share, metavar="I/N", help="Do only this share of the work, without a report.")
 @click.option(
     "--step",
-    type=click.Choice(["all", "report"]),
+    type=click.Choice(["all", "robot", "report"]),
     default="all",
     show_default=True,
-    help="The whole run, or its report from what is done.",
+    help="The whole run; or only what the robot does, or only the report, from what is done.",
+)
+@click.option(
+    "--robot",
+    type=click.Choice(["physics", "kinematic", "off"]),
+    help="Let a simulated PR2 carry out one prediction for each environment in the end, and film it; off by default.",
 )
 @click.option("--out", required=True, type=click.Path(path_type=Path), metavar="DIR", help="The run's directory.")
 @click.pass_obj
@@ -117,6 +122,7 @@ def command(
     scheduler: str | None,
     shard: tuple[int, int] | None,
     step: str,
+    robot: str | None,
     out: Path,
 ) -> None:
     """Compare models on a task by cross-validation, or on environments that were held out.
@@ -125,8 +131,12 @@ def command(
     """
     if (backend == "dask") != (scheduler is not None):
         raise click.UsageError("--backend dask and --scheduler tcp://HOST:PORT go together")
-    if shard and step == "report":
-        raise click.UsageError("a report is made of the whole run: give --step report without --shard")
+    if shard and step != "all":
+        raise click.UsageError(f"--step {step} needs the whole run: give it without --shard")
+    if shard and robot not in (None, "off"):
+        raise click.UsageError("the robot acts when the whole run is done: give --robot without --shard")
+    if step == "robot" and robot == "off":
+        raise click.UsageError("--step robot and --robot off do not go together")
 
     from tmd.evaluation.config import DEFAULT_MODELS, ExperimentConfig, Shard, usual_models
 
@@ -153,7 +163,7 @@ def command(
     if config.shard:
         _share(config, config.shard)
     else:
-        _whole(config, step)
+        _whole(config, step, robot or ("kinematic" if step == "robot" else "off"))
 
 
 def _share(config: ExperimentConfig, shard: Shard) -> None:
@@ -165,19 +175,36 @@ def _share(config: ExperimentConfig, shard: Shard) -> None:
     emit(f"done: share {shard.number} of {shard.of}, {parts} parts in {config.out}\n")
 
 
-def _whole(config: ExperimentConfig, step: str) -> None:
+def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.cli.progress import progress_bar
     from tmd.evaluation.experiment import collect, run
     from tmd.evaluation.report import print_table, write_report
 
-    if step == "report":
-        metrics = collect(config)
-    else:
+    if step == "all":
         with progress_bar(f"{config.task}, {config.data} data") as progress:
             metrics = run(config, progress)
-    report = write_report(config.out)
+    else:
+        metrics = collect(config)
+    report = write_report(config.out)  # now: what the robot does may take minutes, and adds to it
     print_table(metrics)
+    if robot != "off" and step != "report":
+        _trials(config, robot)
+        report = write_report(config.out)
     emit(f"report: {report}\n")
+
+
+def _trials(config: ExperimentConfig, mode: str) -> None:
+    from tmd.cli.progress import progress_bar
+    from tmd.cli.stopping import stoppable
+    from tmd.trial.run import run_trials
+
+    with stoppable(), progress_bar(f"the robot, {mode}") as progress:
+        trials = run_trials(config, "physics" if mode == "physics" else "kinematic", progress)
+    if trials.skipped:
+        emit(f"the robot did nothing: {trials.skipped}\n", error=True)
+    for trial in trials.found:
+        why = f": {trial.reason}" if trial.reason else ""
+        emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
 
 
 def _processors() -> int:

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import signal
 import warnings
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any, TypeVar
 
 from tmd.errors import ExitCode, TmdError
 from tmd.evaluation.config import DASK, ExperimentConfig
 from tmd.evaluation.units import Outcome, Unit, do
 
+_Made = TypeVar("_Made")
 GO_ON = "what is done is kept: the same command goes on from there"
 
 
@@ -39,23 +41,34 @@ def outcomes(config: ExperimentConfig, units: Sequence[Unit], fits: Path, finger
         from tmd.evaluation.cluster import on_cluster
 
         yield from on_cluster(config, units, fingerprint)
-    elif config.jobs == 1:
-        for unit in units:
-            yield do(config, unit, fits)
     else:
-        yield from _in_processes(config, units, fits)
+        yield from in_processes(do, [(config, unit, fits) for unit in units], config.jobs)
 
 
-def _in_processes(config: ExperimentConfig, units: Sequence[Unit], fits: Path) -> Iterator[Outcome]:
+def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], jobs: int) -> Generator[_Made]:
+    """Call ``work`` with each of ``tasks``, at most so many at once, and yield what comes back in any order.
+
+    Args:
+        work: A function of a module: other processes must find it.
+        tasks: The arguments of each call.
+        jobs: How many processes; with one, this process does it all.
+
+    Raises:
+        WorkerLostError: A process was killed.
+    """
+    if jobs == 1 or not tasks:
+        for task in tasks:
+            yield work(*task)
+        return
     from joblib import Parallel, delayed, parallel_config
 
     with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
         # a worker that has grown is replaced between two units: nothing is lost by it
         warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
-        workers = Parallel(n_jobs=min(config.jobs, len(units)), return_as="generator_unordered", batch_size=1)
+        workers = Parallel(n_jobs=min(jobs, len(tasks)), return_as="generator_unordered", batch_size=1)
         try:
             with _deaf_to_interruptions():
-                found = workers(delayed(do)(config, unit, fits) for unit in units)
+                found = workers(delayed(work)(*task) for task in tasks)
             yield from found
         except BrokenProcessPool:
             raise WorkerLostError(

@@ -17,6 +17,7 @@ from tmd.evaluation.records import Run
 from tmd.evaluation.standing import ALPHA, differing, reference
 from tmd.evaluation.summary import COLUMNS, EMPTY, METRICS
 from tmd.evaluation.tables import differences, errors, learned, table_2
+from tmd.evaluation.trials import Trials, films
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -28,8 +29,13 @@ _MENTIONED = 3
 """How many instructions are named in a cell."""
 
 
-def render(run: Run) -> str:
-    """The page."""
+def render(run: Run, trials: Trials | None = None) -> str:
+    """The page.
+
+    Args:
+        run: The run.
+        trials: What a robot did with its predictions; ``None`` where nobody asked for it.
+    """
     metrics = run.metrics
     paper, others = paper_table.in_order(metrics.models)
     others.sort(key=lambda model: model == EMPTY)
@@ -65,6 +71,8 @@ def render(run: Run) -> str:
         nothing=NOTHING,
         empty=EMPTY,
         veil500=_VEIL500,
+        trials=trials,
+        films=films(trials),
     )
 
 

@@ -25,8 +25,9 @@ def write_report(directory: Path) -> Path:
     """
     from tmd.evaluation.page import render
     from tmd.evaluation.records import read_run
+    from tmd.evaluation.trials import read_trials
 
-    page = render(read_run(directory))
+    page = render(read_run(directory), read_trials(directory))
     path = directory / REPORT
     write_text(path, page)
     return path

@@ -31,13 +31,16 @@ _FAR = ("look", "drive")
 """Skills that are seen from afar."""
 
 
-def open_movie(path: Path, picture: tuple[int, int] | None = None, fps: int | None = None) -> MovieFile:
+def open_movie(
+    path: Path, picture: tuple[int, int] | None = None, fps: int | None = None, *, small: bool = False
+) -> MovieFile:
     """A file for a film with captions.
 
     Args:
         path: Where it goes; its suffix says what kind of film it is.
         picture: Width and height of the pictures without their captions, even numbers; the kind's usual ones if not.
         fps: Pictures a second; the kind's usual ones if not. The pauses of a GIF are hundredths of seconds.
+        small: Spare bytes, as :class:`MovieFile` does.
 
     Raises:
         MissingToolError: What writes films of this kind is not installed.
@@ -45,7 +48,7 @@ def open_movie(path: Path, picture: tuple[int, int] | None = None, fps: int | No
         TmdError: The suffix says no kind of film that is known.
     """
     width, height = picture or (GIF_PICTURE if path.suffix == ".gif" else PICTURE)
-    return MovieFile(path, (width, height + caption_height(width)), fps or FPS.get(path.suffix, 1))
+    return MovieFile(path, (width, height + caption_height(width)), fps or FPS.get(path.suffix, 1), small=small)
 
 
 class Film:
@@ -131,8 +134,12 @@ class Film:
         """
         if not self._tiles:
             return
+        from PIL import Image
+
         data = io.BytesIO()
-        filmstrip(self._tiles).save(data, "PNG")
+        # a third of the bytes; by octree, because a median cut loses small things of a rare colour: the water in a pot
+        few = filmstrip(self._tiles).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        few.save(data, "PNG", optimize=True)
         write_bytes(path, data.getvalue())
 
     def _watch(self, sim: Simulator) -> None:

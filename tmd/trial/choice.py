@@ -1,0 +1,45 @@
+"""Which predictions of a run a robot carries out: in each environment one, of the row that is best on the whole."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from tmd.evaluation.records import Line, Run
+from tmd.evaluation.summary import EMPTY
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """A prediction to carry out.
+
+    Attributes:
+        environment: Where.
+        model: The row.
+        line: The prediction; ``None`` where no prediction of the row can be executed there under PDDL.
+    """
+
+    environment: str
+    model: str
+    line: Line | None
+
+
+def choices(run: Run) -> list[Choice]:
+    """One for each environment that was tested in, in the order of the run.
+
+    The row has the greatest END on average, in a tie the last. Of its predictions in an environment the first is taken
+    that can be executed under PDDL: what the person did is not looked at, so nothing is picked for its score.
+    """
+    rows = [name for name in run.metrics.models if name != EMPTY]
+    if not rows:
+        return []
+    best = max(reversed(rows), key=lambda name: run.metrics.models[name].average.END)
+    lines = run.of(best)
+    environments = sorted({line.environment for line in lines})
+    return [
+        Choice(where, best, next((line for line in lines if line.environment == where and _works(line)), None))
+        for where in environments
+    ]
+
+
+def _works(line: Line) -> bool:
+    return line.executable and bool(line.predicted)
