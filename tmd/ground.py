@@ -2,18 +2,22 @@
 
 Read this first; each call goes to the room of that name (the boxes of Figure 3 of the paper)::
 
-    corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
-    library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
+    corpus = open_corpus("kitchen")
+    knowledge = study(corpus)                           # or what `tmd learn` saved: recall(corpus)
     world = corpus.world("kitchen1")
-    for plan in ground("Boil some water in the pot.", world, library).plans:
+    for plan in ground("Boil some water in the pot.", world, knowledge.library, reward=knowledge.reward).plans:
         print(plan.energy, *plan.instructions)
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
 
 from tmd.energy.energy import Energy
+from tmd.energy.factors import AKIN
 from tmd.energy.infer import Inference
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.energy.statistics import count
@@ -21,7 +25,9 @@ from tmd.energy.weights import Weights, named_weights
 from tmd.language import parse
 from tmd.language.clause import Parsed
 from tmd.pddl.validator import Verdict, validate
-from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.backends import FAST_DOWNWARD_FIRST, IN_PROCESS, make
+from tmd.planning.result import Planner
+from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
 from tmd.veil.world import World
 
@@ -45,12 +51,41 @@ class Grounded:
     unseen: tuple[str, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Model:
+    """Which energy is minimised: the paper's, or one with extensions of ours.
+
+    Attributes:
+        weights: The name of its weights.
+        extended: Nouns paired in order of mention, akin nouns, Δ_cover.
+        generate: A policy, learned from the same demonstrations, proposes as well (Δ_words).
+        state: The planner proposes ways to what the clause states as well (Δ_stated).
+    """
+
+    weights: str
+    extended: bool = True
+    generate: bool = False
+    state: bool = False
+
+
+MODELS: Mapping[str, Model] = {
+    "stating": Model("stating", generate=True, state=True),
+    "generating": Model("generating", generate=True),
+    "extended": Model("hand_set"),
+    "paper": Model("original", extended=False),
+}
+"""The models by name, ours first; they are the rows of the experiments that do not learn their weights."""
+DEFAULT = "stating"
+
+
 def ground(
     text: str,
     world: World,
     library: Library,
     weights: Weights | None = None,
     *,
+    reward: Reward | None = None,
+    model: Model = MODELS[DEFAULT],
     planner: str = IN_PROCESS,
     beam: int | None = 3,
     trim: int | None = None,
@@ -62,7 +97,9 @@ def ground(
         text: What the person said.
         world: The environment.
         library: The templates.
-        weights: What each factor counts for; those set by hand where none are given.
+        weights: What each factor counts for; those of the model where none are given.
+        reward: What the policy was learned to be; without it the model has none.
+        model: The energy.
         planner: Which planner fills in what was left unsaid.
         beam: How many environments are followed from clause to clause; ``None`` follows all.
         trim: How many leading instructions of a template may be dropped; ``None`` is any number.
@@ -72,11 +109,29 @@ def ground(
         TmdError: The planner is unknown or not installed.
     """
     parsed = parse(text, library.lexicon)
-    filler = make(planner, world.task)
-    energy = Energy(weights or named_weights("hand_set"), count(library), world)
-    inference = Inference(world, library, energy, filler, beam=beam, trim=trim, top=top)
+    inference = Inference(
+        world,
+        library,
+        Energy(weights or named_weights(model.weights), count(library), world, akin=AKIN if model.extended else 0.0),
+        make(planner, world.task),
+        beam=beam,
+        trim=trim,
+        top=top,
+        pair_nouns=model.extended,
+        policy=Policy(reward, world) if reward is not None and model.generate else None,
+        plan_stated=model.state,
+        guess=False,
+        last_resort=_last_resort(planner, world),
+    )
     inferred = inference.infer(parsed.clauses, world.task.init)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     plans = tuple(plan for plan in inferred.plans if plan.instructions or len(unseen) < len(parsed.clauses))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
     return Grounded(parsed, plans, verdicts, inferred.refusals, unseen)
+
+
+def _last_resort(planner: str, world: World) -> Callable[[], Planner] | None:
+    """Where nobody asked for another planner and Fast Downward is installed: the first plan that it finds."""
+    if planner != IN_PROCESS or find_spec("up_fast_downward") is None:
+        return None
+    return partial(make, FAST_DOWNWARD_FIRST, world.task)

@@ -29,7 +29,7 @@ ABSENT = {
     "no_latent": (*LATENT, *OURS),
     "no_nl": ("nl", "pcc", "cons", *OURS),
     "no_domain": ("cons", *LATENT, *OURS),
-    "extended": ("words", "generated"),
+    "extended": ("words", "generated", "stated"),
 }
 """The factors that a row does not have."""
 EXAMPLES = 4
@@ -111,10 +111,11 @@ def test_an_example_is_learned_from_without_the_templates_of_its_environment(
     seen: list[tuple[str, set[str]]] = []
     plans = Crf._plans
 
-    def spy(self: Crf, example: Example, data: BundledData, library: Library, *rest: Any, **more: Any) -> object:  # noqa: ANN401
+    def spy(self: Crf, example: Example, data: BundledData, taught: Any, *rest: Any, **more: Any) -> object:  # noqa: ANN401
+        library: Library = taught.library
         templates = [template for verb in library.verbs() for template in library.templates(verb)]
         seen.append((example.environment, {template.environment for template in templates}))
-        return plans(self, example, data, library, *rest, **more)
+        return plans(self, example, data, taught, *rest, **more)
 
     monkeypatch.setattr(Crf, "_plans", spy)
     fitted(row("full"), train, data)

@@ -8,12 +8,13 @@ environment as it is: α_j = α_{j-1}.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from tmd.energy.constraints import get_constraints
 from tmd.energy.energy import Energy
+from tmd.energy.factors import delta_stated
 from tmd.energy.plans import Choice, RankedPlan, Refusal, Step, why_lost
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
@@ -21,11 +22,16 @@ from tmd.pddl.task import Bits, Cube, Operator
 from tmd.planning.result import Filled, GaveUp, Planner, Unreachable
 from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library
+from tmd.veil.stated import stated
 from tmd.veil.world import World
 
 Sequence_ = tuple[Instruction, ...]
 GENERATED = "policy"
 """The source of a sequence that was made from no demonstration."""
+_MOST_GOALS = 64
+"""So many ways of fulfilling what a clause states are looked at."""
+STATED = "planner"
+"""The source of a sequence that the planner made for what the clause states."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,13 +65,17 @@ class Policy(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class _Candidate:
-    """A trimmed instantiation: what it costs before the planner is asked, and the objects its clause speaks of."""
+    """A trimmed instantiation: what it costs before the planner is asked, and the objects its clause speaks of.
+
+    With a ``goal`` it has no instructions of its own: they are what the planner finds for it.
+    """
 
     source: str
     instructions: Sequence_
     raw: dict[str, float]
     energy: float
     names: tuple[str, ...]
+    goal: tuple[Cube, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +102,10 @@ class Inference:
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
         policy: Proposes sequences of its own beside the templates, and judges all (Δ_words).
         generated: How many sequences of the policy are looked at for each clause and environment.
+        plan_stated: Whether the planner proposes, beside the templates, the shortest way to what the clause states
+            (:mod:`tmd.veil.stated`).
+        guess: Whether anything is proposed for a verb that has no templates.
+        last_resort: Makes the planner that is asked for that way where ``filler`` gave up and nothing else leads there.
     """
 
     def __init__(
@@ -108,6 +122,9 @@ class Inference:
         knowledge: bool = True,
         policy: Policy | None = None,
         generated: int = 5,
+        plan_stated: bool = False,
+        guess: bool = True,
+        last_resort: Callable[[], Planner] | None = None,
     ) -> None:
         self.world = world
         self.library = library
@@ -120,12 +137,19 @@ class Inference:
         self.knowledge = knowledge
         self.policy = policy
         self.generated = generated
+        self.plan_stated = plan_stated
+        self.guess = guess
+        self.last_resort = last_resort
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
+        self._statements: dict[tuple[int, Bits], list[tuple[Cube, ...]]] = {}
+        self._gave_up: set[int] = set()
         self._refused: dict[tuple[int, str, str], Refusal] = {}
 
     def infer(self, clauses: Sequence[Clause], state: Bits) -> Inferred:
         """The best plans for ``clauses`` from ``state``."""
         self._refused.clear()
+        self._statements.clear()
+        self._gave_up.clear()
         self._clauses = tuple(clauses)
         alpha = {state: [Path(0.0, state)]}
         for number, clause in enumerate(clauses):
@@ -144,10 +168,8 @@ class Inference:
             done = _instructions(alpha[state][0])
             reached = self._reach(number, clause, candidate, state, done)
             if reached is not None:
-                choice, end = reached
-                found.setdefault(end, []).extend(
-                    Path(path.energy + choice.energy, end, (*path.choices, choice)) for path in alpha[state]
-                )
+                _extend(found, alpha[state], *reached)
+        self._resort(number, clause, alpha, found)
         if not found:
             nothing = Choice(None, (), {}, {})
             return {s: [Path(p.energy, s, (*p.choices, nothing)) for p in ways] for s, ways in alpha.items()}
@@ -186,43 +208,91 @@ class Inference:
             steps = tuple(Step(i, number, latent=False) for i in candidate.instructions)
             return Choice(candidate.source, steps, self.energy.weigh(candidate.raw), candidate.raw), state
         operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
-        answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
+        answer = self.filler.fill(state, candidate.goal or self._needs(candidate.instructions, operators))
         match answer:
+            case Filled() if candidate.goal:
+                return self._choice(number, clause, self._made(candidate, answer.plan), answer, state, done)
             case Filled():
-                return self._choice(number, clause, candidate, answer, operators, done)
+                return self._choice(number, clause, candidate, answer, state, done)
             case Unreachable(reason):
                 self._refuse(number, candidate.source, reason)
             case GaveUp(limit):
+                if candidate.goal:
+                    self._gave_up.add(number)
                 self._refuse(number, candidate.source, f"the planner gave up at {limit}")
         return None
 
+    def _made(self, candidate: _Candidate, plan: Sequence_) -> _Candidate:
+        """A candidate with a goal, with what the planner found for it."""
+        raw = {**candidate.raw, **self.energy.of_sequence(plan, len(plan), candidate.names)}
+        return replace(candidate, instructions=plan, raw=raw)
+
     def _choice(
-        self,
-        number: int,
-        clause: Clause,
-        candidate: _Candidate,
-        filled: Filled,
-        operators: Sequence[Operator],
-        done: Sequence_,
+        self, number: int, clause: Clause, candidate: _Candidate, filled: Filled, state: Bits, done: Sequence_
     ) -> tuple[Choice, Bits]:
-        end = filled.state
-        for operator in operators:
-            end = operator.apply(end)
-        steps = tuple(Step(i, number, latent=True) for i in filled.plan)
+        latent, end = ((), state) if candidate.goal else (filled.plan, filled.state)
+        for instruction in candidate.instructions:
+            end = self.world.task.by_instruction[instruction].apply(end)
+        steps = tuple(Step(i, number, latent=True) for i in latent)
         steps += tuple(Step(i, number, latent=False) for i in candidate.instructions)
         verb = self.library.lexicon.canonical_verb(clause.verb)
         raw = {
             **candidate.raw,
             **self.energy.of_end(verb, candidate.names, end),
-            **self.energy.of_latent(filled.plan, filled.state),
+            **self.energy.of_latent(latent, filled.state),
         }
+        if self.plan_stated:
+            raw["stated"] = delta_stated(self._stated(number, clause, state), end)
         if self.policy is not None:
-            whole = (*filled.plan, *candidate.instructions)
+            whole = (*latent, *candidate.instructions)
             raw["words"] = self.policy.surprise(clause, self._clauses[:number], done, whole)
         return Choice(candidate.source, steps, self.energy.weigh(raw), raw), end
 
+    def _resort(
+        self, number: int, clause: Clause, alpha: dict[Bits, list[Path]], found: dict[Bits, list[Path]]
+    ) -> None:
+        """Ask the planner of last resort, once, for what the clause states, if no path leads there."""
+        state, ways = min(alpha.items(), key=lambda item: _order(item[1][0]))
+        if self.last_resort is None or number not in self._gave_up or self._is_stated(found):
+            return
+        for candidate in self._planned(number, clause, state):
+            answer = self.last_resort().fill(state, candidate.goal)
+            if not isinstance(answer, Filled):
+                continue
+            made = self._made(candidate, answer.plan)
+            _extend(found, ways, *self._choice(number, clause, made, answer, state, _instructions(ways[0])))
+
+    def _is_stated(self, found: dict[Bits, list[Path]]) -> bool:
+        """Whether some path has done what its last clause states."""
+        return any(not path.choices[-1].raw.get("stated") for ways in found.values() for path in ways)
+
+    def _stated(self, number: int, clause: Clause, state: Bits) -> list[tuple[Cube, ...]]:
+        """What the clause states, where the planner may propose for it."""
+        if not self.plan_stated:
+            return []
+        key = number, state
+        if key not in self._statements:
+            self._statements[key] = stated(clause, self.world, state)
+        return self._statements[key]
+
+    def _planned(self, number: int, clause: Clause, state: Bits) -> list[_Candidate]:
+        """For what the clause states whatever leads to it, all of it at once."""
+        statements = self._stated(number, clause, state)
+        if not statements:
+            return []
+        goal = tuple(
+            Cube(either.positive | cube.positive, either.negative | cube.negative)
+            for either in statements[0]
+            for cube in (statements[1] if len(statements) > 1 else (Cube(),))
+        )[:_MOST_GOALS]
+        names = self.world.mentions.meant(clause, (), state)
+        raw = {"generated": 1.0}
+        return [_Candidate(STATED, (), raw, sum(self.energy.weigh(raw).values()), names, goal)]
+
     def _candidates(self, number: int, clause: Clause, state: Bits, done: Sequence_) -> list[_Candidate]:
-        """The distinct trimmed instantiations of the clause's templates, each at its cheapest."""
+        """The clause's templates, each distinct trimmed instantiation at its cheapest, and what others propose."""
+        if not self.guess and not self.library.propose(clause):
+            return []
         best: dict[tuple[Sequence_, tuple[str, ...]], _Candidate] = {}
         for template in self.library.propose(clause):
             instantiation = instantiate(template, clause, self.world, state, pair_nouns=self.pair_nouns)
@@ -234,7 +304,7 @@ class Inference:
                 key = candidate.instructions, candidate.names
                 if key not in best or candidate.energy < best[key].energy:
                     best[key] = candidate
-        return [*best.values(), *self._generated(number, clause, state, done)]
+        return [*best.values(), *self._generated(number, clause, state, done), *self._planned(number, clause, state)]
 
     def _generated(self, number: int, clause: Clause, state: Bits, done: Sequence_) -> list[_Candidate]:
         """The sequences that the policy proposes, without what can never be done here."""
@@ -279,6 +349,11 @@ class Inference:
 
     def _refuse(self, number: int, source: str, reason: str) -> None:
         self._refused.setdefault((number, source, reason), Refusal(number, source, reason))
+
+
+def _extend(found: dict[Bits, list[Path]], ways: Sequence[Path], choice: Choice, end: Bits) -> None:
+    """Take up a choice behind each of ``ways``."""
+    found.setdefault(end, []).extend(Path(p.energy + choice.energy, end, (*p.choices, choice)) for p in ways)
 
 
 def _order(path: Path) -> tuple[float, tuple[Instruction, ...]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from statistics import median
@@ -65,6 +66,15 @@ def planner_for(data: Dataset, environment: str) -> Planner:
     return known[environment]
 
 
+@dataclass(frozen=True, slots=True)
+class _Taught:
+    """What examples teach, but for the weights."""
+
+    library: Library
+    statistics: Statistics
+    tree: InstructionTree | None
+
+
 class Crf:
     """The energy and its inference.
 
@@ -78,6 +88,8 @@ class Crf:
         extended: Our extensions: nouns paired in order of mention, akin nouns, Δ_cover.
         generate: A log-linear policy, learned from the same demonstrations, proposes sequences as well and judges all
             candidates by the words of the clause (Δ_words).
+        state: The planner proposes the shortest way to what the clause states as well, and all candidates are judged
+            by whether it holds in the end (Δ_stated).
         beam: As for :class:`~tmd.energy.infer.Inference`.
         trim: As there.
         proposals: How many plans are looked at for each training example.
@@ -96,6 +108,7 @@ class Crf:
         language: bool = True,
         extended: bool = False,
         generate: bool = False,
+        state: bool = False,
         beam: int = 3,
         trim: int | None = None,
         proposals: int = 10,
@@ -110,6 +123,7 @@ class Crf:
         self.language = language
         self.extended = extended
         self.generate = generate
+        self.state = state
         self.beam = beam
         self.trim = trim
         self.proposals = proposals
@@ -123,6 +137,7 @@ class Crf:
         absent = (
             *(() if self.extended else OURS),
             *(() if self.generate else ("words", "generated")),
+            *(() if self.state else ("stated",)),
             *(() if self.language else _SPOKEN),
             *(() if self.knowledge else _BLIND),
             *(() if self.latent else _LATENT),
@@ -175,8 +190,8 @@ class Crf:
         """The best plans, cheapest first; none in a world that was not learned."""
         if example.world not in self.libraries_:
             return ()
-        library, statistics = self.libraries_[example.world], self.statistics_[example.world]
-        return self._plans(example, data, library, statistics, self.weights_[example.world], top=top)
+        taught = _Taught(self.libraries_[example.world], self.statistics_[example.world], self.tree_)
+        return self._plans(example, data, taught, self.weights_[example.world], top=top)
 
     def _prepare(self, examples: Sequence[Example], data: Dataset) -> None:
         self.libraries_ = libraries(examples, data)
@@ -186,29 +201,23 @@ class Crf:
             self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
         self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
         self.learned_: dict[str, Learned] = {}
-        # its own seed: a model that is restored has the same policy
-        trained = (
-            InstructionTree(grounded=True).fit(examples, data, np.random.default_rng(0)) if self.generate else None
-        )
-        self.tree_: InstructionTree | None = trained
+        self.tree_ = self._policy(examples, data)
         start = named_weights(self.start)
         mine = Weights({name: start[name] for name in self.factors})
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
     def _learn(self, name: str, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Learned:
-        """Weights for one kind of world. A training example never sees templates of its own environment."""
+        """Weights for one kind of world. A training example never sees what its own environment taught."""
         order = random.permutation(len(examples))[: self.most_examples]
         chosen = [examples[int(i)] for i in sorted(order)]
-        full = self.libraries_[name]
-        held_out = {place: full.without(place) for place in sorted({e.environment for e in chosen})}
-        if not self.language:
-            held_out = {place: whole(library) for place, library in held_out.items()}
-        tables = {place: count(library) for place, library in held_out.items()}
+        left_out = _groups(examples)
+        held_out = {
+            group: self._without(name, group, examples, data) for group in dict.fromkeys(left_out[e.id] for e in chosen)
+        }
 
         def propose(number: int, weights: Weights) -> list[tuple[RankedPlan, float]]:
             example = chosen[number]
-            library, statistics = held_out[example.environment], tables[example.environment]
-            plans = self._plans(example, data, library, statistics, weights, top=self.proposals)
+            plans = self._plans(example, data, held_out[left_out[example.id]], weights, top=self.proposals)
             return [(plan, loss(plan, example, data.world(example.environment))) for plan in plans]
 
         journal = Journal(self.journal, name) if self.journal else None
@@ -217,21 +226,33 @@ class Crf:
             propose, len(chosen), start, random, factors=self.factors, rounds=self.rounds, journal=journal
         )
 
+    def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Dataset) -> _Taught:
+        """What the other examples teach."""
+        others = [e for e in examples if e.demonstration.id not in group]
+        library = self.libraries_[name].filtered(lambda template: template.source not in group)
+        if not self.language:
+            library = whole(library)
+        return _Taught(library, count(library), self._policy(others, data))
+
+    def _policy(self, examples: Sequence[Example], data: Dataset) -> InstructionTree | None:
+        # its own seed: a model that is restored has the same policy
+        random = np.random.default_rng(0)
+        return InstructionTree(grounded=True).fit(examples, data, random) if self.generate else None
+
     def _plans(
         self,
         example: Example,
         data: Dataset,
-        library: Library,
-        statistics: Statistics,
+        taught: _Taught,
         weights: Weights,
         *,
         top: int,
     ) -> tuple[RankedPlan, ...]:
         """What inference finds. Told nothing it finds the same for every example in an environment."""
-        infer = partial(self._infer, example, data, library, statistics, weights, top=top)
+        infer = partial(self._infer, example, data, taught, weights, top=top)
         if self.language:
             return infer()
-        key = example.environment, len(library), tuple(weights.values.items()), top
+        key = example.environment, len(taught.library), tuple(weights.values.items()), top
         if key not in self._told_nothing:
             self._told_nothing[key] = infer()
         return self._told_nothing[key]
@@ -240,8 +261,7 @@ class Crf:
         self,
         example: Example,
         data: Dataset,
-        library: Library,
-        statistics: Statistics,
+        taught: _Taught,
         weights: Weights,
         *,
         top: int,
@@ -249,15 +269,16 @@ class Crf:
         world = data.world(example.environment)
         inference = Inference(
             world,
-            library,
-            Energy(weights, statistics, world, akin=AKIN if self.extended else 0.0),
+            taught.library,
+            Energy(weights, taught.statistics, world, akin=AKIN if self.extended else 0.0),
             planner_for(data, example.environment) if self.latent else NoLatent(),
             beam=self.beam,
             trim=self.trim,
             top=top,
             pair_nouns=self.extended,
             knowledge=self.knowledge,
-            policy=self.tree_.policy(example.environment, example.world, data) if self.tree_ else None,
+            policy=taught.tree.policy(example.environment, example.world, data) if taught.tree else None,
+            plan_stated=self.state,
         )
         return inference.infer(self._clauses(example, data), world.task.init).plans
 
@@ -265,6 +286,15 @@ class Crf:
         if not self.language:
             return [Clause("")] * self.steps_[example.world]
         return parse(example.demonstration.text, data.lexicon).clauses
+
+
+def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
+    """For each example those that must teach it nothing: all of its environment, or it alone where there is but one."""
+    places = {e.environment for e in examples}
+    if len(places) == 1:
+        return {e.id: frozenset({e.demonstration.id}) for e in examples}
+    by_place = {p: frozenset(e.demonstration.id for e in examples if e.environment == p) for p in places}
+    return {e.id: by_place[e.environment] for e in examples}
 
 
 def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
@@ -316,6 +346,8 @@ ROWS: dict[str, Callable[[], Crf]] = {
     "hand_set": partial(Crf, learned=False),
     "extended": partial(Crf, extended=True, start="hand_set"),
     "generating": partial(Crf, learned=False, extended=True, generate=True, start="generating"),
+    "stating": partial(Crf, learned=False, extended=True, generate=True, state=True, start="stating"),
+    "stating_learned": partial(Crf, extended=True, generate=True, state=True, start="stating"),
     "extended_hand_set": partial(Crf, learned=False, extended=True, start="hand_set"),
 }
 """The model of the paper, its ablations, and our variants."""

@@ -56,6 +56,8 @@ OURS = {
     "extended": "Extended model: Δ_cover, akin nouns, nouns paired in order",
     "extended_hand_set": "Extended model, weights set by hand",
     "generating": "Extended model with a policy that proposes and judges",
+    "stating": "The same, and the planner proposes what the clause states",
+    "stating_learned": "The same with learned weights",
     "empty": "Empty prediction",
 }
 """Titles of rows that the paper does not have."""

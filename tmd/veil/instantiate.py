@@ -21,9 +21,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from tmd.language.clause import Clause, Relation
+from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
+from tmd.veil.stated import resolved_relations
 from tmd.veil.states import Profile, shared
 from tmd.veil.template import Template
 from tmd.veil.world import World
@@ -77,8 +78,8 @@ def replace(instructions: Sequence[Instruction], grounding: Mapping[str, str]) -
 
 def _by_language(template: Template, clause: Clause, world: World, state: Bits) -> Iterator[tuple[str, str]]:
     """Rules 1 and 2: pairs of variable and object, in order of authority."""
-    for ours in _resolved_relations(clause):
-        for theirs in _resolved_relations(template.clause):
+    for ours in resolved_relations(clause):
+        for theirs in resolved_relations(template.clause):
             if ours.relation == theirs.relation:
                 yield from _pair(template, theirs.source, ours.source, world, state)
                 yield from _pair(template, theirs.target, ours.target, world, state)
@@ -123,16 +124,6 @@ def _pair(
         if _fits(template, variable, match.name, world):
             yield variable, match.name
             return
-
-
-def _resolved_relations(clause: Clause) -> list[Relation]:
-    """The relations of a clause with pronouns replaced by what they most likely mean."""
-
-    def meant(name: str | None) -> str | None:
-        likeliest = clause.antecedents.get(name or "", ())
-        return likeliest[0] if likeliest else name
-
-    return [Relation(r.relation, meant(r.source), meant(r.target) or r.target) for r in clause.relations]
 
 
 def _by_states(

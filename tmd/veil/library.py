@@ -40,10 +40,14 @@ class Library:
 
     def without(self, environment: str) -> Library:
         """The library as it would be had nobody been in ``environment``: for learning as for testing."""
+        return self.filtered(lambda template: template.environment != environment)
+
+    def filtered(self, keep: Callable[[Template], bool]) -> Library:
+        """A library of the templates for which ``keep`` is true."""
         found = Library(self.lexicon)
         for verb in self._by_verb:
             for template in self._by_verb[verb]:
-                if template.environment != environment:
+                if keep(template):
                     found.add(template)
         return found
 

@@ -48,10 +48,8 @@ class Mentions:
 
     def of(self, noun: str, state: Bits) -> list[Match]:
         """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
-        if noun not in self._known:
-            self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
         found: dict[str, Match] = {}
-        for match in self._known[noun]:
+        for match in self._ranked(noun):
             if match.name not in self.profiles.constants:
                 found.setdefault(match.name, match)
                 continue
@@ -60,6 +58,15 @@ class Mentions:
                 if name not in found or found[name].score < better.score:
                     found[name] = better
         return sorted(found.values(), key=lambda m: -m.score)
+
+    def constants(self, noun: str) -> list[str]:
+        """The constants of the domain, substances say, that ``noun`` may mean, likeliest first."""
+        return [match.name for match in self._ranked(noun) if match.name in self.profiles.constants]
+
+    def _ranked(self, noun: str) -> tuple[Match, ...]:
+        if noun not in self._known:
+            self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
+        return self._known[noun]
 
     def meant(self, clause: Clause, used: Collection[str], state: Bits) -> tuple[str, ...]:
         """The clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.

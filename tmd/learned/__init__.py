@@ -1,0 +1,12 @@
+"""What was learned from a domain's demonstrations, and keeping it.
+
+==================  ==============================================================================
+module              holds
+==================  ==============================================================================
+``knowledge``       library, policy and weights of a domain, learned from its demonstrations
+``library_json``    a library as JSON
+``reward_json``     what a policy was learned to be, as JSON and an array
+``digest``          what it was made from, as a checksum: is what was saved still true?
+``store``           a directory that holds all of it, written so that half of it is never used
+==================  ==============================================================================
+"""

@@ -1,0 +1,88 @@
+"""A directory with what was learned of a domain.
+
+``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.learned.knowledge` learns, ``weights.txt`` the
+learned weights if there are any. ``learned.json`` is written last and has checksums: of what everything was made from,
+and of the other files. Where one of them does not fit, nothing of the directory is used.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from tmd.atomic import make_directory, write_bytes
+from tmd.energy.weights import format_weights, parse_weights
+from tmd.errors import TmdError
+from tmd.learned.digest import digest
+from tmd.learned.knowledge import Knowledge, study
+from tmd.learned.library_json import library_from_json, library_to_json
+from tmd.learned.reward_json import reward_from_json, reward_to_json, weights_bytes
+from tmd.veil.corpus import Corpus
+
+FOLDER = "learned"
+"""Where it is kept beside a domain's demonstrations."""
+MANIFEST, LIBRARY, POLICY, THETA, WEIGHTS = "learned.json", "library.json", "policy.json", "policy.npy", "weights.txt"
+
+
+def place(corpus: Corpus, root: Path | None = None) -> Path:
+    """The directory for a domain: its own below ``root``, or the one beside its demonstrations."""
+    return root / corpus.folder.name if root is not None else corpus.directory / FOLDER
+
+
+def save(knowledge: Knowledge, corpus: Corpus, directory: Path) -> None:
+    """Write what was learned; a reader finds all of it or, until the last file is there, none.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    files = {LIBRARY: _json(library_to_json(knowledge.library))}
+    if knowledge.reward is not None:
+        files[POLICY] = _json(reward_to_json(knowledge.reward))
+        files[THETA] = weights_bytes(knowledge.reward)
+    if knowledge.weights is not None:
+        files[WEIGHTS] = format_weights(knowledge.weights).encode()
+    manifest = {
+        "domain": corpus.folder.name,
+        "made_from": digest(corpus),
+        "files": {name: _checksum(content) for name, content in sorted(files.items())},
+    }
+    make_directory(directory)
+    for name, content in files.items():
+        write_bytes(directory / name, content)
+    write_bytes(directory / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+
+
+def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
+    """What was saved; ``None`` where nothing was, or it is damaged, or was made from something else."""
+    try:
+        manifest = json.loads((directory / MANIFEST).read_bytes())
+        if manifest["made_from"] != digest(corpus):
+            return None
+        files = {name: (directory / name).read_bytes() for name in manifest["files"]}
+        if any(_checksum(files[name]) != checksum for name, checksum in manifest["files"].items()):
+            return None
+        library = library_from_json(json.loads(files[LIBRARY]), corpus.lexicon)
+        reward = reward_from_json(json.loads(files[POLICY]), files[THETA]) if POLICY in files else None
+        weights = parse_weights(files[WEIGHTS].decode(), str(directory / WEIGHTS)) if WEIGHTS in files else None
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, TmdError):
+        return None
+    return Knowledge(library, reward, weights)
+
+
+def known(corpus: Corpus, root: Path | None = None) -> Knowledge:
+    """What was saved of a domain, or else what its demonstrations teach now.
+
+    Raises:
+        TmdError: Nothing was saved that still holds, and a demonstration is wrong.
+    """
+    return recall(corpus, place(corpus, root)) or study(corpus)
+
+
+def _json(data: dict[str, Any]) -> bytes:
+    return (json.dumps(data, ensure_ascii=False, separators=(",", ":")) + "\n").encode()
+
+
+def _checksum(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()
