@@ -48,7 +48,6 @@ SLIPS = {
     "misspelt section": (DOMAIN, "(:predicates", "(:predicate", "did you mean"),
     "misspelt part": (DOMAIN, ":precondition", ":preconditions", "did you mean"),
     "misspelt requirement": (DOMAIN, ":typing", ":types", None),
-    "requirement not declared": (DOMAIN, "(and (wired ?s ?l))", "(and (not (wired ?s ?l)))", None),
     "unsupported section": (DOMAIN, "(:action flip", "(:durative-action flip", None),
     "twice the same predicate": (DOMAIN, "(wired ?s - switch ?l - lamp)", "(lit ?s - switch)", None),
     "question mark forgotten": (DOMAIN, "(and (lit ?l))", "(and (lit l))", None),
@@ -182,11 +181,11 @@ def test_an_error_as_json(tmd: Tmd, tmp_path: Path) -> None:
             "code": 31,
             "name": "BAD_INPUT",
             "message": 'unknown predicate "wird"',
-            "location": {"file": str(paths[0]), "line": 9, "column": 24},
+            "location": {"file": str(paths[0]), "line": 9, "column": 25},
             "hint": 'did you mean "wired"?',
         }
     }
-    assert ended.err.startswith(f"error: {paths[0]}:9:24: ")
+    assert ended.err.startswith(f"error: {paths[0]}:9:25: ")
 
 
 def test_a_wrong_command_line_as_json(tmd: Tmd) -> None:

@@ -94,16 +94,6 @@ DOMAIN_FAULTS = {
         "?m",
     ),
     "argument of the wrong type": ("(held ?m)\n", "(at ?m ?m)\n", 12, 26, 'needs "place"', None),
-    "missing requirement": (
-        " :negative-preconditions",
-        "",
-        8,
-        35,
-        '"not" needs :negative-preconditions',
-        "add",
-    ),
-    "no typing": (" :typing", "", 3, 11, "needs :typing", "add :typing"),
-    "no conditional effects": (" :conditional-effects", "", 13, 57, "needs :conditional-effects", "add"),
     "predicate twice": (
         "(full ?m - mug))",
         "(full ?m - mug) (at ?m))",
@@ -237,14 +227,6 @@ PROBLEM_FAULTS = {
         "to hold and not to hold",
         None,
     ),
-    "goal needs a requirement": (
-        "(and (full cup)",
-        "(or (full cup)",
-        5,
-        10,
-        ":disjunctive-preconditions",
-        "add",
-    ),
     "metric": ("(:goal", "(:metric maximize (total-cost)) (:goal", 5, 3, "other metrics", "total-cost"),
     "no cost to minimise": (
         "(:goal",
@@ -311,11 +293,27 @@ def test_all_faults_are_listed_in_order() -> None:
     assert source.line(faults[0].location) == text.splitlines()[2]
 
 
+@pytest.mark.parametrize(
+    ("old", "line", "column", "message"),
+    [
+        (" :negative-preconditions", 8, 35, '"not" needs :negative-preconditions'),
+        (" :typing", 3, 11, "needs :typing"),
+        (" :conditional-effects", 13, 57, "needs :conditional-effects"),
+    ],
+)
+def test_a_missing_requirement_is_told_and_let_pass(old: str, line: int, column: int, message: str) -> None:
+    faults = check_domain(parse_domain(DOMAIN.replace(old, "")))
+    assert [(f.code, f.location.line, f.location.column) for f in faults if f.location] == [
+        ("missing-requirement", line, column)
+    ]
+    assert message in faults[0].message
+
+
 def test_a_domain_without_requirements_is_strips() -> None:
     strips = "(define (domain d) (:predicates (p) (q)) (:action a :precondition (p) :effect (and (q) (not (p)))))"
     assert parse_domain(strips).requirements == ()
-    with pytest.raises(TmdError, match=":negative-preconditions"):
-        parse_domain(strips.replace(":precondition (p)", ":precondition (not (p))"))
+    more = parse_domain(strips.replace(":precondition (p)", ":precondition (not (p))"))
+    assert [fault.code for fault in check_domain(more)] == ["missing-requirement"]
 
 
 @pytest.mark.parametrize(

@@ -37,11 +37,11 @@ class Fault:
     def text(self) -> str:
         """The fault for people: one line, the source line with a caret where there is one, and the hint."""
         place = f"{self.location}: " if self.location else ""
-        lines = [f"error: {place}{_one_line(self.message)}"]
+        lines = [f"error: {place}{one_line(self.message)}"]
         if self.location and self.source is not None:
-            lines += _pointed(self.source, self.location.column)
+            lines += pointed(self.source, self.location.column)
         if self.hint:
-            lines.append(f"hint: {_one_line(self.hint)}")
+            lines.append(f"hint: {one_line(self.hint)}")
         return "\n".join(lines) + "\n"
 
     def json(self) -> Mapping[str, object]:
@@ -52,9 +52,9 @@ class Fault:
             "error": {
                 "code": int(self.code),
                 "name": self.code.name,
-                "message": _one_line(self.message),
+                "message": one_line(self.message),
                 "location": where,
-                "hint": _one_line(self.hint) if self.hint else None,
+                "hint": one_line(self.hint) if self.hint else None,
             }
         }
 
@@ -97,12 +97,12 @@ def _internal(error: BaseException) -> Fault:
     )
 
 
-def _one_line(text: str) -> str:
+def one_line(text: str) -> str:
     """The text without anything that could move the cursor of a terminal."""
     return " ".join("".join(c if c.isprintable() else " " for c in text).split())
 
 
-def _pointed(source: str, column: int) -> list[str]:
+def pointed(source: str, column: int) -> list[str]:
     """The source line, and under it a caret at ``column``; a long line is cut to what is around it."""
     line = "".join(c if c.isprintable() else " " for c in source.rstrip("\r\n"))
     start = max(0, column - 1 - _WIDTH // 2) if len(line) > _WIDTH else 0

@@ -91,6 +91,28 @@ class Roots:
             return read_domain(path)
         return self.folder(name).domain
 
+    def path(self, name: str) -> Path:
+        """The file or directory of that name; where there is none, the folder of the domain of that name.
+
+        Raises:
+            TmdError: There is neither.
+        """
+        path = Path(name)
+        if path.exists() or path.suffix or _is_path(name):
+            return path
+        return self.folder(name).path
+
+    def pddl_file(self, name: str) -> Path:
+        """The PDDL file of a domain: that file, or the one of a bundled domain or of a domain folder.
+
+        Raises:
+            TmdError: There is none.
+        """
+        path = Path(name)
+        if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
+            return path
+        return self.folder(name).path / "domain.pddl"
+
     def environment(self, name: str, domain: str | None) -> Path:
         """The file of an environment: the one at that path, or the bundled one of that name.
 

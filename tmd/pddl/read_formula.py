@@ -177,7 +177,8 @@ def _read_effect(node: Node, source: Source, around: _Around, found: Effects) ->
     elif head == "increase":
         _read_cost(node, source, around, found)
     elif head in _UNSUPPORTED_EFFECTS:
-        raise unsupported(source, _UNSUPPORTED_EFFECTS[head], head, node.location, _ONLY_COSTS)
+        what = _UNSUPPORTED_EFFECTS[head]
+        raise unsupported(source, what, head, node.location, _ONLY_COSTS if "numeric" in what else None)
     elif head in ("or", "exists", "imply", "="):
         hint = "it belongs in conditions"
         raise source.error(f'"{head}" cannot be an effect', node.location, hint, "not-an-effect")

@@ -23,7 +23,7 @@ def is_variable(term: str) -> bool:
 
 def unsupported(source: Source, what: str, name: str, location: Location, hint: str | None = None) -> TmdError:
     """The error for a construct of PDDL that is outside the supported part."""
-    return source.error(f'{what} are not supported: "{name}"', location, hint, "not-supported")
+    return source.error(f'not supported: {what}: "{name}"', location, hint, "not-supported")
 
 
 def read_name(node: Node, source: Source, what: str) -> Word:
@@ -76,6 +76,9 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
     rest = list(reversed(nodes))
     while rest:
         node = rest.pop()
+        if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
+            rest.append(_after_dash(node, source))
+            node = Word("-", node.location)
         if isinstance(node, Word) and node.text == "-":
             types = _types_after(node, rest, source)
             if not waiting:
@@ -86,6 +89,14 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
             waiting.extend(_read_listed(node, source, variables, what))
     found.extend(TypedName(w.text, (OBJECT,), w.location) for w in waiting)
     return tuple(found)
+
+
+def _after_dash(node: Word, source: Source) -> Word:
+    """The type in ``-type``, which wants a space."""
+    message = f'some tools want a space between "-" and "{node.text[1:]}"'
+    source.warn(message, node.location, f'write "- {node.text[1:]}"', "glued-dash")
+    place = node.location
+    return Word(node.text[1:], Location(place.file, place.line, place.column + 1))
 
 
 def _types_after(dash: Word, rest: list[Node], source: Source) -> tuple[str, ...]:

@@ -38,7 +38,7 @@ def read_requirements(group: Group, source: Source) -> tuple[str, ...]:
         if node.text in _UNSUPPORTED_REQUIREMENTS:
             what = _UNSUPPORTED_REQUIREMENTS[node.text]
             source.warn(
-                f"{what} are not supported: {node.text}",
+                f"not supported: {what}: {node.text}",
                 node.location,
                 "the requirement is ignored; what uses it is refused",
                 "unsupported-requirement",

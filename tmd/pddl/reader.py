@@ -88,8 +88,10 @@ def parse_problem(text: str, domain: Domain, file: str = "<text>") -> Problem:
 
 
 def _raise_first(faults: list[TmdError]) -> None:
-    if faults:
-        raise faults[0]
+    """A requirement that is not declared is let pass: what needs it says so itself, and all planners accept that."""
+    for fault in faults:
+        if fault.code != "missing-requirement":
+            raise fault
 
 
 def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | None = None) -> tuple[Domain, Source]:

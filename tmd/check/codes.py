@@ -1,0 +1,75 @@
+"""The kinds of problems the checker knows. Names are stable: scripts and editors may rely on them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """An error keeps ``tmd`` from using a file; a warning is worth a look."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+_ERRORS = {
+    # files
+    "unreadable": "the file cannot be read",
+    "not-text": "the file is binary",
+    "not-utf8": "the file is not UTF-8",
+    "too-large": "the file is larger than any file of tmd",
+    "control-character": "a character that no text has",
+    "look-alike": "a character that looks like another one",
+    "outside-folder": "a name or link leads out of its folder",
+    # form of PDDL
+    "unclosed-parenthesis": "an opening parenthesis without its closing one",
+    "extra-parenthesis": "a closing parenthesis too many",
+    "nested-too-deeply": "more levels than anything meaningful has",
+    "empty-file": "there is nothing in the file",
+    "syntax": "something stands where something else is expected",
+    "unknown-section": "a section that PDDL does not have",
+    "unknown-keyword": "a part that actions do not have",
+    "duplicate-section": "a section or part stands twice",
+    "missing-section": "a problem without domain or goal",
+    "bad-name": "a name of characters that names cannot have",
+    "unknown-requirement": "a requirement that PDDL does not have",
+    "not-supported": "PDDL that tmd does not support",
+    "when-in-condition": '"when" in a condition',
+    "not-an-effect": "a condition where an effect is expected",
+    # meaning of PDDL
+    "duplicate-name": "a name that is declared twice, up to case",
+    "type-cycle": "a type that is its own ancestor",
+    "unknown-type": "a type that is not declared",
+    "unknown-predicate": "a predicate that is not declared",
+    "unknown-function": "a function that is not declared",
+    "unknown-object": "an object or constant that is not declared",
+    "free-variable": "a variable that nothing declares",
+    "wrong-arity": "too many or too few arguments",
+    "wrong-type": "an argument of the wrong type",
+    "domain-mismatch": "a problem that names another domain",
+    "contradictory-init": "an atom that holds and does not hold at the start",
+}
+_WARNINGS = {
+    "missing-requirement": "something is used without its requirement",
+    "unsupported-requirement": "a requirement for what tmd does not support",
+    "glued-dash": "no space between a dash and its type",
+    "parent-after-child": "a type before its parent",
+    "empty-condition": "() for an empty condition",
+    "nested-when": 'a "when" within a "when"',
+    "contradictory-effects": "an action adds and deletes the same atom",
+    "unused-predicate": "a predicate that no action speaks of",
+    "unused-parameter": "a parameter that its action does not speak of",
+    "no-effect": "an action that changes nothing",
+    "never-applies": "an action that can never apply",
+    "never-produced": "a predicate that actions need, and that nothing makes true",
+    "type-without-objects": "an action over a type that has no objects",
+    "unreachable-goal": "a goal that no action reaches",
+    "goal-holds": "a goal that holds at the start",
+    "domain-not-found": "the domain of a problem is not there to check it against",
+}
+SEVERITY: Mapping[str, Severity] = {
+    **dict.fromkeys(_ERRORS, Severity.ERROR),
+    **dict.fromkeys(_WARNINGS, Severity.WARNING),
+}
+SUMMARY: Mapping[str, str] = _ERRORS | _WARNINGS

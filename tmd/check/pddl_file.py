@@ -1,0 +1,154 @@
+"""Checking one PDDL file: all its faults, without those that only follow from others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from tmd.check.lint_domain import lint_domain
+from tmd.check.lint_problem import lint_problem
+from tmd.errors import Location, TmdError
+from tmd.pddl.check import check_domain, check_problem
+from tmd.pddl.model import Domain, Problem
+from tmd.pddl.parentheses import parse
+from tmd.pddl.reader import parse_domain_unchecked, parse_problem_unchecked
+from tmd.pddl.syntax import Group, Node, Source, Word, split_lines
+
+_DECLARED_IN = {
+    ":types": "unknown-type",
+    ":predicates": "unknown-predicate",
+    ":functions": "unknown-function",
+    ":constants": "unknown-object",
+    ":objects": "unknown-object",
+}
+_DEFINE = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\s+([^\s()]*)", re.IGNORECASE)
+_LIKE_A_PROBLEM = re.compile(r"\(\s*(:init|:goal|:objects)\b", re.IGNORECASE)
+_COMMENT = re.compile(r";[^\n\r]*")
+
+Words = Mapping[str, frozenset[str]]
+"""By the code of a fault: names that may well be declared, in a section that could not be read."""
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedDomain:
+    """What was read of a domain, and everything wrong with it."""
+
+    domain: Domain
+    source: Source
+    faults: list[TmdError]
+    excused: Words = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class CheckedProblem:
+    """What was read of a problem (``None`` where nothing could be), and everything wrong with it."""
+
+    problem: Problem | None
+    source: Source
+    faults: list[TmdError]
+
+
+def kind_and_name(text: str) -> tuple[str, str]:
+    """Whether ``text`` is a ``domain`` or a ``problem``, and its name in lower case (perhaps empty)."""
+    code = _COMMENT.sub("", text)
+    found = _DEFINE.search(code)
+    if found:
+        return found[1].lower(), found[2].lower()
+    return ("problem" if _LIKE_A_PROBLEM.search(code) else "domain"), ""
+
+
+def check_domain_text(text: str, file: str) -> CheckedDomain:
+    """Read a domain as far as it can be read, and list what is wrong with it."""
+    faults: list[TmdError] = []
+    try:
+        domain, source = parse_domain_unchecked(text, file, faults.append)
+    except TmdError as error:
+        faults.append(error)
+        return CheckedDomain(Domain(""), Source(file, split_lines(text)), faults)
+    excused = _excused(text, file, faults)
+    clean = not faults
+    meaning = check_domain(domain, source)
+    faults += _without_excused(meaning, excused)
+    if clean and not any(fault.code != "missing-requirement" for fault in meaning):
+        faults += lint_domain(domain, source)
+    return CheckedDomain(domain, source, faults, excused)
+
+
+def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
+    """The same for a problem; without its domain only its form is checked."""
+    faults: list[TmdError] = []
+    domain = checked.domain if checked else Domain(_domain_named_in(text))
+    try:
+        problem, source = parse_problem_unchecked(text, domain, file, faults.append)
+    except TmdError as error:
+        faults.append(error)
+        return CheckedProblem(None, Source(file, split_lines(text)), faults)
+    if checked is None:
+        return CheckedProblem(problem, source, faults)
+    excused = _joined(checked.excused, _excused(text, file, faults))
+    clean = not faults and not any(f.code != "missing-requirement" for f in checked.faults if _is_error(f))
+    meaning = check_problem(problem, source)
+    faults += _without_excused(meaning, excused)
+    if clean and not any(fault.code != "missing-requirement" for fault in meaning):
+        faults += lint_problem(problem, source)
+    return CheckedProblem(problem, source, faults)
+
+
+def domain_name(text: str) -> str:
+    """The domain that a problem says it is of; empty where it says nothing."""
+    return _domain_named_in(text)
+
+
+def _domain_named_in(text: str) -> str:
+    found = re.search(r"\(\s*:domain\s+([^\s()]+)", _COMMENT.sub("", text), re.IGNORECASE)
+    return found[1].lower() if found else ""
+
+
+def _is_error(fault: TmdError) -> bool:
+    from tmd.check.codes import SEVERITY, Severity
+
+    return SEVERITY.get(fault.code, Severity.ERROR) is Severity.ERROR
+
+
+def _without_excused(faults: Iterable[TmdError], excused: Words) -> list[TmdError]:
+    kept = []
+    for fault in faults:
+        quoted = re.search(r'"([^"]*)"', fault.message)
+        if not (quoted and quoted[1] in excused.get(fault.code, ())):
+            kept.append(fault)
+    return kept
+
+
+def _joined(one: Words, other: Words) -> Words:
+    return {code: one.get(code, frozenset()) | other.get(code, frozenset()) for code in {*one, *other}}
+
+
+def _excused(text: str, file: str, faults: list[TmdError]) -> Words:
+    """The words of the sections in which something could not be read: they would be declared otherwise."""
+    if not faults:
+        return {}
+    document = parse(text, file, lambda _: None)
+    places = [fault.location for fault in faults if fault.location and _is_error(fault)]
+    unknown = {fault.location for fault in faults if fault.code in ("unknown-section", "not-supported")}
+    excused: dict[str, set[str]] = {}
+    for group in (part for top in document.groups for part in top.parts if isinstance(part, Group)):
+        codes = set(_DECLARED_IN.values()) if group.location in unknown else {_DECLARED_IN.get(group.head, "")}
+        if any(_within(place, group) for place in places):
+            for code in codes - {""}:
+                excused.setdefault(code, set()).update(_words(group))
+    return {code: frozenset(words) for code, words in excused.items()}
+
+
+def _within(place: Location, group: Group) -> bool:
+    return group.location <= place <= group.end
+
+
+def _words(group: Group) -> Iterator[str]:
+    waiting: list[Node] = [group]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, Word):
+            yield node.text
+        else:
+            waiting.extend(node.parts)

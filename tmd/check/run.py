@@ -1,0 +1,128 @@
+"""What lies at a path, and checking all of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from tmd.check.diagnostic import Findings
+from tmd.check.find import find_domain_file
+from tmd.check.lint_problem import lint_together
+from tmd.check.pddl_file import (
+    CheckedDomain,
+    check_domain_text,
+    check_problem_text,
+    domain_name,
+    kind_and_name,
+)
+from tmd.errors import Location, TmdError
+from tmd.pddl.model import Problem
+from tmd.pddl.syntax import Source, read_text
+
+MAX_BYTES = 10_000_000
+"""Larger files are refused: no file that people write comes near."""
+
+
+@dataclass(slots=True)
+class Checker:
+    """Checks files and folders, each once, and collects what is wrong with them.
+
+    Args:
+        domains: The directory of all domains; the usual one by default.
+        domain: The file of the domain of all problems, where it shall not be looked for.
+    """
+
+    domains: Path | None = None
+    domain: Path | None = None
+    findings: Findings = field(default_factory=Findings)
+    files: dict[Path, None] = field(default_factory=dict)
+    _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
+    _problems: dict[Path, list[Problem]] = field(default_factory=dict)
+
+    def check(self, path: Path) -> None:
+        """Check a file, or everything in a directory.
+
+        Raises:
+            TmdError: There is nothing at ``path``.
+        """
+        if not path.exists():
+            raise TmdError(f"{path}: no such file or directory")
+        for file in _files(path) if path.is_dir() else (path,):
+            self.check_file(file)
+
+    def check_file(self, file: Path) -> None:
+        """Check one file, by what it is."""
+        if file.suffix == ".pddl" or file.suffix not in (".yaml", ".yml", ".jsonl"):
+            self._pddl(file)
+
+    def finish(self) -> None:
+        """Look at each domain together with all of its problems that were checked."""
+        for path, problems in self._problems.items():
+            checked = self._checked[path]
+            if checked is not None and problems:
+                self._add_all(lint_together(checked.domain, problems, checked.source), path)
+
+    def _pddl(self, file: Path) -> None:
+        text = self.read(file)
+        if text is None:
+            return
+        if kind_and_name(text)[0] == "domain":
+            self._domain(file, text)
+        else:
+            self._problem(file, text)
+
+    def _domain(self, file: Path, text: str | None = None) -> CheckedDomain | None:
+        key = file.resolve()
+        if key not in self._checked:
+            self._checked[key] = None
+            text = self.read(file) if text is None else text
+            if text is not None:
+                checked = check_domain_text(text, str(file))
+                self._checked[key] = checked
+                self._add_all(checked.faults, file)
+        return self._checked[key]
+
+    def _problem(self, file: Path, text: str) -> None:
+        name = domain_name(text)
+        path = self.domain or find_domain_file(file, name, self.domains)
+        checked = self._domain(path) if path else None
+        result = check_problem_text(text, str(file), checked)
+        self._add_all(result.faults, file)
+        if path is None and name:
+            self._not_found(name, result.source)
+        if path is not None and result.problem is not None and not result.faults and checked is not None:
+            self._problems.setdefault(path.resolve(), []).append(result.problem)
+
+    def _not_found(self, name: str, source: Source) -> None:
+        for number, line in enumerate(source.lines, start=1):
+            column = line.lower().find(":domain")
+            if column >= 0:
+                place = Location(source.file, number, column + 1)
+                message = f'the domain "{name}" was not found, so only the form of this problem was checked'
+                hint = "put the domain beside it, or give --domain FILE"
+                self.findings.add(source.error(message, place, hint, "domain-not-found"), place)
+                return
+
+    def read(self, file: Path) -> str | None:
+        """The text of a file; ``None`` where it cannot be read, which is told."""
+        self.files[file] = None
+        try:
+            if file.is_file() and file.stat().st_size > MAX_BYTES:
+                hint = "this is no file that people write"
+                message = f"larger than {MAX_BYTES // 1_000_000} MB"
+                raise TmdError(message, location=Location(str(file), 1, 1), hint=hint, code="too-large")
+            return read_text(file)
+        except TmdError as error:
+            self.findings.add(error, Location(str(file), 1, 1))
+            return None
+
+    def _add_all(self, faults: list[TmdError], file: Path) -> None:
+        for fault in faults:
+            self.findings.add(fault, Location(str(file), 1, 1))
+
+
+def _files(directory: Path) -> Iterator[Path]:
+    """The files of ``directory`` that are checked, domains first, then by name."""
+    found = [path for path in directory.rglob("*.pddl") if not any(part.startswith(".") for part in path.parts[1:])]
+    yield from sorted(found, key=lambda path: (path.parent, path.name != "domain.pddl", path.name))
