@@ -226,6 +226,23 @@ def test_a_spot_is_free_and_an_item_put_there_is_supported_there(kitchen: Scene)
             assert kitchen.supported(item) is not None
 
 
+def test_things_lie_on_one_another_in_a_basket_and_in_a_bag() -> None:
+    """The blanket fills the basket, so a toy lies on it; bottles go into a bag, which stands on the floor."""
+    for room, where, items in (
+        ("room2", "basket1", ["toy1"]),
+        ("room4", "garbage_sack1", ["beer_bottle1", "soda_tin1"]),
+    ):
+        path = ROOT / f"problems/living_room/environments/{room}.yaml"
+        with Simulator() as sim:
+            scene = Scene(sim, load_environment(path), folder_of(path))
+            for item in items:
+                spots = scene.support(where, "in", item)
+                assert spots, (where, item)
+                sim.set_pose(scene.bodies[item], spots[0].pose)
+                sim.step(120)
+                assert scene.supported(item) == (where, "in"), item
+
+
 @pytest.mark.parametrize("kitchen", ["kitchen1"], indirect=True)
 def test_what_hangs_in_the_air_is_nowhere(kitchen: Scene) -> None:
     kitchen.sim.set_pose(kitchen.bodies["mug1"], Pose((0.0, 0.0, 1.5)))

@@ -36,6 +36,7 @@ class Region:
         entry: Unit vector along which the gripper comes in.
         spots: Where items stand: (x, y, z, yaw), those best to reach first.
         overhang: How far items may stick out at the front; ``inf``: on all sides, as a pot does over a burner.
+        heap: Whether things may lie on one another there, as in a basket.
     """
 
     part: str
@@ -46,6 +47,7 @@ class Region:
     entry: Vector
     spots: tuple[tuple[float, float, float, float], ...]
     overhang: float = 0.0
+    heap: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,8 @@ ROWS = (0.13, 0.29)
 """How far behind a front edge things stand."""
 OVERHANG = 0.06
 """How far a handle may stick out over a front edge."""
+DEEP = 0.2
+"""Of a basket and a bin: a hand that holds a thing gets to its floor."""
 ROOM = 0.6
 """The height above a surface that still counts as on it."""
 
@@ -150,13 +152,14 @@ def drawer(model: Model, look: Look, parts: Parts) -> None:
 def basket(model: Model, look: Look, parts: Parts) -> None:
     """An open box on the floor or on legs: things are dropped into it from above."""
     depth, width, height = look.size
-    x, y, floor = depth / 2, width / 2, max(height - 0.28, 0.02)
+    x, y, floor = depth / 2, width / 2, max(height - DEEP, 0.02)
     model.slab((-x, -y, 0.0), (x, y, floor), look.accent)
     for sign in (-1, 1):
         model.box((sign * (x - 0.008), 0.0, (floor + height) / 2), (0.016, width, height - floor), look.colour)
         model.box((0.0, sign * (y - 0.008), (floor + height) / 2), (depth - 0.032, 0.016, height - floor), look.colour)
     spots = rows(x, width - 0.25, (depth * 0.35, depth * 0.65))
-    model.region("in", (-x + 0.016, -y + 0.016, floor), (x - 0.016, y - 0.016, height + 0.1), DOWN, spots)
+    model.region("in", (-x + 0.016, -y + 0.016, floor), (x - 0.016, y - 0.016, height + 0.1), DOWN, spots,
+                 heap=True)  # fmt: skip
 
 
 def seat(model: Model, look: Look, parts: Parts) -> None:

@@ -142,5 +142,6 @@ def floor_spots(room: Room, taken: Iterable[tuple[Pose, Footprint]], own: Footpr
             if pose.position[0] - 0.3 < room.low[0]:
                 continue
             if apart(pose, own, *robot, 0.1) and all(apart(pose, own, *other, 0.15) for other in standing):
-                spots.append(pose)
-    return spots
+                spots.append((row % 2 + abs(column) % 2, pose))
+    # what lies close together is hard to drive up to: every other place is taken first
+    return [pose for _, pose in sorted(spots, key=lambda spot: spot[0])]

@@ -164,11 +164,11 @@ class Model:
 
     def region(
         self, relation: str, low: Vector, high: Vector, entry: Vector, spots: Sequence[tuple[float, float, float]],
-        *, part: str = ROOT, link: str = ROOT, overhang: float = 0.0,
+        *, part: str = ROOT, link: str = ROOT, overhang: float = 0.0, heap: bool = False,
     ) -> None:  # fmt: skip
         """A region whose items stand on its floor at ``spots`` (x, y, yaw)."""
         placed = tuple((x, y, low[2], yaw) for x, y, yaw in spots)
-        self.regions.append(Region(part, relation, link, low, high, entry, placed, overhang))
+        self.regions.append(Region(part, relation, link, low, high, entry, placed, overhang, heap))
 
     def text(self) -> str:
         """The URDF."""

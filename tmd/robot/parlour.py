@@ -6,7 +6,7 @@ import math
 
 from tmd.robot.appliances import SIDE
 from tmd.robot.features import Frame, Grip
-from tmd.robot.fittings import BAR, INTO, LEFT, STAND_OFF, UP, bar_handle, button, door, fronts, knob, side_board
+from tmd.robot.fittings import BAR, DOWN, INTO, LEFT, STAND_OFF, UP, bar_handle, button, door, fronts, knob, side_board
 from tmd.robot.furniture import basket
 from tmd.robot.look import Look, Parts
 from tmd.robot.model import ROOT, Model
@@ -40,7 +40,7 @@ def tv(model: Model, look: Look, parts: Parts) -> None:
 
 
 def player(model: Model, look: Look, parts: Parts) -> None:
-    """A console or player on a stand: a slot in front that takes a disc, buttons beside it."""
+    """A console or player on a stand: a tray on top that takes a disc from above, buttons in front beside it."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
     y1, stand = right - SIDE, height - 0.16
@@ -48,26 +48,27 @@ def player(model: Model, look: Look, parts: Parts) -> None:
     fronts(model, x - 0.02, (y0, 0.05), (y1, stand - 0.06), 1, "walnut", "dark_steel")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
     front, back, left, end = x - 0.04, x - 0.34, y0 + 0.03, y1 - 0.03
-    floor, roof, slot = stand + 0.02, height - 0.02, left + 0.25
-    model.slab((back, left, stand), (front, end, floor), look.colour)
-    model.slab((back, left, roof), (front, end, height), look.colour)
-    model.slab((back, left, floor), (back + 0.02, end, roof), look.colour)
-    model.slab((back + 0.02, left, floor), (front, left + 0.02, roof), look.colour)
-    model.slab((back + 0.02, slot, floor), (front, end, roof), look.colour)
-    middle = (left + 0.02 + slot) / 2
+    floor, wall, slot = height - 0.03, 0.012, left + 0.25
+    model.slab((back, left, stand), (front, slot, floor), look.colour)
+    model.slab((back, slot, stand), (front, end, height), look.colour)
+    model.slab((back, left, floor), (back + wall, slot, height), look.colour)
+    model.slab((front - wall, left, floor), (front, slot, height), look.colour)
+    model.slab((back + wall, left, floor), (front - wall, left + wall, height), look.colour)
+    model.slab((back + wall, left + wall, floor), (front - wall, slot, floor + 0.001), "black", solid=False)
+    middle = (left + wall + slot) / 2
     drives = parts.of("disc_drive")
     part = drives[0][0] if drives else "drive_lamp"
     model.link(part, part=part if drives else ROOT)
-    model.ball((front, slot + 0.03, roof - 0.01), 0.008, "dark_grey", link=part)
+    model.ball((front, slot + 0.03, height - 0.03), 0.008, "dark_grey", link=part)
     model.lamp(part if drives else ROOT, "active", part, "lamp", "dark_grey")
     model.link("power_lamp")
-    model.ball((front, slot + 0.06, roof - 0.01), 0.008, "dark_grey", link="power_lamp")
+    model.ball((front, slot + 0.06, height - 0.03), 0.008, "dark_grey", link="power_lamp")
     model.lamp(ROOT, "active", "power_lamp", "screen", "dark_grey")
-    model.region("in", (back + 0.02, left + 0.02, floor), (front, slot, roof), INTO,
-                 [(front - depth_in, middle, 0.0) for depth_in in (0.1, 0.13)])  # fmt: skip
+    model.region("in", (back + wall, left + wall, floor), (front - wall, slot, height + 0.08), DOWN,
+                 [(front - depth_in, middle, 0.0) for depth_in in (0.1, 0.14, 0.18)])  # fmt: skip
     gap = (end - slot) / (len(parts.of("button")) + 1)
     for index, (name, said) in enumerate(parts.of("button")):
-        button(model, name, said, (front, slot + gap * (index + 1), floor + 0.05))
+        button(model, name, said, (front, slot + gap * (index + 1), stand + 0.07))
     side_board(model, x, -x, y1, right, stand, "oak")
 
 

@@ -135,7 +135,8 @@ def sack(model: Model, look: Look, parts: Parts) -> None:
     model.slab((x - 0.002, -0.011, level - 0.008), (x + ear, 0.011, level + 0.008), look.accent)
     bar_grasps(model, [(x + ear - 0.016, 0.0, level)], 0.022)
     model.region("in", (-x + 0.008, -y + 0.008, 0.008), (x - 0.008, y - 0.008, height + 0.15), (0.0, 0.0, -1.0),
-                 [(0.0, 0.0, 0.0), (0.0, 0.0, 1.57)], overhang=math.inf)  # fmt: skip
+                 [(-0.055, 0.0, 0.0), (0.055, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.57)],
+                 overhang=math.inf, heap=True)  # fmt: skip
     model.link(
         "lid", kind="revolute", origin=(-x, 0.0, rim + 0.001), axis=(0.0, -1.0, 0.0), limits=(0.0, 2.0),
         friction=0.06, mass=0.02,
