@@ -48,11 +48,13 @@ _ERRORS = {
     "wrong-arity": "too many or too few arguments",
     "wrong-type": "an argument of the wrong type",
     "domain-mismatch": "a problem that names another domain",
+    "too-many": "a file has more problems than are shown",
     "contradictory-init": "an atom that holds and does not hold at the start",
 }
 _WARNINGS = {
     "missing-requirement": "something is used without its requirement",
     "unsupported-requirement": "a requirement for what tmd does not support",
+    "odd-name": "a name that PDDL does not have, and planners accept",
     "glued-dash": "no space between a dash and its type",
     "parent-after-child": "a type before its parent",
     "empty-condition": "() for an empty condition",
@@ -66,6 +68,7 @@ _WARNINGS = {
     "type-without-objects": "an action over a type that has no objects",
     "unreachable-goal": "a goal that no action reaches",
     "goal-holds": "a goal that holds at the start",
+    "ambiguous-domain": "several domains have the name that a problem gives",
     "domain-not-found": "the domain of a problem is not there to check it against",
 }
 SEVERITY: Mapping[str, Severity] = {

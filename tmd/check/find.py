@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -15,36 +18,60 @@ _MOST = 2_000
 """Directories with more PDDL files than that are not searched for a domain by its name."""
 
 
-def find_domain_file(problem: Path, name: str, domains: Path | None) -> Path | None:
-    """The file of the domain ``name`` for the file ``problem``; ``None`` where there is none.
+@dataclass(frozen=True, slots=True)
+class Found:
+    """The file of a domain, if there is one; ``others`` are those that may be meant as well."""
 
-    The first of: a domain of that name beside the problem or one directory above; a file ``domain.pddl`` beside it,
-    whatever its name; the known domain of that name.
+    file: Path | None
+    others: tuple[Path, ...] = ()
+
+
+def find_domain_file(problem: Path, name: str, domains: Path | None) -> Found:
+    """The file of the domain ``name`` for the file ``problem``.
+
+    The first of: a domain of that name beside the problem or one directory above; the known domain of that name;
+    a file ``domain.pddl`` beside the problem, whatever its name.
     """
     here = problem.resolve().parent
     for directory in (here, here.parent):
-        found = domains_in(directory).get(name)
-        if found is not None:
-            return _shown(found, problem)
+        named = domains_in(directory).get(name, ())
+        if named:
+            best = _best(named, problem)
+            return Found(_shown(best, problem)) if best else Found(None, tuple(named))
     try:
-        return find_domain(name, domains).path / "domain.pddl"
+        return Found(find_domain(name, domains).path / "domain.pddl")
     except TmdError:
         beside = problem.parent / "domain.pddl"
-        return beside if beside.is_file() else None
+        return Found(beside if beside.is_file() else None)
+
+
+def _best(named: Sequence[Path], problem: Path) -> Path | None:
+    """Of several domains with one name: ``domain.pddl``, the one of the same number, or of the folder's name."""
+    if len(named) == 1 or named[0].name == "domain.pddl":
+        return named[0]
+    here = problem.resolve().parent
+    number = re.findall(r"[0-9]+", problem.stem)
+    numbered = [p for p in named if p.parent == here and number and re.findall(r"[0-9]+", p.stem) == number]
+    folders = (here.name, re.sub(r"[_-](test|train|training|validation)$", "", here.name))
+    for fitting in (numbered, *([p for p in named if p.stem == folder] for folder in folders)):
+        if len(fitting) == 1:
+            return fitting[0]
+    return None
 
 
 def _shown(found: Path, problem: Path) -> Path:
     """``found`` in the way in which the problem's own path was written."""
     if found.parent == problem.resolve().parent:
         return problem.parent / found.name
-    return problem.parent / ".." / found.name if not problem.is_absolute() and problem.parent != Path() else found
+    above = problem.parent.parent if problem.parent.name not in ("", "..") else problem.parent / ".."
+    return above / found.name
 
 
 @cache
-def domains_in(directory: Path) -> dict[str, Path]:
+def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
     """The domains of a directory by name; ``domain.pddl`` goes before others of its name."""
     files = sorted(directory.glob("*.pddl"), key=lambda path: (path.name != "domain.pddl", path.name))
-    found: dict[str, Path] = {}
+    found: dict[str, tuple[Path, ...]] = {}
     for file in files[:_MOST]:
         try:
             with file.open("rb") as opened:
@@ -52,5 +79,5 @@ def domains_in(directory: Path) -> dict[str, Path]:
         except OSError:
             continue
         if kind == "domain" and name:
-            found.setdefault(name, file)
+            found[name] = (*found.get(name, ()), file)
     return found

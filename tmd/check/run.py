@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from tmd.check.diagnostic import Findings
-from tmd.check.find import find_domain_file
+from tmd.check.find import Found, find_domain_file
 from tmd.check.lint_problem import lint_together
 from tmd.check.pddl_file import (
     CheckedDomain,
@@ -20,6 +20,8 @@ from tmd.errors import Location, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.syntax import Source, read_text
 
+MOST_SHOWN = 200
+"""Of one file."""
 MAX_BYTES = 10_000_000
 """Larger files are refused: no file that people write comes near."""
 
@@ -85,23 +87,31 @@ class Checker:
 
     def _problem(self, file: Path, text: str) -> None:
         name = domain_name(text)
-        path = self.domain or find_domain_file(file, name, self.domains)
+        found = Found(self.domain) if self.domain else find_domain_file(file, name, self.domains)
+        path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)
         self._add_all(result.faults, file)
         if path is None and name:
-            self._not_found(name, result.source)
+            self._not_found(name, result.source, found.others)
         if path is not None and result.problem is not None and not result.faults and checked is not None:
             self._problems.setdefault(path.resolve(), []).append(result.problem)
 
-    def _not_found(self, name: str, source: Source) -> None:
+    def _not_found(self, name: str, source: Source, others: Sequence[Path]) -> None:
         for number, line in enumerate(source.lines, start=1):
             column = line.lower().find(":domain")
             if column >= 0:
                 place = Location(source.file, number, column + 1)
-                message = f'the domain "{name}" was not found, so only the form of this problem was checked'
-                hint = "put the domain beside it, or give --domain FILE"
-                self.findings.add(source.error(message, place, hint, "domain-not-found"), place)
+                what, code, hint = (
+                    "was not found",
+                    "domain-not-found",
+                    "put the domain beside it, or give --domain FILE",
+                )
+                if others:
+                    what, code = "stands in several files", "ambiguous-domain"
+                    hint = f"give --domain FILE, one of {', '.join(path.name for path in others[:8])}"
+                message = f'the domain "{name}" {what}, so only the form of this problem was checked'
+                self.findings.add(source.error(message, place, hint, code), place)
                 return
 
     def read(self, file: Path) -> str | None:
@@ -118,8 +128,12 @@ class Checker:
             return None
 
     def _add_all(self, faults: list[TmdError], file: Path) -> None:
-        for fault in faults:
+        for fault in faults[:MOST_SHOWN]:
             self.findings.add(fault, Location(str(file), 1, 1))
+        if len(faults) > MOST_SHOWN:
+            place = faults[MOST_SHOWN].location or Location(str(file), 1, 1)
+            message = "this file has more problems; the others are not shown"
+            self.findings.add(TmdError(message, location=place, hint="mend the first ones", code="too-many"), place)
 
 
 def _files(directory: Path) -> Iterator[Path]:

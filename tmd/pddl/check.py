@@ -32,6 +32,9 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.syntax import Source, nearest
 
+MOST_FAULTS = 250
+"""After so many faults the rest of a problem is not looked at: their places and hints take time."""
+
 
 def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:
     """Every fault of ``domain``, in order of appearance; empty where there is none.
@@ -47,10 +50,15 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
 
 
 def check_problem(problem: Problem, source: Source | None = None) -> list[TmdError]:
-    """Every fault of ``problem`` itself (its domain is taken as checked); otherwise as :func:`check_domain`."""
+    """The faults of ``problem`` itself (its domain is taken as checked), as :func:`check_domain` lists them.
+
+    Of a hopeless problem they are the first ones only, some :data:`MOST_FAULTS`.
+    """
     check = _Check(problem.domain, problem.all_objects(), source)
     check.objects(problem)
     for atom in sorted(problem.init):
+        if len(check.faults) > MOST_FAULTS:
+            break
         place = problem.init_locations.get(atom)
         check.atom(Atom(atom.predicate, atom.args, place), {}, check.predicates, "predicate")
     check.values(problem)
@@ -80,6 +88,7 @@ class _Check:
         self.faults: list[TmdError] = []
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
+        """Note a fault at ``location``."""
         self.faults.append(TmdError(message, location=location, hint=hint, code=code))
 
     def declarations(self) -> None:
@@ -91,7 +100,7 @@ class _Check:
         self.unique(domain.actions, "action")
         self.unique(domain.constants, "constant")
         for declared in domain.types:
-            self.type_known(declared.parent, self.source.type_of(declared.location, declared.parent))
+            self.type_known(declared.parent, declared.location)
             self.no_cycle(declared.name, declared.location)
         for constant in domain.constants:
             self.one_type(constant, "constant")
@@ -117,9 +126,11 @@ class _Check:
             seen.add(name)
 
     def type_known(self, name: str, location: Location | None) -> None:
+        """``location`` is that of the name the type belongs to."""
         if not self.hierarchy.known(name):
             names = [OBJECT, *self.hierarchy.parents]
-            self.fault(f'unknown type "{name}"', location, nearest(name, names, what="types"), "unknown-type")
+            place = self.source.type_of(location, name)
+            self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
         chain: list[str] = []
@@ -132,7 +143,7 @@ class _Check:
 
     def one_type(self, declared: TypedName, what: str) -> None:
         for name in declared.types:
-            self.type_known(name, self.source.type_of(declared.location, name))
+            self.type_known(name, declared.location)
         if len(declared.types) > 1:
             self.fault(
                 f'{what} "{declared.name}" must have one type, "either" belongs to parameters',
@@ -148,7 +159,7 @@ class _Check:
         inner = dict(scope)
         for parameter in parameters:
             for name in parameter.types:
-                self.type_known(name, self.source.type_of(parameter.location, name))
+                self.type_known(name, parameter.location)
             if parameter.name in inner:
                 message = f'variable "{parameter.name}" is declared twice'
                 self.fault(message, parameter.location, "rename one of them", "duplicate-name")

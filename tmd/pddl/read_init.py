@@ -41,7 +41,7 @@ class InitReader:
             raise unsupported(self.source, "uncertain initial states", node.head, node.location)
         if node.head == "=":
             self._read_value(node)
-        elif node.head == "at" and len(node.parts) == 3 and read_number(node.parts[1], self.source) is not None:
+        elif node.head == "at" and len(node.parts) == 3 and isinstance(node.parts[2], Group):
             raise unsupported(self.source, "timed initial literals", "at", node.location)
         elif node.head == "not":
             inner = only_part(node, self.source)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Sequence
 
 from tmd.errors import Location, TmdError
@@ -10,7 +11,10 @@ from tmd.pddl.model import OBJECT, TypedName
 from tmd.pddl.syntax import Group, Node, Source, Word
 
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
+_ODD_NAME = re.compile(r"[a-z0-9_][!-~]*")
+"""What planners take for a name although PDDL does not."""
 _VARIABLE = re.compile(r"\?[a-z][a-z0-9_-]*")
+_ODD_VARIABLE = re.compile(r"\?[a-z0-9_][!-~]*")
 _NUMBER = re.compile(r"([0-9]{1,15})(\.0*)?")
 
 RESERVED = frozenset({"and", "or", "not", "imply", "forall", "exists", "when", "either", "increase"})
@@ -31,15 +35,46 @@ def read_name(node: Node, source: Source, what: str) -> Word:
     if isinstance(node, Group):
         raise source.error(f"expected {what}, found a parenthesis", node.location)
     if not _NAME.fullmatch(node.text):
-        raise source.error(
-            f'"{node.text}" is not {what}',
-            node.location,
-            "names begin with a letter and hold letters, digits, - and _",
-            "bad-name",
-        )
+        _odd_name(node, source, what, _ODD_NAME, "names begin with a letter and hold letters, digits, - and _")
     if node.text in RESERVED:
         raise source.error(f'"{node.text}" is a word of PDDL and cannot be {what}', node.location, code="bad-name")
     return node
+
+
+def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], hint: str) -> None:
+    """A name that PDDL does not have: let pass where planners do.
+
+    Raises:
+        TmdError: It is none.
+    """
+    strange = next((place for place, letter in enumerate(node.text) if not letter.isascii()), None)
+    if strange is not None:
+        letter = node.text[strange]
+        place = Location(node.location.file, node.location.line, node.location.column + strange)
+        message = (
+            f'"{node.text}" has a character that PDDL does not: {letter!r} ({unicodedata.name(letter, "unnamed")})'
+        )
+        raise source.error(message, place, look_alike(letter) or hint, "look-alike")
+    if not accepted.fullmatch(node.text):
+        raise source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name")
+    source.warn(
+        f'"{node.text}" is no name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
+    )
+
+
+def look_alike(letter: str) -> str | None:
+    """A hint with the ASCII character that ``letter`` looks like."""
+    plain = _LOOK_ALIKES.get(letter) or unicodedata.normalize("NFKD", letter)[0]
+    return f'write "{plain}"' if plain.isascii() and plain.isprintable() else None
+
+
+_LOOK_ALIKES = {
+    **dict.fromkeys("\u2010\u2011\u2012\u2013\u2014\u2015\u2212\ufe63\uff0d", "-"),
+    **dict(zip("\u0430\u0435\u043e\u0440\u0441\u0443\u0445\u0456\u0458\u0455", "aeopcyxijs", strict=True)),
+    **dict(zip("\u03b1\u03bf\u03c1\u03bd\u03b9", "aopvi", strict=True)),
+    **dict.fromkeys("\u2018\u2019\u201c\u201d", "'"),
+}
+"""Dashes, and Cyrillic and Greek letters, with the ASCII characters that they look like."""
 
 
 def read_term(node: Node, source: Source) -> str:
@@ -54,7 +89,7 @@ def read_term(node: Node, source: Source) -> str:
         )
     if is_variable(node.text):
         if not _VARIABLE.fullmatch(node.text):
-            raise source.error(f'"{node.text}" is not a variable', node.location, "write ?name", "bad-name")
+            _odd_name(node, source, "a variable", _ODD_VARIABLE, "write ?name")
         return node.text
     return read_name(node, source, "a name or ?variable").text
 
@@ -66,7 +101,8 @@ def read_number(node: Node, source: Source) -> int | None:
     whole = _NUMBER.fullmatch(node.text)
     if whole:
         return int(whole[1])
-    raise source.error(f'cost "{node.text}" is not a whole number from 0 to 10^15', node.location)
+    message = f'not supported: numbers other than whole ones from 0 to 10^15: "{node.text}"'
+    raise source.error(message, node.location, "multiply all costs by 10, 100, ...", "not-supported")
 
 
 def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, what: str) -> tuple[TypedName, ...]:
@@ -112,9 +148,9 @@ def _read_listed(node: Node, source: Source, variables: bool, what: str) -> list
         source.fault(source.error(f"expected {what} such as ?x, found a parenthesis", node.location))
         return []
     if not _VARIABLE.fullmatch(node.text):
-        hint = f'write "?{node.text.lstrip("?")}"'
-        source.fault(source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name"))
-        node = Word(f"?{node.text.lstrip('?')}", node.location)
+        name = f"?{node.text.lstrip('?')}"
+        source.recover(None, _odd_name, node, source, what, _ODD_VARIABLE, f'write "{name}"')
+        node = Word(name, node.location)
     return [node]
 
 

@@ -11,6 +11,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from itertools import islice
 from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
 
@@ -18,6 +19,7 @@ from tmd.errors import Location, TmdError
 
 TOKEN = re.compile(r"[()]|[^\s();]+")
 _LONGEST_LIST_IN_HINT = 8
+_MOST_COMPARED = 500
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,12 +142,20 @@ class Document:
 
 def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> str | None:
     """A hint that names the declared name closest to ``name``, or all of them where they are few."""
-    close = get_close_matches(name, declared, n=1, cutoff=0.6)
+    candidates = declared if len(declared) <= _MOST_COMPARED else _alike(name, declared)
+    close = get_close_matches(name, candidates, n=1, cutoff=0.6)
     if close:
         return f'did you mean "{close[0]}"?'
     if declared and len(declared) <= _LONGEST_LIST_IN_HINT:
         return f"{what}: {', '.join(declared)}"
     return None
+
+
+def _alike(name: str, declared: Sequence[str]) -> list[str]:
+    """Of many names those that may be near ``name``: comparing with all of them takes too long."""
+    ends = (name[:2], name[-2:])
+    near = (d for d in declared if abs(len(d) - len(name)) <= 2 and (d.startswith(ends[0]) or d.endswith(ends[1])))
+    return list(islice(near, _MOST_COMPARED))
 
 
 def read_text(path: str | Path) -> str:

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict
 
 from tmd.errors import TmdError
 from tmd.pddl.model import Domain, Instruction
-from tmd.pddl.syntax import nearest
+from tmd.pddl.syntax import Report, nearest
 from tmd.world.folder import DomainFolder
 from tmd.world.yaml_source import YamlSource
 
@@ -106,8 +106,8 @@ class Skills:
         return Task(entry.skill, **roles, seconds=entry.seconds)
 
 
-def load_skills(folder: DomainFolder) -> Skills:
-    """The skills of a domain.
+def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
+    """The skills of a domain; ``report`` takes the faults of the file.
 
     Raises:
         TmdError: The file is missing, or does not fit the domain; with the place.
@@ -118,26 +118,27 @@ def load_skills(folder: DomainFolder) -> Skills:
             f"domain '{folder.name}' has no skills.yaml, so the robot cannot act in it",
             hint=f"write {path}; domains/kitchen/skills.yaml shows how",
         )
-    source = YamlSource(path)
+    source = YamlSource(path, report)
     said = source.load(SkillsFile)
     domain = folder.domain
     for name, entry in said.skills.items():
-        _check_entry(source, domain, name, entry)
+        source.recover(None, _check_entry, source, domain, name, entry)
     for action in domain.actions:
         if action.name not in said.skills:
-            raise source.error(("skills",), f"no skill for the action '{action.name}' of the domain")
+            message = f"no skill for the action '{action.name}' of the domain"
+            source.fault(source.error(("skills",), message, f"add {action.name}: {{skill: …}}", "missing-skill"))
     arities = {p.name: len(p.parameters) for p in domain.predicates}
     for section, sensors in (("seen", said.seen), ("confirmed", said.confirmed)):
         for predicate, sensor in sensors.items():
-            _check_predicate(source, (section, predicate), predicate, arities)
-            if arities[predicate] != _ARITY[sensor]:
-                raise source.error(
-                    (section, predicate),
-                    f"'{sensor}' sees predicates of {_ARITY[sensor]} arguments, '{predicate}' has {arities[predicate]}",
+            source.recover(None, _check_predicate, source, (section, predicate), predicate, arities)
+            if arities.get(predicate, _ARITY[sensor]) != _ARITY[sensor]:
+                message = (
+                    f"'{sensor}' sees predicates of {_ARITY[sensor]} arguments, '{predicate}' has {arities[predicate]}"
                 )
+                source.fault(source.error((section, predicate), message, None, "wrong-arity"))
     for section in ("derived", "signs"):
         for index, predicate in enumerate(getattr(said, section)):
-            _check_predicate(source, (section, index), predicate, arities)
+            source.recover(None, _check_predicate, source, (section, index), predicate, arities)
     if said.contents is not None:
         _check_predicate(source, ("contents",), said.contents, arities)
     return Skills(
@@ -149,11 +150,16 @@ def _check_entry(source: YamlSource, domain: Domain, name: str, entry: SkillEntr
     action = next((a for a in domain.actions if a.name == name), None)
     if action is None:
         raise source.error(
-            ("skills", name), f"the domain has no action '{name}'", nearest(name, [a.name for a in domain.actions])
+            ("skills", name),
+            f"the domain has no action '{name}'",
+            nearest(name, [a.name for a in domain.actions]),
+            "unknown-action",
         )
     for role in _NEEDS.get(entry.skill, ("object",)):
         if getattr(entry, role) is None:
-            raise source.error(("skills", name), f"the skill '{entry.skill}' must be told its {role}")
+            raise source.error(
+                ("skills", name), f"the skill '{entry.skill}' must be told its {role}", None, "missing-role"
+            )
     known = [p.name.removeprefix("?") for p in action.parameters] + [c.name for c in domain.constants]
     for role in _ROLES:
         said = getattr(entry, role)
@@ -162,6 +168,7 @@ def _check_entry(source: YamlSource, domain: Domain, name: str, entry: SkillEntr
                 ("skills", name, role),
                 f"'{said}' is neither a parameter of '{name}' nor a constant of the domain",
                 nearest(said, known),
+                "unknown-object",
             )
 
 
@@ -169,4 +176,5 @@ def _check_predicate(
     source: YamlSource, path: tuple[str | int, ...], predicate: str, arities: Mapping[str, int]
 ) -> None:
     if predicate not in arities:
-        raise source.error(path, f"the domain has no predicate '{predicate}'", nearest(predicate, sorted(arities)))
+        hint = nearest(predicate, sorted(arities))
+        raise source.error(path, f"the domain has no predicate '{predicate}'", hint, "unknown-predicate")

@@ -142,8 +142,8 @@ class Classes:
         self._types = types
         self._resolved: dict[str, ObjectClass] = {}
         for name in self.entries.classes:
-            self._check_name(name)
-            self.get(name)
+            source.recover(None, self._check_name, name)
+            source.recover(None, self.get, name)
 
     def new_types(self) -> Iterator[tuple[str, str]]:
         """The types that classes add, with their parents, parents first."""
@@ -162,9 +162,19 @@ class Classes:
         """
         if name not in self._resolved:
             if name not in self.entries.classes and name not in self._types:
-                raise self.source.error(("classes",), f"there is no class '{name}'", self.suggest(name))
+                raise self.source.error(
+                    ("classes",), f"there is no class '{name}'", self.suggest(name), "unknown-class"
+                )
             self._resolved[name] = self._resolve(name)
         return self._resolved[name]
+
+    def is_below(self, name: str, above: str) -> bool:
+        """Whether ``name`` is the class or type ``above``, or inherits from it.
+
+        Raises:
+            TmdError: There is no class ``name``.
+        """
+        return above in self._line(name)
 
     def suggest(self, name: str) -> str | None:
         """A hint with the class names nearest to ``name``."""
@@ -173,7 +183,7 @@ class Classes:
     def _check_name(self, name: str) -> None:
         if not re.match(NAME, name) or name in (ROOT, SELF):
             raise self.source.error(
-                ("classes", name), f"'{name}' cannot name a class", "use lower-case letters, digits and _"
+                ("classes", name), f"'{name}' cannot name a class", "use lower-case letters, digits and _", "bad-name"
             )
 
     def _parent(self, name: str) -> str:
@@ -182,7 +192,9 @@ class Classes:
             return entry.parent
         if name in self._types:
             return self._types[name]
-        raise self.source.error(("classes", name), f"class '{name}' has no parent", "add `parent: TYPE`")
+        raise self.source.error(
+            ("classes", name), f"class '{name}' has no parent", "add `parent: TYPE`", "unknown-class"
+        )
 
     def _line(self, name: str) -> list[str]:
         """``name`` and its ancestors, nearest first."""
@@ -190,12 +202,14 @@ class Classes:
         while line[-1] != OBJECT:
             parent = self._parent(line[-1])
             if parent in line or len(line) > MAX_DEPTH:
-                raise self.source.error(("classes", name), f"class '{name}' is its own ancestor")
+                message = f"class '{name}' is its own ancestor"
+                raise self.source.error(("classes", name), message, "change a parent", "class-cycle")
             if parent not in self.entries.classes and parent not in self._types and parent != OBJECT:
                 raise self.source.error(
                     ("classes", line[-1], "parent"),
                     f"there is no class or type '{parent}'",
                     self.suggest(parent),
+                    "unknown-class",
                 )
             line.append(parent)
         return line
@@ -216,9 +230,12 @@ class Classes:
             states |= entry.states
             shape = shape if entry.shape is None else entry.shape.over(shape)
             for part, said in entry.parts.items():
-                parts[part] = self._part(ancestor, part, said)
+                vertex = self.source.recover(None, self._part, ancestor, part, said)
+                if vertex is not None:
+                    parts[part] = vertex
             for index, edge in enumerate(entry.edges):
-                edges.append(self._edge(ancestor, index, edge, parts))
+                read = self.source.recover(None, self._edge, ancestor, index, edge, parts)
+                edges += [read] if read is not None else []
         root = Vertex(ROOT, name, tuple(facts), tuple(init), states, shape)
         return ObjectClass(name, self._line(name)[1], {ROOT: root} | parts, tuple(edges))
 
@@ -229,9 +246,12 @@ class Classes:
                 ("classes", owner, "parts", part),
                 f"there is no class '{said.class_name}'",
                 self.suggest(said.class_name),
+                "unknown-class",
             )
         if self._line(said.class_name) and owner in self._line(said.class_name):
-            raise self.source.error(("classes", owner, "parts", part), f"'{owner}' cannot be its own part")
+            raise self.source.error(
+                ("classes", owner, "parts", part), f"'{owner}' cannot be its own part", code="class-cycle"
+            )
         own = self.get(said.class_name)
         if len(own.vertices) > 1:
             raise self.source.error(
@@ -260,6 +280,7 @@ class Classes:
                     ("classes", owner, "edges", index),
                     f"'{owner}' has no part '{vertex}'",
                     nearest(vertex, [ROOT, *parts]),
+                    "unknown-part",
                 )
         return (predicate, tail, head, *more)
 

@@ -86,18 +86,20 @@ class _Compiler:
         self.domain = folder.domain
         self.predicates = {p.name: p for p in self.domain.predicates}
         self.init: set[GroundAtom] = set()
+        self.unclear: set[str] = set()
         if environment.domain != folder.name:
-            raise environment.source.error(
-                ("domain",), f"this environment is of domain '{environment.domain}', not '{folder.name}'"
-            )
+            message = f"this environment is of domain '{environment.domain}', not '{folder.name}'"
+            environment.source.fault(environment.source.error(("domain",), message, None, "domain-mismatch"))
 
     def problem(self) -> Problem:
         objects = tuple(self._objects())
         shell = Problem(self.environment.name, self.domain, objects)
         self.universe = universe(shell)
+        source = self.environment.source
         for name, entry in self.environment.objects.items():
-            self._object(name, self.folder.classes.get(entry.class_name))
-            self._where(name, entry.at)
+            if entry.class_name in self.folder.classes.entries.classes:
+                source.recover(None, self._object, name, self.folder.classes.get(entry.class_name))
+            source.recover(None, self._where, name, entry.at)
         self._stated()
         init = frozenset(self.init)
         return replace(shell, init=derive(replace(shell, init=init), self.folder, init))
@@ -108,15 +110,21 @@ class _Compiler:
         for name, entry in self.environment.objects.items():
             where = ("objects", name)
             if entry.class_name not in self.folder.classes.entries.classes:
-                raise self.environment.source.error(
+                fault = self.environment.source.error(
                     (*where, "class"),
                     f"'{name}' is of class '{entry.class_name}', which objects.yaml does not have",
                     nearest(entry.class_name, sorted(self.folder.classes.entries.classes)),
+                    "unknown-class",
                 )
+                self.environment.source.fault(fault)
+                self.unclear.add(name)
+                continue
             for vertex in self.folder.classes.get(entry.class_name).vertices.values():
                 full = _vertex(name, vertex.name)
                 if full in names or full in constants:
-                    raise self.environment.source.error(where, f"there are two objects named '{full}'")
+                    message = f"there are two objects named '{full}'"
+                    fault = self.environment.source.error(where, message, "rename one of them", "duplicate-name")
+                    self.environment.source.fault(fault)
                 names.add(full)
                 yield TypedName(full, (vertex.class_name,))
 
@@ -124,11 +132,13 @@ class _Compiler:
         entry = self.environment.objects[name]
         for part in entry.parts:
             if part not in graph.vertices or part == ROOT:
-                raise self.environment.source.error(
+                fault = self.environment.source.error(
                     ("objects", name, "parts", part),
                     f"'{name}' ({graph.name}) has no part '{part}'",
                     nearest(part, [p for p in graph.vertices if p != ROOT]),
+                    "unknown-part",
                 )
+                self.environment.source.fault(fault)
         for vertex in graph.vertices.values():
             is_root = vertex.name == ROOT
             said = entry.states if is_root else entry.parts.get(vertex.name, {})
@@ -136,7 +146,7 @@ class _Compiler:
             for fact in (*vertex.facts, *vertex.init):
                 self._add(self._bind(fact, name, vertex.name), ("objects", name))
             for state in said:
-                self._known_state(state, vertex.states, (*place, state), name)
+                self.environment.source.recover(None, self._known_state, state, vertex.states, (*place, state), name)
             for state, value in {**vertex.states, **said}.items():
                 self._set(_vertex(name, vertex.name), state, value, (*place, state))
             if not is_root and PART_OF in self.predicates:
@@ -150,6 +160,7 @@ class _Compiler:
                 path,
                 f"'{name}' has no state '{state}'",
                 nearest(state, sorted({*declared, *self.predicates})),
+                "unknown-state",
             )
 
     def _bind(self, fact: Sequence[str], name: str, vertex: str) -> tuple[str, ...]:
@@ -186,25 +197,31 @@ class _Compiler:
             self._add(tuple(fact.strip("()").split()), ("facts", index))
 
     def _add(self, words: Sequence[str], path: Sequence[str | int], what: str = "") -> None:
+        """Add one atom after checking it."""
+        self.environment.source.recover(None, self._add_checked, words, path, what)
+
+    def _add_checked(self, words: Sequence[str], path: Sequence[str | int], what: str) -> None:
         """Add one atom after checking predicate, arity, names and types."""
         text = f"({' '.join(words)})"
         predicate = self.predicates.get(words[0]) if words else None
         source = self.environment.source
         if predicate is None:
             hint = nearest(words[0], sorted(self.predicates)) if words else None
-            raise source.error(path, f"{what}{text}: the domain has no predicate '{text}'", hint)
+            message = f"{what}{text}: the domain has no predicate '{text}'"
+            raise source.error(path, message, hint, "unknown-predicate")
         if len(predicate.parameters) != len(words) - 1:
-            raise source.error(
-                path, f"{what}{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
-            )
+            message = f"{what}{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
+            raise source.error(path, message, None, "wrong-arity")
         for parameter, name in zip(predicate.parameters, words[1:], strict=True):
+            if name in self.unclear:
+                return
             if name not in self.universe.types_of:
-                raise source.error(
-                    path, f"{what}{text}: there is no '{name}'", nearest(name, sorted(self.universe.types_of))
-                )
+                hint = nearest(name, sorted(self.universe.types_of))
+                raise source.error(path, f"{what}{text}: there is no '{name}'", hint, "unknown-object")
             if not self.universe.is_a(name, parameter.types):
                 is_a = "/".join(self.universe.types_of[name])
-                raise source.error(path, f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}")
+                message = f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
+                raise source.error(path, message, None, "wrong-type")
         self.init.add(GroundAtom(words[0], tuple(words[1:])))
 
 

@@ -22,11 +22,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from tmd.pddl.syntax import Report
 from tmd.world.classes import NAME, StateValue
 from tmd.world.yaml_source import YamlSource
 
@@ -57,7 +58,10 @@ class EnvironmentFile(BaseModel):
 
 @dataclass(frozen=True, slots=True)
 class Environment:
-    """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning."""
+    """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning.
+
+    ``called`` has the PDDL names of parts that are not named after their whole, each with its name here.
+    """
 
     name: str
     domain: str
@@ -65,19 +69,19 @@ class Environment:
     objects: Mapping[str, ObjectEntry]
     facts: tuple[str, ...]
     source: YamlSource
+    called: Mapping[str, str] = field(default_factory=dict)
 
 
-def load_environment(path: Path) -> Environment:
-    """Read an environment file.
+def load_environment(path: Path, report: Report | None = None) -> Environment:
+    """Read an environment file; ``report`` takes its faults.
 
     Raises:
         TmdError: It cannot be read or is not an environment; with file, line and column.
     """
-    source = YamlSource(path)
+    source = YamlSource(path, report)
     said = source.load(EnvironmentFile)
     for name in said.objects:
         if not re.match(NAME, name):
-            raise source.error(
-                ("objects", name), f"'{name}' cannot name an object", "use lower-case letters, digits and _"
-            )
+            hint = "use lower-case letters, digits and _"
+            source.fault(source.error(("objects", name), f"'{name}' cannot name an object", hint, "bad-name"))
     return Environment(said.name, said.domain, said.about, said.objects, tuple(said.facts), source)

@@ -7,19 +7,23 @@ Only plain data is accepted: no tags, no aliases (an alias can blow a small file
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Protocol, TypeVar
+from typing import ParamSpec, Protocol, TypeVar
 
 import yaml
 from pydantic import BaseModel, ValidationError
+from pydantic_core import ErrorDetails
 
 from tmd.errors import Location, TmdError
-from tmd.pddl.syntax import nearest, read_text
+from tmd.pddl.syntax import Report, nearest, read_text
 
 MAX_BYTES = 10_000_000
 """Larger files are refused: no environment or class file comes near."""
 
+P = ParamSpec("P")
+S = TypeVar("S")
+T = TypeVar("T")
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -46,13 +50,15 @@ class YamlSource:
 
     Args:
         path: The file.
+        report: Takes the faults of what the file says; without it the first one is raised.
 
     Raises:
         TmdError: The file cannot be read, is not UTF-8, or is not YAML of the accepted kind.
     """
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, report: Report | None = None) -> None:
         self.path = path
+        self.report = report
         self.text = _read(path)
         self._lines = self.text.splitlines()
         try:
@@ -61,9 +67,11 @@ class YamlSource:
         except yaml.MarkedYAMLError as error:
             raise self._from_yaml(error) from None
         except yaml.YAMLError as error:
-            raise TmdError(f"{path}: not YAML: {error}".replace("\n", " ")) from None
+            place = Location(str(path), 1, 1)
+            raise TmdError(f"not YAML: {error}".replace("\n", " "), location=place, code="yaml-syntax") from None
         except RecursionError:
-            raise TmdError(f"{path}: nested too deeply", hint="a YAML file here needs four levels") from None
+            hint = "a YAML file here needs four levels"
+            raise TmdError(f"{path}: nested too deeply", hint=hint, code="nested-too-deeply") from None
         self._refuse_twins()
 
     def load(self, model: type[Model]) -> Model:
@@ -73,18 +81,39 @@ class YamlSource:
             TmdError: With the place of the first key that does not fit.
         """
         if self._root is None:
-            raise TmdError(f"{self.path}: the file is empty")
+            raise TmdError(f"{self.path}: the file is empty", code="empty-file")
         try:
             return model.model_validate(yaml.load(self.text, Loader=_Loader))
         except yaml.MarkedYAMLError as error:
             raise self._from_yaml(error) from None
         except ValidationError as error:
-            raise self._from_model(error) from None
+            first, *others = self._from_model(error)
+            for other in others if self.report is not None else ():
+                self.fault(other)
+            raise first from None
 
-    def error(self, path: Sequence[str | int], message: str, hint: str | None = None) -> TmdError:
+    def error(
+        self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "bad-value"
+    ) -> TmdError:
         """An error at the node that ``path`` (keys and indices from the root) leads to."""
         location = self.locate(path)
-        return TmdError(message, location=location, hint=hint, source=self._line(location.line))
+        return TmdError(message, location=location, hint=hint, source=self._line(location.line), code=code)
+
+    def fault(self, error: TmdError) -> None:
+        """Raise ``error``, or report it and return."""
+        if self.report is None:
+            raise error
+        self.report(error)
+
+    def recover(self, otherwise: S, read: Callable[P, T], *arguments: P.args, **named: P.kwargs) -> S | T:
+        """What ``read`` returns; where it fails and faults are reported, ``otherwise``."""
+        if self.report is None:
+            return read(*arguments, **named)
+        try:
+            return read(*arguments, **named)
+        except TmdError as error:
+            self.report(error)
+            return otherwise
 
     def locate(self, path: Sequence[str | int]) -> Location:
         """Where the node that ``path`` leads to begins; the deepest node that exists where it breaks off."""
@@ -98,16 +127,22 @@ class YamlSource:
             mark = node.start_mark if node is not None else None
         return self._place(mark)
 
-    def _from_model(self, error: ValidationError) -> TmdError:
-        """The first fault; an unknown key goes before the key that is missed because of it."""
+    def _from_model(self, error: ValidationError) -> list[TmdError]:
+        """The faults; an unknown key goes before the key that is missed because of it."""
         faults = error.errors(include_url=False)
-        first = next((f for f in faults if f["type"] == "extra_forbidden"), faults[0])
-        path = tuple(part for part in first["loc"] if isinstance(part, str | int))
+        unknown = [fault for fault in faults if fault["type"] == "extra_forbidden"]
+        missed = {fault["loc"][:-1] for fault in unknown}
+        known = [f for f in faults if f not in unknown and not (f["type"] == "missing" and f["loc"][:-1] in missed)]
+        return [self._from_fault(fault, faults) for fault in (*unknown, *known)]
+
+    def _from_fault(self, fault: ErrorDetails, faults: Sequence[ErrorDetails]) -> TmdError:
+        path = tuple(part for part in fault["loc"] if isinstance(part, str | int))
         where = ".".join(map(str, path)) or "the file"
-        if first["type"] != "extra_forbidden":
-            return self.error(path, f"{where}: {first['msg']}")
+        if fault["type"] != "extra_forbidden":
+            return self.error(path, f"{where}: {fault['msg']}")
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
-        return self.error(path, f"unknown key '{where}'", nearest(str(path[-1]), missing, what="missing"))
+        hint = nearest(str(path[-1]), missing, what="missing")
+        return self.error(path, f"unknown key '{where}'", hint, "unknown-key")
 
     def _line(self, number: int) -> str | None:
         return self._lines[number - 1] if 0 < number <= len(self._lines) else None
@@ -116,14 +151,16 @@ class YamlSource:
         mark = error.problem_mark or error.context_mark
         problem = (error.problem or error.context or "not YAML").replace("\n", " ")
         place = self._place(mark)
-        return TmdError(f"not YAML: {problem}", location=place, source=self._line(place.line))
+        code = "yaml-tag" if "could not determine a constructor" in problem else "yaml-syntax"
+        return TmdError(f"not YAML: {problem}", location=place, source=self._line(place.line), code=code)
 
     def _refuse_aliases(self) -> None:
         for event in yaml.parse(self.text, Loader=_Loader):
             if isinstance(event, yaml.AliasEvent):
-                raise TmdError(
-                    "aliases are not accepted", location=self._place(event.start_mark), hint="write the value out"
-                )
+                place = self._place(event.start_mark)
+                source = self._line(place.line)
+                hint = "write the value out"
+                raise TmdError("aliases are not accepted", location=place, hint=hint, source=source, code="yaml-alias")
 
     def _refuse_twins(self) -> None:
         waiting: list[yaml.Node] = [self._root] if self._root is not None else []
@@ -137,7 +174,8 @@ class YamlSource:
                     if key.value in seen:
                         place = self._place(key.start_mark)
                         message = f"the key '{key.value}' stands here twice"
-                        raise TmdError(message, location=place, source=self._line(place.line))
+                        source, hint = self._line(place.line), "remove one of the two"
+                        raise TmdError(message, location=place, hint=hint, source=source, code="duplicate-key")
                     seen.add(key.value)
                     waiting.append(value)
 
@@ -158,5 +196,6 @@ def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mar
 
 def _read(path: Path) -> str:
     if path.is_file() and path.stat().st_size > MAX_BYTES:
-        raise TmdError(f"{path}: larger than {MAX_BYTES // 1_000_000} MB", hint="this is no file of tmd")
+        message = f"{path}: larger than {MAX_BYTES // 1_000_000} MB"
+        raise TmdError(message, hint="this is no file of tmd", code="too-large")
     return read_text(path)
