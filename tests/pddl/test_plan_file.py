@@ -63,7 +63,6 @@ def test_files(tmp_path: Path) -> None:
         ("0.000: (a b!c) [1.0]\n", 1, 11, '"b!c" is not a name'),
         ("0.000: a b [1.0]\n", 1, 8, "one (name argument ...) a line"),
         ("0.000: (a b) [1.0]\n(c)\n", 2, 1, "this line has no time"),
-        ("0.000: (a) [2.0]\n; then\n 1.000: (b) [1.0]\n", 3, 2, "b() starts at 1.000, before a() has ended at 2.000"),
     ],
 )
 def test_faults_of_plans(text: str, line: int, column: int, message: str) -> None:
@@ -130,6 +129,13 @@ b (2.000 | 6.001)
 )
 def test_forms_of_plans(text: str) -> None:
     assert parse_plan(text).instructions == (Instruction("grasp", ("mug1",)), Instruction("wait"))
+
+
+def test_a_plan_whose_instructions_overlap_says_where() -> None:
+    plan = parse_plan("1.000: (b) [1.0]\n0.000: (a) [2.0]\n", "x.plan")
+    assert plan.instructions == (Instruction("a"), Instruction("b"))
+    assert plan.overlap is not None and plan.overlap.line == 1
+    assert parse_plan("0.000: (a) [1.0]\n1.000: (b) [1.0]\n").overlap is None
 
 
 @given(st.text(alphabet="()[]:;. \t\nab01D\u0660"))

@@ -31,6 +31,8 @@ def command(roots: Roots, domain: str, problem: Path, plan: Path, as_json: bool)
 
     world = read_problem(problem, roots.domain(domain))
     told = read_plan(plan)
+    if told.overlap:
+        emit(f"warning: {told.overlap}: instructions overlap in time; they are taken one after the other\n", error=True)
     verdict = validate(world, restored(world, told.instructions))
     place = told.locations[verdict.step - 1] if verdict.step else None
     if as_json:

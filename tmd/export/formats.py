@@ -49,8 +49,8 @@ def _strips(source: Planned) -> Files:
     from tmd.export.strips import strips
 
     found = strips(source)
-    lines = [f"{step.pddl()} ; {found.instructions[step.name].pddl()}" for step in found.plan]
-    text = "".join(f"{line}\n" for line in [*lines, f"; cost = {len(lines)} (unit cost)"])
+    steps = "".join(f"; {found.instructions[step.name].pddl()}\n{step.pddl()}\n" for step in found.plan)
+    text = f"{steps}; cost = {len(found.plan)} (unit cost)\n"
     return _texts(
         {
             "domain.pddl": _with_origins(format_domain(found.problem.domain), found),
@@ -86,7 +86,7 @@ def _plansys2(source: Planned) -> Files:
     from tmd.export.strips import strips
     from tmd.export.temporal import format_popf
 
-    found = strips(source)
+    found = strips(source, typed=True)
     domain = format_durative_domain(found.problem.domain)
     return _texts(
         {
@@ -100,7 +100,7 @@ def _plansys2(source: Planned) -> Files:
 def _anml(source: Planned) -> Files:
     from tmd.export.unified import format_anml
 
-    return _texts({"problem.anml": format_anml(source)})
+    return _texts({"problem.anml": format_anml(source.problem)})
 
 
 def _protobuf(source: Planned) -> Files:

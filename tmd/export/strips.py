@@ -7,7 +7,7 @@ applies, the instruction applies as well and does exactly the same: every plan o
 The other way round that is not so: what the plan does not do cannot be done.
 
 A negated literal becomes an atom of a predicate of its own, ``not_`` and the name, which is kept in step. Atoms that
-never change are compiled away. Predicates, objects and types keep their names; an action is named by its instruction,
+never change are compiled away. Predicates and objects keep their names; an action is named by its instruction,
 ``grasp-cup1``, with the number of its step behind it where the same instruction is decided in two ways.
 """
 
@@ -17,6 +17,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.errors import TmdError
+from tmd.export.flat_types import with_flat_types
 from tmd.export.planned import Planned
 from tmd.pddl.grounding import ground
 from tmd.pddl.model import (
@@ -41,7 +42,7 @@ class Strips:
     """A plan-resolved problem.
 
     Attributes:
-        problem: The ground problem, in STRIPS (with types where the original has them).
+        problem: The ground problem, in STRIPS.
         plan: The plan, in its actions; they have no arguments.
         instructions: The instruction that each of its actions stands for, by the action's name.
     """
@@ -74,16 +75,22 @@ class _Decided:
     delete: Bits
 
 
-def strips(source: Planned) -> Strips:
+def strips(source: Planned, *, typed: bool = False) -> Strips:
     """The plan-resolved ground STRIPS of a planned problem.
 
     Costs are left out: in the export each action costs 1.
+
+    Args:
+        source: The problem and its plan.
+        typed: Whether all types of the original are written, and all objects. Otherwise see
+            :mod:`tmd.export.flat_types`.
 
     Raises:
         TmdError: The problem cannot be ground.
     """
     task = ground(source.portable)
-    return _written(task, *_followed(task, source.plan))
+    found = _written(task, *_followed(task, source.plan))
+    return found if typed else replace(found, problem=with_flat_types(found.problem))
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ unified-planning is imported when it is first needed, which takes about a third 
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections.abc import Iterable
 from dataclasses import replace
@@ -17,6 +18,8 @@ from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.portable import portable
 from tmd.pddl.writer import format_domain, format_problem
 
+_WORD = re.compile(r"[A-Za-z_][\w-]*")
+_HYPHENED = re.compile(r"[A-Za-z_]\w*(?:-\w+)+")
 UpProblem: TypeAlias = Any
 """A ``unified_planning.model.Problem``; the package ships no types."""
 UpPlan: TypeAlias = Any
@@ -93,25 +96,32 @@ def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
     )
 
 
-def format_anml(source: Planned) -> str:
-    """The problem as ANML, by unified-planning's writer.
+def format_anml(problem: Problem) -> str:
+    """A problem as ANML, by unified-planning's writer.
 
-    Hyphens and other characters that ANML's names cannot have are replaced there. ANML has no costs of actions.
+    ANML's names have no hyphens; each becomes ``_``. ANML has no costs of actions.
 
     Raises:
         MissingToolError: unified-planning is not installed.
-        TmdError: unified-planning refuses the problem.
+        TmdError: unified-planning refuses the problem, or two names become the same.
     """
-    _needed("unified_planning", "unified-planning")
+    converted = to_unified_planning(replace(problem, minimize_cost=False))
     from unified_planning.exceptions import UPException
     from unified_planning.io import ANMLWriter
 
-    problem = to_unified_planning(replace(source.problem, minimize_cost=False))
     try:
-        text: str = ANMLWriter(problem).get_problem()
+        text: str = ANMLWriter(converted).get_problem()
     except UPException as error:
         raise TmdError(f"unified-planning cannot write this problem as ANML: {error}") from error
-    return text
+    names = set(_HYPHENED.findall(text))
+    taken = set(_WORD.findall(text))
+    for name in sorted(names):
+        if name.replace("-", "_") in taken - names:
+            raise TmdError(
+                f"'{name}' cannot be written in ANML, whose names have no hyphens",
+                hint=f"rename it: there is a {name.replace('-', '_')} as well",
+            )
+    return _HYPHENED.sub(lambda found: found[0].replace("-", "_"), text)
 
 
 def messages(source: Planned) -> tuple[bytes, bytes]:

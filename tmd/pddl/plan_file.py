@@ -33,11 +33,16 @@ _ANNOUNCED = re.compile(r"(?:;*\s*solution found.*|plan:)", re.IGNORECASE)
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """A plan that was read: its instructions, the cost it claims, and where each instruction stands."""
+    """A plan that was read: its instructions, the cost it claims, and where each instruction stands.
+
+    ``overlap`` is where the first instruction stands that was to start before another one ended. Such a plan is taken
+    as the sequence of its instructions by their starts; what else its times say is lost.
+    """
 
     instructions: tuple[Instruction, ...] = ()
     cost: int | None = None
     locations: tuple[Location, ...] = field(default=(), compare=False, repr=False)
+    overlap: Location | None = field(default=None, compare=False, repr=False)
 
 
 def read_plan(path: str | Path) -> Plan:
@@ -55,10 +60,10 @@ def parse_plan(text: str, file: str = "<text>") -> Plan:
     Besides plan files of the planning competitions this takes plans with times: those that VAL reads
     (``0.000: (grasp mug1) [1.000]``), what the planner POPF prints (the last plan after ``Solution Found``), and what
     PlanSys2's terminal prints (``plan:``, then ``0: (grasp mug1) [1]``). Their instructions are put in the order of
-    their times.
+    their times; where those overlap, :attr:`Plan.overlap` says so.
 
     Raises:
-        TmdError: A line is no instruction, or two instructions overlap in time.
+        TmdError: A line is no instruction, or only some lines have a time.
     """
     lines = split_lines(text)
     first = _after_preamble(lines)
@@ -73,7 +78,7 @@ def parse_plan(text: str, file: str = "<text>") -> Plan:
             place = Location(file, number, len(code) - len(code.lstrip()) + 1)
             steps.append(_parse_line(code.strip(), place, line))
     steps = _in_time(steps)
-    return Plan(tuple(s.instruction for s in steps), cost, tuple(s.place for s in steps))
+    return Plan(tuple(s.instruction for s in steps), cost, tuple(s.place for s in steps), _overlap(steps))
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,16 +111,15 @@ def _in_time(steps: list[_Line]) -> list[_Line]:
         raise TmdError(
             "this line has no time, and others have", location=stray.place, source=stray.source, hint="give all or none"
         )
-    ordered = sorted(timed, key=lambda step: step.start or Decimal(0))
-    for before, after in pairwise(ordered):
+    return sorted(timed, key=lambda step: step.start or Decimal(0))
+
+
+def _overlap(steps: Sequence[_Line]) -> Location | None:
+    """Where the first instruction stands that starts before the one before it has ended."""
+    for before, after in pairwise(steps):
         if before.end is not None and after.start is not None and after.start < before.end - _TOLERANCE:
-            raise TmdError(
-                f"{after.instruction} starts at {after.start}, before {before.instruction} has ended at {before.end}",
-                location=after.place,
-                source=after.source,
-                hint="one instruction follows the other here; plans in which they overlap are not supported",
-            )
-    return ordered
+            return after.place
+    return None
 
 
 def _parse_line(code: str, place: Location, line: str) -> _Line:

@@ -1,0 +1,1 @@
+"""Which tools take what ``tmd export`` writes: ``python -m experiments.interop``."""
