@@ -17,7 +17,7 @@ from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode
 
-COMMANDS = ("ground", "run", "check", "parse", "validate", "plan", "compile", "data", "experiment")
+COMMANDS = ("ground", "run", "check", "parse", "validate", "plan", "export", "compile", "data", "experiment")
 """The sub-commands, in the order in which a newcomer meets them; each is the module of its name."""
 
 
