@@ -39,6 +39,9 @@ class Findings:
     def __init__(self) -> None:
         self._found: dict[tuple[Location, str, str], Diagnostic] = {}
 
+    def __len__(self) -> int:
+        return len(self._found)
+
     def add(self, error: TmdError, place: Location) -> None:
         """Take in a fault; one without a place is told at ``place``."""
         self.put(Diagnostic(error.location or place, error.code or "syntax", error.message, error.hint, error.source))

@@ -38,6 +38,10 @@ def find_domain_file(problem: Path, name: str, domains: Path | None) -> Found:
         if named:
             best = _best(named, problem)
             return Found(_shown(best, problem)) if best else Found(None, tuple(named))
+    for above in list(here.parents)[:3] if re.fullmatch(r"[\w-]+", name) else ():
+        file = above / "domains" / name / "domain.pddl"
+        if file.is_file():
+            return Found(file)
     try:
         return Found(find_domain(name, domains).path / "domain.pddl")
     except TmdError:

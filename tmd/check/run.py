@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tmd.check.diagnostic import Findings
 from tmd.check.find import Found, find_domain_file
@@ -18,8 +19,17 @@ from tmd.check.pddl_file import (
 )
 from tmd.errors import Location, TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.syntax import Source, read_text
+from tmd.pddl.syntax import Source, read_text, split_lines
 
+if TYPE_CHECKING:
+    from tmd.check.data_files import DataFiles
+
+DATA_FILES = frozenset(
+    {"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "planviz.json", "demonstrations.jsonl"}
+)
+"""The files of domains and problems that are no PDDL, beside environments."""
+MAX_LINE = 10_000
+"""Of a longer source line only the beginning is kept."""
 MOST_SHOWN = 200
 """Of one file."""
 MAX_BYTES = 10_000_000
@@ -33,14 +43,17 @@ class Checker:
     Args:
         domains: The directory of all domains; the usual one by default.
         domain: The file of the domain of all problems, where it shall not be looked for.
+        problems: The directory of all problems; the usual one by default.
     """
 
     domains: Path | None = None
     domain: Path | None = None
+    problems: Path | None = None
     findings: Findings = field(default_factory=Findings)
     files: dict[Path, None] = field(default_factory=dict)
     _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
+    _data_files: DataFiles | None = None
 
     def check(self, path: Path) -> None:
         """Check a file, or everything in a directory.
@@ -50,13 +63,39 @@ class Checker:
         """
         if not path.exists():
             raise TmdError(f"{path}: no such file or directory")
-        for file in _files(path) if path.is_dir() else (path,):
-            self.check_file(file)
+        if not path.is_dir():
+            self.check_file(path)
+            return
+        inside = path.resolve()
+        for file in _files(path):
+            if file.is_symlink() and not file.resolve().is_relative_to(inside):
+                place = Location(str(file), 1, 1)
+                hint = "put the file itself there"
+                self.report(TmdError("leads out of the folder", location=place, hint=hint, code="outside-folder"), file)
+            else:
+                self.check_file(file)
 
     def check_file(self, file: Path) -> None:
         """Check one file, by what it is."""
-        if file.suffix == ".pddl" or file.suffix not in (".yaml", ".yml", ".jsonl"):
+        if file.suffix in (".yaml", ".yml", ".jsonl", ".json"):
+            self._data.check(file)
+        else:
             self._pddl(file)
+
+    @property
+    def _data(self) -> DataFiles:
+        from tmd.check.data_files import DataFiles
+
+        if self._data_files is None:
+            self._data_files = DataFiles(self)
+        return self._data_files
+
+    def report(self, fault: TmdError, file: Path) -> None:
+        """Take in a fault of ``file``; the source line is read where the fault has none."""
+        place = fault.location or Location(str(file), 1, 1)
+        if fault.source is None and fault.location is not None:
+            fault.source = _line(place)
+        self.findings.add(fault, place)
 
     def finish(self) -> None:
         """Look at each domain together with all of its problems that were checked."""
@@ -138,5 +177,27 @@ class Checker:
 
 def _files(directory: Path) -> Iterator[Path]:
     """The files of ``directory`` that are checked, domains first, then by name."""
-    found = [path for path in directory.rglob("*.pddl") if not any(part.startswith(".") for part in path.parts[1:])]
-    yield from sorted(found, key=lambda path: (path.parent, path.name != "domain.pddl", path.name))
+    found = [
+        path
+        for path in directory.rglob("*")
+        if _is_ours(path) and not any(part.startswith(".") for part in path.relative_to(directory).parts)
+    ]
+    yield from sorted(
+        found, key=lambda path: (path.parent, path.suffix != ".pddl", path.name != "domain.pddl", path.name)
+    )
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
+    if path.suffix in (".yaml", ".yml"):
+        return path.name in DATA_FILES or path.parent.name == "environments"
+    return path.suffix == ".pddl" or path.name in DATA_FILES
+
+
+def _line(place: Location) -> str | None:
+    """The line at ``place``, where it can be read."""
+    try:
+        lines = split_lines(read_text(place.file))
+    except TmdError:
+        return None
+    return lines[place.line - 1][:MAX_LINE] if place.line <= len(lines) else None

@@ -29,7 +29,7 @@ def command(roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bo
     from tmd.check.codes import Severity
     from tmd.check.run import Checker
 
-    checker = Checker(roots.domains, roots.pddl_file(domain) if domain else None)
+    checker = Checker(roots.domains, roots.pddl_file(domain) if domain else None, roots.problems)
     for name in paths:
         checker.check(roots.path(name))
     checker.finish()

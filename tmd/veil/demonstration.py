@@ -73,6 +73,15 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
     return found
 
 
+def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
+    """The demonstration in line ``number`` of a corpus.
+
+    Raises:
+        TmdError: The line is no demonstration; with its place.
+    """
+    return _Line(path, number).read(line)
+
+
 @dataclass(frozen=True, slots=True)
 class _Line:
     """Reads one line; knows where it is."""
@@ -80,16 +89,18 @@ class _Line:
     path: Path
     number: int
 
-    def error(self, message: str, hint: str | None = None, column: int = 1) -> TmdError:
-        return TmdError(message, location=Location(str(self.path), self.number, column), hint=hint)
+    def error(
+        self, message: str, hint: str | None = None, column: int = 1, code: str = "bad-demonstration"
+    ) -> TmdError:
+        return TmdError(message, location=Location(str(self.path), self.number, column), hint=hint, code=code)
 
     def read(self, line: str) -> Demonstration:
         try:
             data = json.loads(line)
         except json.JSONDecodeError as error:
-            raise self.error(f"not JSON: {error.msg}", column=error.colno) from None
+            raise self.error(f"not JSON: {error.msg}", column=error.colno, code="json-syntax") from None
         except RecursionError:
-            raise self.error("not a demonstration: nested too deeply") from None
+            raise self.error("not a demonstration: nested too deeply", code="nested-too-deeply") from None
         if not isinstance(data, dict):
             raise self.error("a demonstration is a JSON object")
         for key in _KEYS:

@@ -1,0 +1,147 @@
+"""YAML and JSON Lines of domains and problems: which file is checked how, and with what beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tmd.check.yaml_files import check_compiled, check_environment, check_objects, check_planviz
+from tmd.errors import TmdError
+from tmd.pddl.model import Problem
+from tmd.pddl.syntax import Report
+from tmd.world.environment import EnvironmentFile
+from tmd.world.folder import DomainFolder, find_domain, find_problems
+from tmd.world.yaml_source import YamlSource
+
+if TYPE_CHECKING:
+    from tmd.check.run import Checker
+
+
+class DataFiles:
+    """Checks the files that are no PDDL; each folder and environment is read once.
+
+    Args:
+        checker: Takes what is found, and knows where domains and problems are.
+    """
+
+    def __init__(self, checker: Checker) -> None:
+        self.checker = checker
+        self._folders: dict[Path, DomainFolder] = {}
+        self._worlds: dict[Path, Problem | None] = {}
+
+    def check(self, file: Path) -> None:
+        """Check one file, by its name."""
+        self.checker.files[file] = None
+        known: dict[str, Callable[[Path], None]] = {
+            "objects.yaml": self._objects,
+            "lexicon.yaml": self._lexicon,
+            "skills.yaml": self._skills,
+            "templates.yaml": self._templates,
+            "planviz.json": check_planviz,
+        }
+        check = known.get(file.name) or (self._demonstrations if file.suffix == ".jsonl" else self._environment)
+        self._try(check, file)
+
+    def _try(self, check: Callable[[Path], object], file: Path) -> None:
+        try:
+            check(file)
+        except TmdError as error:
+            self.checker.report(error, file)
+        except RecursionError:
+            self.checker.report(TmdError("nested too deeply", code="nested-too-deeply"), file)
+
+    def _report(self, file: Path) -> Report:
+        return lambda fault: self.checker.report(fault, file)
+
+    def _folder(self, file: Path) -> DomainFolder:
+        """The domain folder that ``file`` lies in."""
+        path = file.parent
+        return self._folders.setdefault(path.resolve(), DomainFolder(path.resolve() if path == Path() else path))
+
+    def _objects(self, file: Path) -> None:
+        folder = self._folder(file)
+        before = len(self.checker.findings)
+        check_objects(folder, self._report(file))
+        if len(self.checker.findings) == before and "classes" in folder.__dict__:
+            self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
+
+    def _lexicon(self, file: Path) -> None:
+        from tmd.check.demonstrations import texts_of
+        from tmd.check.words import check_lexicon
+
+        folder = self._folder(file)
+        actions = [action.name for action in folder.domain.actions]
+        texts = [text for path in self._corpora(folder.path) for text in texts_of(path)]
+        for fault in check_lexicon(file, actions, _names(folder), texts):
+            self.checker.report(fault, file)
+
+    def _corpora(self, folder: Path) -> list[Path]:
+        """The demonstrations of a domain: those beside its folder, or the known ones."""
+        name = folder.resolve().name
+        beside = folder.resolve().parent.parent / "problems" / name
+        try:
+            problems = beside if beside.is_dir() else find_problems(name, self.checker.problems)
+        except TmdError:
+            return []
+        return sorted(problems.glob("*/demonstrations.jsonl"))
+
+    def _skills(self, file: Path) -> None:
+        from tmd.robot.skill_file import load_skills
+
+        load_skills(self._folder(file), self._report(file))
+
+    def _templates(self, file: Path) -> None:
+        from tmd.evaluation.predefined import load_templates
+
+        load_templates(self._folder(file))
+
+    def _environment(self, file: Path) -> None:
+        key = file.resolve()
+        if key not in self._worlds:
+            self._worlds[key] = None
+            faults: list[TmdError] = []
+            said = YamlSource(file).load(EnvironmentFile)
+            folder = self._domain_of(file, said.domain)
+            problem = check_environment(file, folder, faults.append)
+            for fault in faults:
+                self.checker.report(fault, file)
+            self._worlds[key] = None if faults else problem
+
+    def _domain_of(self, file: Path, name: str) -> DomainFolder:
+        """The folder of the domain ``name``: near the environment, or the known one."""
+        if Path(name).name != name:
+            raise YamlSource(file).error(("domain",), f"'{name}' is no name of a domain", None, "outside-folder")
+        for above in list(file.resolve().parents)[:4]:
+            path = above / "domains" / name
+            if (path / "domain.pddl").is_file():
+                return self._folders.setdefault(path, DomainFolder(path))
+        try:
+            found = find_domain(name, self.checker.domains)
+        except TmdError as error:
+            raise YamlSource(file).error(("domain",), error.message, error.hint, "unknown-domain") from None
+        return self._folders.setdefault(found.path.resolve(), found)
+
+    def _demonstrations(self, file: Path) -> None:
+        from tmd.check.demonstrations import check_demonstrations
+
+        environments = {path.stem: path for path in sorted((file.parent.parent / "environments").glob("*.yaml"))}
+
+        def world(name: str) -> Problem | None:
+            path = environments[name]
+            if path.resolve() not in self._worlds:
+                self.check(path)
+            return self._worlds.get(path.resolve())
+
+        check_demonstrations(file, world, sorted(environments), self._report(file))
+
+
+def _names(folder: DomainFolder) -> frozenset[str]:
+    """What nouns of a domain may lead to; nothing where it has no classes, for then its objects are anybody's."""
+    if not (folder.path / "objects.yaml").is_file():
+        return frozenset()
+    entries = folder.classes.entries
+    parts = {part for entry in entries.classes.values() for part in entry.parts}
+    domain = folder.domain
+    declared = {t.name for t in domain.types} | {c.name for c in domain.constants}
+    return frozenset({*entries.classes, *entries.substances, *parts, *declared})

@@ -1,0 +1,81 @@
+"""Checking demonstrations: their form, their environments, and whether they can be executed."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from tmd.errors import Location, TmdError
+from tmd.pddl.model import Problem
+from tmd.pddl.syntax import Report, nearest, read_text
+from tmd.veil.demonstration import Demonstration, read_demonstration
+from tmd.veil.replay import replay
+
+
+def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:
+    """Every demonstration of a file: read, and played in its environment.
+
+    Args:
+        path: JSON Lines.
+        world: The environment of a name; ``None`` where it has faults of its own.
+        known: The names of all environments.
+        report: Takes the faults.
+
+    Raises:
+        TmdError: The file cannot be read.
+    """
+    seen: dict[str, int] = {}
+    for number, line in enumerate(read_text(path).splitlines(), start=1):
+        if not line.strip():
+            continue
+        try:
+            demonstration = read_demonstration(path, number, line)
+            if demonstration.id in seen:
+                message = f"the id '{demonstration.id}' stands in this file twice"
+                hint = f"it is that of line {seen[demonstration.id]} as well"
+                raise TmdError(message, location=demonstration.location, hint=hint, code="duplicate-name")
+            seen[demonstration.id] = number
+            _play(demonstration, line, world, known)
+        except TmdError as error:
+            report(error)
+
+
+def _play(demonstration: Demonstration, line: str, world: Callable[[str], Problem | None], known: list[str]) -> None:
+    if demonstration.environment not in known:
+        message = f"there is no environment '{demonstration.environment}'"
+        hint = nearest(demonstration.environment, known, what="environments")
+        raise TmdError(message, location=_place(demonstration, line), hint=hint, code="unknown-environment")
+    problem = world(demonstration.environment)
+    if problem is None:
+        return
+    try:
+        replay(demonstration, problem)
+    except TmdError as error:
+        message = f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {error.message}"
+        hint = "mend the demonstration, or the domain or environment if they are what changed"
+        raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
+
+
+def _place(demonstration: Demonstration, line: str) -> Location | None:
+    """Where the environment's name stands."""
+    place = demonstration.location
+    column = line.find(json.dumps(demonstration.environment))
+    return Location(place.file, place.line, column + 1) if place and column >= 0 else place
+
+
+def texts_of(path: Path) -> list[str]:
+    """The texts of a corpus, as far as it can be read."""
+    texts = []
+    try:
+        lines = read_text(path).splitlines()
+    except TmdError:
+        return []
+    for line in lines:
+        try:
+            said = json.loads(line)
+        except (json.JSONDecodeError, RecursionError):
+            continue
+        if isinstance(said, dict) and isinstance(said.get("text"), str):
+            texts.append(said["text"])
+    return texts
