@@ -11,8 +11,9 @@ import pytest
 
 from tmd.errors import TmdError
 from tmd.evaluation.dataset import BundledData, Example, VeilDataset
-from tmd.evaluation.predefined import FILE, PredefinedTemplates, load_templates
+from tmd.evaluation.predefined import PredefinedTemplates
 from tmd.evaluation.prediction import Prediction
+from tmd.evaluation.template_file import FILE, load_templates
 from tmd.pddl.validator import validate
 from tmd.veil.demonstration import Demonstration
 from tmd.world.folder import DomainFolder

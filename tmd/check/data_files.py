@@ -92,7 +92,7 @@ class DataFiles:
         load_skills(self._folder(file), self._report(file))
 
     def _templates(self, file: Path) -> None:
-        from tmd.evaluation.predefined import load_templates
+        from tmd.evaluation.template_file import load_templates
 
         load_templates(self._folder(file))
 
@@ -125,10 +125,13 @@ class DataFiles:
     def _demonstrations(self, file: Path) -> None:
         from tmd.check.demonstrations import check_demonstrations
 
-        environments = {path.stem: path for path in sorted((file.parent.parent / "environments").glob("*.yaml"))}
+        directory = file.parent.parent / "environments"
+        environments = {p.stem: p for suffix in ("pddl", "yaml") for p in sorted(directory.glob(f"*.{suffix}"))}
 
         def world(name: str) -> Problem | None:
             path = environments[name]
+            if path.suffix == ".pddl":
+                return self.checker.problem(path)
             if path.resolve() not in self._worlds:
                 self.check(path)
             return self._worlds.get(path.resolve())

@@ -42,6 +42,10 @@ def find_domain_file(problem: Path, name: str, domains: Path | None) -> Found:
         file = above / "domains" / name / "domain.pddl"
         if file.is_file():
             return Found(file)
+    for above, part in ((above, here.relative_to(above).parts) for above in list(here.parents)[:4]):
+        file = above / "domains" / part[1] / "domain.pddl" if len(part) > 1 and part[0] == "problems" else Path()
+        if file.name and name in domains_in(file.parent):
+            return Found(file)
     try:
         return Found(find_domain(name, domains).path / "domain.pddl")
     except TmdError:

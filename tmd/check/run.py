@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tmd.check.codes import SEVERITY, Severity
 from tmd.check.diagnostic import Findings
 from tmd.check.find import Found, find_domain_file
 from tmd.check.lint_problem import lint_together
@@ -28,6 +30,8 @@ DATA_FILES = frozenset(
     {"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "planviz.json", "demonstrations.jsonl"}
 )
 """The files of domains and problems that are no PDDL, beside environments."""
+_FIRST = ("domain.pddl", "objects.yaml")
+"""What the other files of a folder are checked against."""
 MAX_LINE = 10_000
 """Of a longer source line only the beginning is kept."""
 MOST_SHOWN = 200
@@ -53,6 +57,7 @@ class Checker:
     files: dict[Path, None] = field(default_factory=dict)
     _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
+    _read: dict[Path, Problem | None] = field(default_factory=dict)
     _data_files: DataFiles | None = None
 
     def check(self, path: Path) -> None:
@@ -120,6 +125,7 @@ class Checker:
             text = self.read(file) if text is None else text
             if text is not None:
                 checked = check_domain_text(text, str(file))
+                _drop_compiled_in(checked, file)
                 self._checked[key] = checked
                 self._add_all(checked.faults, file)
         return self._checked[key]
@@ -135,6 +141,16 @@ class Checker:
             self._not_found(name, result.source, found.others)
         if path is not None and result.problem is not None and not result.faults and checked is not None:
             self._problems.setdefault(path.resolve(), []).append(result.problem)
+        faulty = any(SEVERITY.get(fault.code) is not Severity.WARNING for fault in result.faults)
+        self._read[file.resolve()] = None if faulty or checked is None else result.problem
+
+    def problem(self, file: Path) -> Problem | None:
+        """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
+        key = file.resolve()
+        if key not in self._read:
+            self._read[key] = None
+            self.check_file(file)
+        return self._read[key]
 
     def _not_found(self, name: str, source: Source, others: Sequence[Path]) -> None:
         for number, line in enumerate(source.lines, start=1):
@@ -175,6 +191,22 @@ class Checker:
             self.findings.add(TmdError(message, location=place, hint="mend the first ones", code="too-many"), place)
 
 
+def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:
+    """A predicate that ``objects.yaml`` derives others from plays a part, whatever the actions say."""
+    objects = file.parent / "objects.yaml"
+    if not objects.is_file() or not any(fault.code == "unused-predicate" for fault in checked.faults):
+        return
+    try:
+        words = set(re.findall(r"[a-z][a-z0-9_]*", read_text(objects)))
+    except TmdError:
+        return
+    checked.faults[:] = [
+        fault
+        for fault in checked.faults
+        if fault.code != "unused-predicate" or fault.message.split('"')[1] not in words
+    ]
+
+
 def _files(directory: Path) -> Iterator[Path]:
     """The files of ``directory`` that are checked, domains first, then by name."""
     found = [
@@ -182,9 +214,7 @@ def _files(directory: Path) -> Iterator[Path]:
         for path in directory.rglob("*")
         if _is_ours(path) and not any(part.startswith(".") for part in path.relative_to(directory).parts)
     ]
-    yield from sorted(
-        found, key=lambda path: (path.parent, path.suffix != ".pddl", path.name != "domain.pddl", path.name)
-    )
+    yield from sorted(found, key=lambda path: (path.parent, path.suffix != ".pddl", path.name not in _FIRST, path.name))
 
 
 def _is_ours(path: Path) -> bool:
