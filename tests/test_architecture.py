@@ -24,6 +24,7 @@ FLOORS = {
     "evaluation": 5,
     "export": 5,
     "robot": 5,
+    "api": 5.5,
     "trial": 5.5,
     "check": 5.5,
     "cli": 6,

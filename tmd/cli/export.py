@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode
-
-if TYPE_CHECKING:
-    from tmd.export.planned import Planned
 
 _ALL = "all"
 
@@ -65,6 +61,7 @@ def command(
     from tmd.cli.said import said
     from tmd.cli.sources import Asked, NoPlan, planned_source
     from tmd.export.directory import check_directory, write_directory
+    from tmd.export.formats import chosen_files
 
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
@@ -75,7 +72,7 @@ def command(
         if as_json:
             emit_json({"directory": str(directory), "written": {}, "cost": None, "reason": found.reason})
         return found.code
-    written = _files(found, names)
+    written = chosen_files(found, names)
     flat = {path: data for files in written.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
     if as_json:
@@ -103,13 +100,3 @@ def _chosen(given: Sequence[str]) -> list[str]:
             hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}, all"
             raise click.UsageError(f"there is no format '{name}': {hint}")
     return list(dict.fromkeys(names))
-
-
-def _files(found: Planned, names: Sequence[str]) -> dict[str, Mapping[str, bytes]]:
-    """The files of each format, by path within the directory."""
-    from tmd.export.formats import FORMATS
-
-    prefix = "{}/" if len(names) > 1 else ""
-    return {
-        name: {prefix.format(name) + path: data for path, data in FORMATS[name].write(found).items()} for name in names
-    }

@@ -10,7 +10,7 @@ from typing import Any
 
 import click
 
-from tmd.cli.goal import with_goal
+from tmd.pddl.goal import with_goal
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode, Location, TmdError
 from tmd.export.planned import Planned, planned, with_outcome

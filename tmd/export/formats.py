@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from tmd.errors import TmdError
 from tmd.export.planned import Planned
 from tmd.export.strips import Strips
 from tmd.pddl.plan_file import format_plan
+from tmd.pddl.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
 Files: TypeAlias = Mapping[str, bytes]
@@ -152,3 +154,24 @@ FORMATS: Mapping[str, Format] = {
     )
 }
 """Every format by its name, in the order in which they are documented."""
+
+
+def chosen_files(source: Planned, names: Sequence[str]) -> dict[str, Files]:
+    """The files of each format, by path within one directory; several formats have a directory each in it.
+
+    Raises:
+        TmdError: There is no such format, or the problem cannot be written in it.
+    """
+    forms = [_form(name) for name in dict.fromkeys(names)]
+    prefix = "{}/" if len(forms) > 1 else ""
+    return {
+        form.name: {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
+        for form in forms
+    }
+
+
+def _form(name: str) -> Format:
+    if name not in FORMATS:
+        hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}"
+        raise TmdError(f"there is no format '{name}'", hint=hint)
+    return FORMATS[name]

@@ -13,6 +13,7 @@ module                  holds
 ``check``               every fault of a domain or problem, with place and hint
 ``check_requirements``  features used without their requirement
 ``portable``            problems in the form that other planners read
+``goal``                a goal written by itself
 ``writer``              domains and problems as flat typed ADL
 ``plan_file``           plans and single instructions as text
 ``semantics``           what PDDL means: ``holds``, ``apply`` (the paper's Φ), ``regress``

@@ -1,4 +1,4 @@
-"""A goal written on the command line."""
+"""A goal written by itself, on the command line or in a program."""
 
 from __future__ import annotations
 
@@ -10,19 +10,20 @@ from tmd.pddl.model import Problem
 from tmd.pddl.parentheses import parse
 from tmd.pddl.read_formula import read_condition
 
-_PLACE = "--goal"
+PLACE = "--goal"
+"""What a goal is called in errors where nothing else is said."""
 
 
-def with_goal(problem: Problem, text: str) -> Problem:
-    """``problem`` with the goal that ``text`` states, such as ``(contains mug1 coffee)``.
+def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
+    """``problem`` with the goal that ``text`` states, such as ``(contains mug1 coffee)``; ``file`` names it in errors.
 
     Raises:
         TmdError: It is no condition, or speaks of what the problem does not have.
     """
-    document = parse(text, _PLACE)
+    document = parse(text, file)
     source = document.source
     if len(document.groups) != 1:
-        place = Location(_PLACE, 1, 1)
+        place = Location(file, 1, 1)
         raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
     aimed = replace(problem, goal=read_condition(document.groups[0], source))
     for fault in check_problem(aimed):
