@@ -40,6 +40,7 @@ class Inventory:
         self.bodies: dict[str, int] = {}
         self._owners: dict[int, str] = {}
         self._parts = parts
+        self._spelled = {meant: said for said, meant in environment.called.items()}
 
     def keep(self, name: str, body: int) -> None:
         """A body was loaded for an object."""
@@ -58,9 +59,17 @@ class Inventory:
                 self._links[name, joint.link_name] = joint.index
             self._places[name] = (name, ROOT)
             for part in self._parts[name]:
-                self._places[f"{name}_{part}"] = (name, part)
+                self._places[self.named(name, part)] = (name, part)
             for link, part in model.link_parts.items():
-                self._named[body, self._links[name, link]] = f"{name}_{part}" if part else name
+                self._named[body, self._links[name, link]] = self.named(name, part)
+        for said, meant in self.environment.called.items():
+            if said not in self._places:
+                self._places[said] = self.where(meant)
+
+    def named(self, whole: str, part: str) -> str:
+        """The name of a part of an object; of the object itself where no part is given."""
+        usual = f"{whole}_{part}"
+        return self._spelled.get(usual, usual) if part else whole
 
     def place(self, name: str) -> tuple[int, int]:
         """The body and link (−1: the root) of an object or part.

@@ -125,7 +125,7 @@ class Scene(Inventory):
                 setting = dict(grip.settings).get(str(states.get(_SET_TO)))
                 position = setting if setting is not None else grip.open if states.get(_OPENED) is True else grip.closed
                 self.sim.set_joint(body, grip.link, position)
-            whole = f"{name}_{part}" if part else name
+            whole = self.named(name, part)
             for predicate, value in states.items():
                 self.sign(whole, predicate, value is True)
             contained = states.get(_CONTAINS, [])

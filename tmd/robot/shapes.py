@@ -55,7 +55,6 @@ class Shapes:
     def __init__(self, folder: DomainFolder) -> None:
         self.folder = folder
         self.classes: Classes = folder.classes
-        self._parents = {t.name: t.parent for t in folder.domain.types}
         self._known: dict[str, Blueprint] = {}
 
     def blueprint(self, class_name: str) -> Blueprint:
@@ -95,12 +94,7 @@ class Shapes:
 
     def sort(self, class_name: str) -> str:
         """``item``, ``part`` or ``fixture``, by the types above the class."""
-        name = class_name
-        while name in self._parents:
-            if name in ("item", "part"):
-                return name
-            name = self._parents[name]
-        return "fixture"
+        return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
 
     def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Look:
         if shape is None:
@@ -153,18 +147,12 @@ class Shapes:
         """An error where the shape was said: at the part, or at the class, or at the ancestor it comes from."""
         entries = self.classes.entries.classes
         if part is not None:
-            for name in self._line(whole):
+            for name in self.classes.line(whole):
                 entry = entries.get(name)
                 if entry is not None and part in entry.parts and entry.parts[part].shape is not None:
                     return self.classes.source.error(("classes", name, "parts", part, "shape", key), message, hint)
-        for name in self._line(owner):
+        for name in self.classes.line(owner):
             entry = entries.get(name)
             if entry is not None and entry.shape is not None:
                 return self.classes.source.error(("classes", name, "shape", key), message, hint)
         return self.classes.source.error(("classes", owner), message, hint)
-
-    def _line(self, name: str) -> list[str]:
-        line = [name]
-        while line[-1] in self._parents:
-            line.append(self._parents[line[-1]])
-        return line

@@ -90,7 +90,7 @@ def supported(things: Inventory, item: str) -> tuple[str, str] | None:
             if _reaches(region, things.frame(whole, region.link).inverse().apply(point)):
                 volume = math.prod(high - low for low, high in zip(region.low, region.high, strict=True))
                 if best is None or volume < best[0]:
-                    best = (volume, f"{whole}_{region.part}" if region.part else whole, region.relation)
+                    best = (volume, things.named(whole, region.part), region.relation)
     if best is not None:
         return best[1], best[2]
     return (FLOOR, "on") if FLOOR in touched else None

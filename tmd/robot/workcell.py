@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 
 from tmd.pddl.model import State
@@ -26,8 +28,13 @@ def show_state(scene: Scene, skills: Skills, state: State) -> None:
             scene.sign(name, predicate, name in shown)
 
 
-def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool) -> Cell:
-    """A robot in the middle of a scene."""
+def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool, urdf: Path | None = None) -> Cell:
+    """A robot, the packaged PR2 or that of ``urdf``, in the middle of a scene.
+
+    Raises:
+        MissingToolError: The robot's model is not installed.
+        TmdError: ``urdf`` is no PR2.
+    """
     rng = np.random.default_rng(seed)
-    robot = Pr2(sim, kinematic=kinematic, rng=rng)
+    robot = Pr2(sim, urdf=urdf, kinematic=kinematic, rng=rng)
     return Cell(sim, robot, scene, rng)

@@ -149,7 +149,7 @@ class Classes:
         """The types that classes add, with their parents, parents first."""
         done: set[str] = set()
         for name in self.entries.classes:
-            for ancestor in reversed(self._line(name)):
+            for ancestor in reversed(self.line(name)):
                 if ancestor not in done and ancestor not in self._types and ancestor != OBJECT:
                     done.add(ancestor)
                     yield ancestor, self._parent(ancestor)
@@ -174,7 +174,7 @@ class Classes:
         Raises:
             TmdError: There is no class ``name``.
         """
-        return above in self._line(name)
+        return above in self.line(name)
 
     def suggest(self, name: str) -> str | None:
         """A hint with the class names nearest to ``name``."""
@@ -196,8 +196,12 @@ class Classes:
             ("classes", name), f"class '{name}' has no parent", "add `parent: TYPE`", "unknown-class"
         )
 
-    def _line(self, name: str) -> list[str]:
-        """``name`` and its ancestors, nearest first."""
+    def line(self, name: str) -> list[str]:
+        """``name`` and its ancestors, nearest first.
+
+        Raises:
+            TmdError: There is no such class, or it is its own ancestor.
+        """
         line = [name]
         while line[-1] != OBJECT:
             parent = self._parent(line[-1])
@@ -221,7 +225,7 @@ class Classes:
         parts: dict[str, Vertex] = {}
         edges: list[tuple[str, ...]] = []
         shape: Shape | None = None
-        for ancestor in reversed(self._line(name)):
+        for ancestor in reversed(self.line(name)):
             entry = self.entries.classes.get(ancestor)
             if entry is None:
                 continue
@@ -237,7 +241,7 @@ class Classes:
                 read = self.source.recover(None, self._edge, ancestor, index, edge, parts)
                 edges += [read] if read is not None else []
         root = Vertex(ROOT, name, tuple(facts), tuple(init), states, shape)
-        return ObjectClass(name, self._line(name)[1], {ROOT: root} | parts, tuple(edges))
+        return ObjectClass(name, self.line(name)[1], {ROOT: root} | parts, tuple(edges))
 
     def _part(self, owner: str, part: str, said: PartEntry) -> Vertex:
         self._check_name(part)
@@ -248,7 +252,7 @@ class Classes:
                 self.suggest(said.class_name),
                 "unknown-class",
             )
-        if self._line(said.class_name) and owner in self._line(said.class_name):
+        if self.line(said.class_name) and owner in self.line(said.class_name):
             raise self.source.error(
                 ("classes", owner, "parts", part), f"'{owner}' cannot be its own part", code="class-cycle"
             )

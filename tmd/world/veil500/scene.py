@@ -1,7 +1,7 @@
 """Rooms of VEIL-500 as environments that a robot's scene can be built of.
 
-The data set has positions of the middles of things and no sizes. What is built keeps what the honest rule reads from the
-positions (what is on or in what), and finds places of its own. What things look like is in ``scene.yaml`` of the sane
+The data set has positions of the middles of things, and no sizes. What is built keeps what the honest rule reads from
+them (what is on or in what), and finds places of its own. What things look like is in ``scene.yaml`` of the sane
 domain, by kind.
 """
 
@@ -33,9 +33,7 @@ _PART_STATES: dict[tuple[str, str], tuple[tuple[str, str, StateValue], ...]] = {
     ("fridge", "RightDoorIsOpen"): (("right_door", "opened", True),),
     ("sink", "TapIsOn"): (("tap", "active", True), ("knob", "set_to", "high")),
     ("tv", "IsOn"): (("", "active", True),),
-    **{
-        ("stove", f"StoveFire{k}"): ((f"fire_{k}", "active", True), (f"knob_{k}", "set_to", "on")) for k in range(1, 5)
-    },
+    **{("stove", f"StoveFire{k}"): ((f"fire_{k}", "active", True), (f"knob_{k}", "set_to", "on")) for k in range(1, 5)},
 }
 """What a state of a whole looks like: parts (empty: the whole) with a predicate and its value."""
 
@@ -59,9 +57,9 @@ class _XmlFile(YamlSource):
     def __init__(self, path: Path) -> None:
         self.path = path
 
-    def error(self, path: Sequence[str | int], message: str, hint: str | None = None) -> TmdError:
+    def error(self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "") -> TmdError:
         """The hint of a YAML file (other sizes, other places) is none for the data set."""
-        return TmdError(message, location=self.locate(path))
+        return TmdError(message, location=self.locate(path), code=code)
 
     def locate(self, path: Sequence[str | int]) -> Location:
         """The file."""
@@ -110,30 +108,51 @@ def scene_of(room: VeilEnvironment) -> VeilScene:
     """
     folder = SceneFolder(domain_path("sane").parent)
     problem = compile_environment(room, "sane")
-    places = {atom.args[0]: f"{atom.args[2]} {atom.args[1]}" for atom in sorted(problem.init) if atom.predicate == "at"}
+    at = {atom.args[0]: atom.args[1:] for atom in sorted(problem.init) if atom.predicate == "at"}
     remarks: list[str] = []
-    entries: dict[str, ObjectEntry] = {}
-    names: dict[str, str] = {}
-    for thing in room.objects:
-        if thing.parent is None:
-            entries[thing.pddl] = _entry(thing, folder.classes, places.get(thing.pddl), remarks)
-    for thing in room.objects:
-        if thing.parent is not None:
-            names[thing.pddl] = _part(thing, room.by_name[thing.parent], folder.classes, entries, remarks)
+    names = {
+        thing.pddl: _part(thing, room.by_name[thing.parent], folder.classes, remarks)
+        for thing in room.objects
+        if thing.parent is not None
+    }
+    entries = {
+        thing.pddl: _entry(
+            [thing, *(part for part in room.objects if part.parent == thing.name)],
+            folder.classes,
+            _place(at.get(thing.pddl), names),
+            remarks,
+        )
+        for thing in room.objects
+        if thing.parent is None
+    }
     about = f"VEIL-500, {room.world} {room.number}"
     environment = Environment(problem.name, folder.name, about, entries, (), _XmlFile(Path(room.path)), names)
     return VeilScene(environment, folder, problem, tuple(remarks))
 
 
-def _entry(thing: VeilObject, classes: Classes, place: str | None, remarks: list[str]) -> ObjectEntry:
+def _place(at: tuple[str, ...] | None, names: Mapping[str, str]) -> str | None:
+    """Where a thing is, in the words of an environment: ``on stove_fire_1``."""
+    return None if at is None else f"{at[1]} {names.get(at[0], at[0])}"
+
+
+def _kind(thing: VeilObject, classes: Classes) -> str:
+    """The class that says what a thing looks like."""
     kind = thing.kind.lower()
-    if kind not in classes.entries.classes:
-        kind = "item" if "IsGraspable" in thing.affordances else "fixture"
+    if kind in classes.entries.classes:
+        return kind
+    return "item" if "IsGraspable" in thing.affordances else "fixture"
+
+
+def _entry(things: Sequence[VeilObject], classes: Classes, place: str | None, remarks: list[str]) -> ObjectEntry:
+    """An object as an environment has it; ``things`` are the object and its parts."""
+    thing = things[0]
+    kind = _kind(thing, classes)
+    if kind != thing.kind.lower():
         remarks.append(f"{thing.pddl}: nobody said what such a thing looks like, so it is a plain {_plain(kind)}")
     item = classes.is_below(kind, "item")
     if item and place is None:
         remarks.append(f"{thing.pddl}: nothing is told of where it stands, so it is on the floor")
-    states, parts = _states(thing, kind, classes)
+    states, parts = _states(things, kind, classes)
     return ObjectEntry.model_validate(
         {"class": kind, "at": (place or "on floor") if item else None, "states": states, "parts": parts}
     )
@@ -144,28 +163,27 @@ def _plain(sort: str) -> str:
 
 
 def _states(
-    thing: VeilObject, kind: str, classes: Classes
+    things: Sequence[VeilObject], kind: str, classes: Classes
 ) -> tuple[dict[str, StateValue], dict[str, dict[str, StateValue]]]:
     """What is seen of an object's states: of itself, and of its parts."""
     known = classes.get(kind)
     states: dict[str, StateValue] = {}
     parts: dict[str, dict[str, StateValue]] = {}
-    for state, value in thing.states.items():
-        for part, predicate, seen in _PART_STATES.get((kind, state), ()) if value else ():
+    true = [state for thing in things for state, value in thing.states.items() if value]
+    for state in true:
+        for part, predicate, seen in _PART_STATES.get((kind, state), ()):
             if part in known.vertices:
                 parts.setdefault(part, {})[predicate] = seen
             elif not part:
                 states[predicate] = seen
     if "contains" in known.vertices["root"].states:
-        states["contains"] = [state.lower() for state in _CONTENTS if thing.states.get(state)]
+        states["contains"] = [state.lower() for state in _CONTENTS if state in true]
     return states, parts
 
 
-def _part(
-    thing: VeilObject, whole: VeilObject, classes: Classes, entries: Mapping[str, ObjectEntry], remarks: list[str]
-) -> str:
+def _part(thing: VeilObject, whole: VeilObject, classes: Classes, remarks: list[str]) -> str:
     """The name, in the scene, of the part that an object of the data set stands for; of its whole if there is none."""
-    vertices = classes.get(entries[whole.pddl].class_name).vertices
+    vertices = classes.get(_kind(whole, classes)).vertices
     said = _bare(thing.pddl).removeprefix(_bare(whole.pddl))
     part = next((name for name in vertices if _bare(name) == said), None)
     if part is None:

@@ -1,0 +1,70 @@
+"""``tmd scene``: what stands where, and from where it is taken."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import BLOCKS, Tmd
+from tests.veil500.conftest import write_small
+from tmd.errors import ExitCode
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+pytest.importorskip("PIL", reason="needs the extra robot")
+
+MINE = "name: mine\ndomain: kitchen\nobjects:\n  table1: {class: table}\n  mug1: {class: mug, at: on table1}\n"
+
+
+def test_what_stands_where(tmd: Tmd, tmp_path: Path) -> None:
+    from PIL import Image
+
+    (tmp_path / "mine.yaml").write_text(MINE)
+    ended = tmd("scene", "--environment", "mine.yaml", "--reach", "--picture", "room.png")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert re.fullmatch(
+        r"mine: 1 pieces of furniture, 1 things to carry\n"
+        r"  table1  table  at  \d\.\d\d +-?\d\.\d\d  0\.00  from \S+ \S+, facing -?\d+°\n"
+        r"  mug1    cup    at  \d\.\d\d +-?\d\.\d\d  0\.74  on table1, from \S+ \S+, facing -?\d+°, \w+ hand\n",
+        ended.out,
+    ), ended.out
+    with Image.open(tmp_path / "room.png") as picture:
+        assert picture.format == "PNG"
+
+
+def test_the_json(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "mine.yaml").write_text(MINE)
+    found = json.loads(tmd("scene", "--environment", "mine.yaml", "--json").out)
+    assert found["environment"] == "mine"
+    table, mug = found["objects"]
+    assert list(mug) == ["name", "kind", "item", "position", "at"]
+    assert (table["at"], mug["at"]) == (None, {"thing": "table1", "relation": "on"})
+
+
+def test_a_room_of_veil500(tmd: Tmd, tmp_path: Path) -> None:
+    write_small(tmp_path)
+    ended = tmd("scene", "--environment", "Environments/kitchen/kitchen2.xml")
+    assert ended.code == ExitCode.OK, ended.err
+    assert ended.out.startswith("kitchen2: 6 pieces of furniture, 12 things to carry\n")
+    assert re.search(r"^  mug_1 +cup +at .* on counter_1$", ended.out, re.MULTILINE)
+    assert "note: robinia_7: nobody said what such a thing looks like, so it is a plain counter\n" in ended.err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "told"),
+    [
+        (["--environment", "kitchen9"], ExitCode.BAD_INPUT, r"error: there is no environment 'kitchen9'"),
+        (["--environment", "none.yaml"], ExitCode.BAD_INPUT, r"error: none\.yaml"),
+        (["--environment", "none.xml"], ExitCode.BAD_DATA, r"error: .*none\.xml is no environment of VEIL-500"),
+        (["--environment", BLOCKS / "p01.pddl"], ExitCode.BAD_INPUT, r"error: .*no scene of it"),
+        (["--environment", "kitchen1", "--picture", "a.jpg"], ExitCode.USAGE, r"error: .*does not end in \.png"),
+        (["--environment", "kitchen1", "--picture", "no/a.png"], ExitCode.CANNOT_WRITE, r"error: no/a\.png cannot be"),
+    ],
+)
+def test_what_cannot_be_shown(tmd: Tmd, arguments: list[str | Path], code: ExitCode, told: str) -> None:
+    ended = tmd("scene", *arguments)
+    assert ended.code == code
+    assert re.match(told, ended.err), ended.err
+    assert ended.out == ""
