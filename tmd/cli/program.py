@@ -17,8 +17,10 @@ from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode
 
-COMMANDS = ("ground", "run", "check", "parse", "validate", "plan", "export", "compile", "data", "experiment")
+COMMANDS = ("ground", "run", "scene", "check", "parse", "validate", "plan", "export", "compile", "data", "experiment")
 """The sub-commands, in the order in which a newcomer meets them; each is the module of its name."""
+_MODULES = {"scene": "show_scene"}
+"""But for these."""
 
 
 class _Commands(click.Group):
@@ -30,7 +32,7 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(f"tmd.cli.{cmd_name}").command
+        command = import_module(f"tmd.cli.{_MODULES.get(cmd_name, cmd_name)}").command
         assert isinstance(command, click.Command)
         return command
 
