@@ -22,8 +22,10 @@ from tmd.energy.infer import Inference
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
+from tmd.errors import TmdError
 from tmd.language import parse
 from tmd.language.clause import Parsed
+from tmd.pddl.syntax import nearest
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import FAST_DOWNWARD_FIRST, IN_PROCESS, make
 from tmd.planning.result import Planner
@@ -76,6 +78,17 @@ MODELS: Mapping[str, Model] = {
 }
 """The models by name, ours first; they are the rows of the experiments that do not learn their weights."""
 DEFAULT = "stating"
+
+
+def make_model(name: str) -> Model:
+    """The model of that name.
+
+    Raises:
+        TmdError: There is none.
+    """
+    if name not in MODELS:
+        raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(MODELS), what="models"))
+    return MODELS[name]
 
 
 def ground(

@@ -5,11 +5,15 @@ Nothing heavy is imported before a command needs it: ``tmd --help`` is to be the
 
 from __future__ import annotations
 
+import os
 import sys
 
 
 def main() -> None:
     """Run ``tmd`` on the arguments of the process, and end it with the documented exit code."""
+    # its matrices are small: on busy processors the threads of BLAS wait for one another ten times as long as they work
+    for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+        os.environ.setdefault(variable, "1")
     from tmd.cli.program import run
 
     sys.exit(run(sys.argv[1:]))

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NoReturn
 
 import click
 
+from tmd.cli.learned import learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.cli.said import said, text_options
@@ -15,6 +16,8 @@ from tmd.errors import ExitCode, TmdError
 if TYPE_CHECKING:
     from tmd.energy.weights import Weights
 
+LEARNED = "learned"
+"""The weights that `tmd learn` saved."""
 MAX_WORDS = 1_000
 """Longer texts are refused: grounding takes time for every clause."""
 
@@ -30,7 +33,16 @@ MAX_WORDS = 1_000
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show.")
 @click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE.")
-@click.option("--weights", metavar="NAME|FILE", default="hand_set", show_default=True, help="The factors' weights.")
+@click.option(
+    "--model",
+    "model_name",
+    default="stating",
+    show_default=True,
+    metavar="NAME",
+    help="What is minimised: stating, generating, extended, or paper, which is the paper's as printed.",
+)
+@click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the model's own by default.")
+@learned_option
 @click.option(
     "--beam",
     type=click.IntRange(0),
@@ -51,29 +63,45 @@ def command(
     domain_name: str | None,
     top: int,
     planner: str | None,
-    weights: str,
+    model_name: str,
+    weights: str | None,
+    learned: Path | None,
     beam: int,
     trim: int | None,
     as_json: bool,
 ) -> ExitCode:
     """Ground what was said in an environment.
 
-    The templates come from the bundled demonstrations of the domain. Ends with 12 where no plan was found.
+    What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
+    the time. Ends with 12 where no plan was found.
     """
     from tmd.cli.remarks import remarks
     from tmd.cli.scene import frequent_verbs, load_scene, unknown_nouns
     from tmd.cli.show_plans import grounded_json, grounded_text
-    from tmd.ground import ground
+    from tmd.ground import ground, make_model
+    from tmd.learned.store import known
     from tmd.planning.backends import IN_PROCESS
-    from tmd.veil.library import learn
 
     spoken = short_enough(said(text, text_file))
-    factors = _weights(weights)
+    model = make_model(model_name)
+    factors = _weights(weights) if weights and weights != LEARNED else None
     corpus, world = load_scene(roots, environment, domain_name)
-    library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
+    knowledge = known(corpus, learned)
+    if weights == LEARNED:
+        factors = knowledge.weights or _no_weights(corpus.folder.name)
     grounded = ground(
-        spoken, world, library, factors, planner=planner or IN_PROCESS, beam=beam or None, trim=trim, top=top
+        spoken,
+        world,
+        knowledge.library,
+        factors,
+        reward=knowledge.reward,
+        model=model,
+        planner=planner or IN_PROCESS,
+        beam=beam or None,
+        trim=trim,
+        top=top,
     )
+    library = knowledge.library
     unknown = unknown_nouns(grounded.parsed.clauses, world)
     if as_json:
         emit_json(grounded_json(grounded, corpus.folder.name, world.name, unknown))
@@ -96,6 +124,13 @@ def short_enough(text: str) -> str:
             f"the text has {count:,} words; at most {MAX_WORDS:,} are grounded at once", hint="ground it in parts"
         )
     return text
+
+
+def _no_weights(domain: str) -> NoReturn:
+    raise TmdError(
+        f"there are no learned weights of '{domain}' that its demonstrations still bear out",
+        hint=f"run tmd learn {domain}",
+    )
 
 
 def _weights(given: str) -> Weights:

@@ -31,7 +31,7 @@ class Orders:
     remarks: tuple[str, ...] = ()
 
 
-def orders_of_text(text: str, corpus: Corpus, world: World, planner: str) -> Orders:
+def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learned: Path | None = None) -> Orders:
     """Ground a text, as ``tmd ground`` does with its usual options.
 
     Raises:
@@ -40,12 +40,12 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str) -> Ord
     from tmd.cli.remarks import remarks
     from tmd.cli.scene import frequent_verbs, unknown_nouns
     from tmd.ground import ground
-    from tmd.veil.library import learn
+    from tmd.learned.store import known
 
-    library = learn(corpus.demonstrations(), corpus.world, corpus.lexicon)
-    grounded = ground(text, world, library, planner=planner)
+    knowledge = known(corpus, learned)
+    grounded = ground(text, world, knowledge.library, reward=knowledge.reward, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
-    told = tuple(remarks(grounded, unknown, frequent_verbs(library)))
+    told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library)))
     if not any(verdict.valid for verdict in grounded.verdicts):
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told)
     clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]

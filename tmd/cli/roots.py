@@ -41,9 +41,10 @@ class Roots:
         Raises:
             TmdError: There is none, or it has no object graphs.
         """
-        from tmd.world.folder import DomainFolder, find_root
+        from tmd.world.folder import DomainFolder, find_roots
 
-        path = Path(name) if _is_path(name) else find_root("domains", self.domains) / name
+        roots = [] if _is_path(name) else find_roots("domains", self.domains)
+        path = next((root / name for root in roots if (root / name).is_dir()), Path(name))
         folder = DomainFolder(path.resolve() if name in (".", "..") else path)
         if not folder.instructions_path.is_file():
             self._nothing_to_compile(name)
@@ -63,9 +64,9 @@ class Roots:
             TmdError: There is no directory of problems.
         """
         from tmd.veil.corpus import Corpus
-        from tmd.world.folder import find_root
+        from tmd.world.folder import find_problems
 
-        return Corpus(folder, find_root("problems", self.problems) / folder.name)
+        return Corpus(folder, find_problems(folder.name, self.problems))
 
     def lexicon(self, name: str) -> Lexicon | None:
         """The words of a domain, if it has a file of them.
@@ -126,10 +127,13 @@ class Roots:
 
     def _bundled(self, name: str, domain: str | None) -> Path:
         from tmd.pddl.syntax import nearest
-        from tmd.world.folder import find_root
+        from tmd.world.folder import find_roots
 
-        root = find_root("problems", self.problems)
-        files = sorted(root.glob(f"{domain or '*'}/environments/*.yaml"))
+        places: dict[str, Path] = {}
+        for root in find_roots("problems", self.problems):
+            for directory in sorted(root.glob(f"{domain or '*'}/environments")):
+                places.setdefault(directory.parent.name, directory)
+        files = [f for _, d in sorted(places.items()) for f in sorted(d.iterdir()) if f.suffix in (".yaml", ".pddl")]
         found = [file for file in files if file.stem == name]
         if len(found) == 1:
             return found[0]

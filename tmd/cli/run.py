@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from tmd.cli.learned import learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode, OutputError, TmdError
@@ -37,6 +38,7 @@ class _File(click.Path):
     "--plan", "plan_file", type=click.Path(path_type=Path), metavar="FILE", help="Carry out this plan, not a text."
 )
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@learned_option
 @click.option("--planner", metavar="NAME", help="Fills gaps and mends plans; in-process by default.")
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="How often a plan is mended.")
 @click.option("--kinematic", is_flag=True, help="Move without physics: faster, and less is shown by it.")
@@ -60,6 +62,7 @@ def command(
     text_file: str | None,
     plan_file: Path | None,
     domain_name: str | None,
+    learned: Path | None,
     planner: str | None,
     repairs: int,
     kinematic: bool,
@@ -120,7 +123,7 @@ def command(
             )
         )  # fmt: skip
         if orders is None:
-            orders = orders_of_text(spoken or "", corpus, world, chosen)
+            orders = orders_of_text(spoken or "", corpus, world, chosen, learned)
         for line in orders.remarks:
             emit(line, error=True)
         asked: dict[str, object] = {

@@ -38,11 +38,11 @@ def load_scene(roots: Roots, environment: str, domain: str | None) -> tuple[Corp
 
 
 def _pddl(roots: Roots, path: Path, domain: str | None) -> tuple[Corpus, World]:
-    if domain is None:
+    if domain is None and path.parent.name != "environments":
         raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
-    corpus = roots.corpus(roots.folder(domain))
+    corpus = roots.corpus(roots.folder(domain or path.parent.parent.name))
     problem = read_problem(path, corpus.folder.domain)
-    return corpus, make_world(problem.name, problem, corpus.lexicon)
+    return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
 
 
 def unknown_nouns(clauses: Iterable[Clause], world: World) -> list[str]:

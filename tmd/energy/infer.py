@@ -19,6 +19,7 @@ from tmd.energy.plans import Choice, RankedPlan, Refusal, Step, why_lost
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Operator
+from tmd.planning.eliminate import eliminate
 from tmd.planning.result import Filled, GaveUp, Planner, Unreachable
 from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library
@@ -259,7 +260,7 @@ class Inference:
             answer = self.last_resort().fill(state, candidate.goal)
             if not isinstance(answer, Filled):
                 continue
-            made = self._made(candidate, answer.plan)
+            made = self._made(candidate, eliminate(answer.plan, self.world.task, state, candidate.goal))
             _extend(found, ways, *self._choice(number, clause, made, answer, state, _instructions(ways[0])))
 
     def _is_stated(self, found: dict[Bits, list[Path]]) -> bool:

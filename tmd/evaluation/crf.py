@@ -21,7 +21,7 @@ from tmd.energy.plans import RankedPlan
 from tmd.energy.statistics import Statistics, count
 from tmd.energy.weights import NAMES, OURS, Weights, named_weights
 from tmd.errors import TmdError
-from tmd.evaluation.dataset import Dataset, Example
+from tmd.evaluation.dataset import Example, Worlds
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
 from tmd.evaluation.tree import InstructionTree
@@ -30,6 +30,7 @@ from tmd.pddl.task import Bits, Cube
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.filler import QUICK
 from tmd.planning.result import Answer, Filled, Planner, Unreachable
+from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
 
@@ -51,14 +52,14 @@ class NoLatent:
         return Unreachable("it would need instructions that nobody said")
 
 
-_PLANNERS: WeakKeyDictionary[Dataset, dict[str, Planner]] = WeakKeyDictionary()
+_PLANNERS: WeakKeyDictionary[Worlds, dict[str, Planner]] = WeakKeyDictionary()
 """One planner for each environment of a data set: what one model has asked, no other has to ask again.
 
 Its searches are short: what people leave unsaid is, and a candidate that needs more is not the best one.
 """
 
 
-def planner_for(data: Dataset, environment: str) -> Planner:
+def planner_for(data: Worlds, environment: str) -> Planner:
     """The planner of an environment."""
     known = _PLANNERS.setdefault(data, {})
     if environment not in known:
@@ -144,7 +145,7 @@ class Crf:
         )
         return tuple(name for name in NAMES if name not in absent)
 
-    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+    def fit(self, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Self:
         """Build a library for each kind of world, and learn its weights."""
         self._prepare(examples, data)
         for world in self.libraries_ if self.learned else ():
@@ -153,7 +154,7 @@ class Crf:
             self.weights_[world] = self.learned_[world].weights
         return self
 
-    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Self:
+    def restore(self, examples: Sequence[Example], data: Worlds, saved: dict[str, Any]) -> Self:
         """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
 
         Raises:
@@ -181,19 +182,19 @@ class Crf:
             )
         return Learned(Weights(weights), curve)
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+    def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
         plans = self.plans(example, data, top=1)
         return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
 
-    def plans(self, example: Example, data: Dataset, *, top: int) -> tuple[RankedPlan, ...]:
+    def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
         """The best plans, cheapest first; none in a world that was not learned."""
         if example.world not in self.libraries_:
             return ()
         taught = _Taught(self.libraries_[example.world], self.statistics_[example.world], self.tree_)
         return self._plans(example, data, taught, self.weights_[example.world], top=top)
 
-    def _prepare(self, examples: Sequence[Example], data: Dataset) -> None:
+    def _prepare(self, examples: Sequence[Example], data: Worlds) -> None:
         self.libraries_ = libraries(examples, data)
         if not self.language:
             self.libraries_ = {world: whole(library) for world, library in self.libraries_.items()}
@@ -206,7 +207,7 @@ class Crf:
         mine = Weights({name: start[name] for name in self.factors})
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
-    def _learn(self, name: str, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Learned:
+    def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
         """Weights for one kind of world. A training example never sees what its own environment taught."""
         order = random.permutation(len(examples))[: self.most_examples]
         chosen = [examples[int(i)] for i in sorted(order)]
@@ -226,7 +227,7 @@ class Crf:
             propose, len(chosen), start, random, factors=self.factors, rounds=self.rounds, journal=journal
         )
 
-    def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Dataset) -> _Taught:
+    def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Worlds) -> _Taught:
         """What the other examples teach."""
         others = [e for e in examples if e.demonstration.id not in group]
         library = self.libraries_[name].filtered(lambda template: template.source not in group)
@@ -234,7 +235,7 @@ class Crf:
             library = whole(library)
         return _Taught(library, count(library), self._policy(others, data))
 
-    def _policy(self, examples: Sequence[Example], data: Dataset) -> InstructionTree | None:
+    def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
         # its own seed: a model that is restored has the same policy
         random = np.random.default_rng(0)
         return InstructionTree(grounded=True).fit(examples, data, random) if self.generate else None
@@ -242,7 +243,7 @@ class Crf:
     def _plans(
         self,
         example: Example,
-        data: Dataset,
+        data: Worlds,
         taught: _Taught,
         weights: Weights,
         *,
@@ -260,7 +261,7 @@ class Crf:
     def _infer(
         self,
         example: Example,
-        data: Dataset,
+        data: Worlds,
         taught: _Taught,
         weights: Weights,
         *,
@@ -282,7 +283,7 @@ class Crf:
         )
         return inference.infer(self._clauses(example, data), world.task.init).plans
 
-    def _clauses(self, example: Example, data: Dataset) -> Sequence[Clause]:
+    def _clauses(self, example: Example, data: Worlds) -> Sequence[Clause]:
         if not self.language:
             return [Clause("")] * self.steps_[example.world]
         return parse(example.demonstration.text, data.lexicon).clauses
@@ -324,7 +325,7 @@ def loss(plan: RankedPlan, example: Example, world: World) -> float:
     return 1 - (ied(plan.instructions, example.gold) / 100 + same) / 2
 
 
-def libraries(examples: Sequence[Example], data: Dataset) -> dict[str, Library]:
+def libraries(examples: Sequence[Example], data: Worlds) -> dict[str, Library]:
     """A library for each kind of world."""
     return {
         world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
@@ -351,3 +352,14 @@ ROWS: dict[str, Callable[[], Crf]] = {
     "extended_hand_set": partial(Crf, learned=False, extended=True, start="hand_set"),
 }
 """The model of the paper, its ablations, and our variants."""
+
+
+def weights_of(corpus: Corpus, random: np.random.Generator) -> Learned:
+    """Weights for the model ``stating``, learned on all demonstrations of a domain.
+
+    Raises:
+        TmdError: A demonstration is wrong.
+    """
+    name = corpus.folder.name
+    examples = [Example(d.id, d.task, name, d.environment, 0, d) for d in corpus.demonstrations()]
+    return ROWS["stating_learned"]().fit(examples, corpus, random).learned_[name]

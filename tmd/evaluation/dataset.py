@@ -20,7 +20,7 @@ from tmd.pddl.syntax import nearest
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World, make_world
-from tmd.world.folder import find_domain, find_root
+from tmd.world.folder import find_domain, find_problems
 
 ALL = "all"
 """The task that stands for every task."""
@@ -52,7 +52,20 @@ class Example:
         return self.demonstration.instructions
 
 
-class Dataset(Protocol):
+class Worlds(Protocol):
+    """What a model needs to learn from examples and to predict: the worlds they were made in, and the words."""
+
+    @property
+    def lexicon(self) -> Lexicon:
+        """The words of the domain."""
+        ...
+
+    def world(self, environment: str) -> World:
+        """The environment, as planning sees it."""
+        ...
+
+
+class Dataset(Worlds, Protocol):
     """Examples, and the worlds they were made in."""
 
     @property
@@ -67,15 +80,6 @@ class Dataset(Protocol):
 
     def trained_with(self, task: str) -> frozenset[str]:
         """The tasks that ``task`` is trained with under the protocol of the data, itself among them."""
-        ...
-
-    @property
-    def lexicon(self) -> Lexicon:
-        """The words of the domain."""
-        ...
-
-    def world(self, environment: str) -> World:
-        """The environment, as planning sees it."""
         ...
 
     def scorer(self, environment: str) -> Scorer:
@@ -108,7 +112,7 @@ class BundledData:
         self, task: str, domain: str = "kitchen", domains: Path | None = None, problems: Path | None = None
     ) -> None:
         folder = find_domain(domain, domains)
-        self.corpus = Corpus(folder, find_root("problems", problems) / domain)
+        self.corpus = Corpus(folder, find_problems(domain, problems))
         known = self.corpus.tasks()
         tested = frozenset(known) if task == ALL else frozenset({d.task for d in self.corpus.demonstrations(task)})
         self._groups = read_protocol(self.corpus.directory / FILE, known)

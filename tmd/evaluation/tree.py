@@ -7,7 +7,7 @@ from typing import Self
 
 import numpy as np
 
-from tmd.evaluation.dataset import Dataset, Example
+from tmd.evaluation.dataset import Example, Worlds
 from tmd.evaluation.prediction import Prediction, by_clause
 from tmd.language import Clause, parse
 from tmd.pddl.model import Instruction
@@ -59,7 +59,7 @@ class InstructionTree:
         self.ridge = ridge
         self.grounded = grounded
 
-    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+    def fit(self, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Self:
         """Learn constraints, features and weights for each kind of world."""
         self._policies: dict[str, Policy] = {}
         self.rewards_: dict[str, Reward] = {}
@@ -77,7 +77,7 @@ class InstructionTree:
             )
         return self
 
-    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+    def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
         """The sequence of the greatest reward for each clause, one clause after the other."""
         policy = self.policy(example.environment, example.world, data)
         if policy is None:
@@ -90,7 +90,7 @@ class InstructionTree:
             earlier.append(clause)
         return by_clause(served)
 
-    def policy(self, environment: str, world: str, data: Dataset) -> Policy | None:
+    def policy(self, environment: str, world: str, data: Worlds) -> Policy | None:
         """What was learned, ready for one environment; ``None`` in a kind of world that training did not have."""
         reward = self.rewards_.get(world)
         if reward is None:

@@ -1,7 +1,7 @@
 """Leaving out of a plan what it does not need (action elimination, Fink and Yang 1992).
 
 The first plan that a satisficing search finds makes detours. Each instruction in turn is left out, with all later ones
-that can then not be executed; where the goal is reached nevertheless, they stay out. Quadratic in the length of the plan.
+that can then not be executed; where the goal is reached nevertheless, they stay out.
 """
 
 from __future__ import annotations

@@ -7,6 +7,8 @@ from pathlib import Path
 
 from tmd.errors import TmdError
 from tmd.language.lexicon import Lexicon
+from tmd.pddl.model import Problem
+from tmd.pddl.reader import read_problem
 from tmd.pddl.syntax import nearest
 from tmd.veil.demonstration import Demonstration, read_demonstrations
 from tmd.veil.replay import check_executable
@@ -17,7 +19,9 @@ from tmd.world.folder import DomainFolder
 
 
 class Corpus:
-    """What lies in ``<problems>/<domain>/``: ``environments/*.yaml`` and ``<task>/demonstrations.jsonl``.
+    """What lies in ``<problems>/<domain>/``: ``environments/`` and ``<task>/demonstrations.jsonl``.
+
+    An environment is a YAML file, or, in a domain without object graphs, a PDDL problem whose goal is not looked at.
 
     Args:
         folder: The domain.
@@ -38,7 +42,7 @@ class Corpus:
 
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""
-        return sorted(path.stem for path in (self.directory / "environments").glob("*.yaml"))
+        return sorted(self._files)
 
     def world(self, name: str) -> World:
         """The environment ``name``, ground; made once.
@@ -47,15 +51,24 @@ class Corpus:
             TmdError: There is none, or it is wrong.
         """
         if name not in self._worlds:
-            path = self.directory / "environments" / f"{name}.yaml"
-            if name not in self.environments():
+            if name not in self._files:
                 raise TmdError(
-                    f"there is no environment '{name}' in {path.parent}",
+                    f"there is no environment '{name}' in {self.directory / 'environments'}",
                     hint=nearest(name, self.environments()),
                 )
-            problem = compile_problem(load_environment(path), self.folder)
-            self._worlds[name] = make_world(name, problem, self.lexicon)
+            self._worlds[name] = make_world(name, self._problem(self._files[name]), self.lexicon)
         return self._worlds[name]
+
+    @cached_property
+    def _files(self) -> dict[str, Path]:
+        """The file of each environment; the YAML where there are both."""
+        directory = self.directory / "environments"
+        return {path.stem: path for suffix in ("pddl", "yaml") for path in sorted(directory.glob(f"*.{suffix}"))}
+
+    def _problem(self, path: Path) -> Problem:
+        if path.suffix == ".pddl":
+            return read_problem(path, self.folder.domain)
+        return compile_problem(load_environment(path), self.folder)
 
     def tasks(self) -> list[str]:
         """The tasks there are demonstrations of, sorted."""

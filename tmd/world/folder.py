@@ -67,11 +67,11 @@ class DomainFolder:
         return path if path.is_file() else None
 
 
-def find_root(kind: str, given: Path | None = None) -> Path:
-    """The directory of all ``domains`` or all ``problems``.
+def find_roots(kind: str, given: Path | None = None) -> list[Path]:
+    """The directories of ``domains`` or ``problems``, the first to be asked first.
 
-    The first of: ``given``, ``./<kind>``, the copy in the installed package, the copy beside the package (a
-    checkout).
+    ``given`` alone; or ``./<kind>``, the copy in the installed package, the copy beside the package (a checkout), as
+    far as they are there.
 
     Raises:
         TmdError: There is none.
@@ -79,23 +79,46 @@ def find_root(kind: str, given: Path | None = None) -> Path:
     if given is not None:
         if not given.is_dir():
             raise TmdError(f"{given}: no such directory", hint=f"--{kind} takes the directory of all {kind}")
-        return given
-    for candidate in (Path(kind), _PACKAGE / "bundled" / kind, _PACKAGE.parent / kind):
+        return [given]
+    candidates = (Path(kind), _PACKAGE / "bundled" / kind, _PACKAGE.parent / kind)
+    found: dict[Path, Path] = {}
+    for candidate in candidates:
         if candidate.is_dir():
-            return candidate
-    raise TmdError(f"there is no directory of {kind}", hint=f"give one with --{kind} DIR")
+            found.setdefault(candidate.resolve(), candidate)
+    if not found:
+        raise TmdError(f"there is no directory of {kind}", hint=f"give one with --{kind} DIR")
+    return list(found.values())
+
+
+def find_root(kind: str, given: Path | None = None) -> Path:
+    """The first of :func:`find_roots`.
+
+    Raises:
+        TmdError: There is none.
+    """
+    return find_roots(kind, given)[0]
 
 
 def find_domain(name: str, domains: Path | None = None) -> DomainFolder:
-    """The folder of domain ``name``.
+    """The folder of domain ``name``: your own hides a bundled one of the same name.
 
     Raises:
         TmdError: There is none; the hint names the nearest.
     """
-    root = find_root("domains", domains)
-    path = root / name
-    if Path(name).name != name or not (path / "domain.pddl").is_file():
-        known = sorted(p.parent.name for p in root.glob("*/domain.pddl"))
-        hint = nearest(name, known) or f"there are {', '.join(known) or 'none'} in {root}"
+    roots = find_roots("domains", domains)
+    found = [root / name for root in roots if (root / name / "domain.pddl").is_file()]
+    if Path(name).name != name or not found:
+        known = sorted({p.parent.name for root in roots for p in root.glob("*/domain.pddl")})
+        hint = nearest(name, known) or f"there are {', '.join(known) or 'none'} in {', '.join(map(str, roots))}"
         raise TmdError(f"there is no domain '{name}'", hint=hint)
-    return DomainFolder(path)
+    return DomainFolder(found[0])
+
+
+def find_problems(name: str, problems: Path | None = None) -> Path:
+    """The directory ``<problems>/<name>`` of a domain: the first there is, or else where it would be.
+
+    Raises:
+        TmdError: There is no directory of problems.
+    """
+    roots = find_roots("problems", problems)
+    return next((root / name for root in roots if (root / name).is_dir()), roots[0] / name)

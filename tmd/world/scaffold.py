@@ -1,0 +1,104 @@
+"""A new domain, begun as a copy of a bundled one under a new name: folder, environments, problem, demonstrations.
+
+The copy answers at once, so that its author changes what works, a line at a time. Environments are called after the
+new domain (``yard1`` becomes ``mine1``), so that their names are its own.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from tmd.atomic import make_directory, write_text
+from tmd.errors import OutputError, TmdError
+from tmd.pddl.syntax import nearest, read_text
+from tmd.world.classes import NAME
+from tmd.world.folder import find_domain, find_problems
+
+STARTS: Mapping[str, str] = {"plain": "01_blocks", "graph": "03_drawer"}
+"""What a new domain can be begun from: plain PDDL, or classes with parts."""
+_SUFFIXES = (".pddl", ".yaml", ".jsonl", ".nl")
+_DOMAIN_NAME = re.compile(r"\(define\s+\(domain\s+([^\s()]+)\s*\)")
+
+
+@dataclass(frozen=True, slots=True)
+class Scaffold:
+    """What was made.
+
+    Attributes:
+        folder: The domain's folder.
+        problems: The folder of its environments, problems and demonstrations.
+        files: Every file, in the order of their names.
+        environments: The names of its environments.
+        task: The name of the folder of its demonstrations.
+    """
+
+    folder: Path
+    problems: Path
+    files: tuple[Path, ...]
+    environments: tuple[str, ...]
+    task: str
+
+
+def scaffold(name: str, start: str, domains: Path, problems: Path) -> Scaffold:
+    """Begin the domain ``name`` in ``domains/name`` and ``problems/name``.
+
+    Args:
+        name: Lower-case letters, digits and ``_``.
+        start: One of :data:`STARTS`.
+        domains: The directory of all domains; made if it is not there.
+        problems: The directory of all problems; likewise.
+
+    Raises:
+        TmdError: The name or the start is none, or a domain of that name is there already.
+        OutputError: It cannot be written; what was there is as it was.
+    """
+    _check(name, start)
+    folder, place = domains / name, problems / name
+    for path in (folder, place):
+        if path.exists() or path.is_symlink():
+            raise OutputError(f"{path} is there already; nothing was changed", hint="choose another name, or remove it")
+    texts = _texts(name, start, folder, place)
+    for path in sorted(texts):
+        make_directory(path.parent)
+        write_text(path, texts[path])
+    environments = sorted(path.stem for path in texts if path.parent == place / "environments")
+    task = next(path.parent.name for path in texts if path.suffix == ".jsonl")
+    return Scaffold(folder, place, tuple(sorted(texts)), tuple(environments), task)
+
+
+def _check(name: str, start: str) -> None:
+    if not re.fullmatch(NAME, name):
+        raise TmdError(
+            f"'{name}' cannot name a domain", hint="use lower-case letters, digits and _; begin with a letter"
+        )
+    if start not in STARTS:
+        raise TmdError(f"a domain cannot be begun from '{start}'", hint=nearest(start, list(STARTS), what="starts"))
+
+
+def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
+    """What every file of the copy holds."""
+    source = find_domain(STARTS[start])
+    shown = find_problems(STARTS[start])
+    own = _DOMAIN_NAME.search(read_text(source.path / "domain.pddl"))
+    environments = sorted(path.stem for path in (shown / "environments").iterdir())
+    words = {environment: name + environment.lstrip("abcdefghijklmnopqrstuvwxyz_") for environment in environments}
+
+    def renamed(text: str) -> str:
+        text = (
+            re.sub(rf"\(domain {own[1]}\)|\(:domain {own[1]}\)", lambda m: m[0].replace(own[1], name), text)
+            if own
+            else text
+        )
+        text = re.sub(rf"^domain: {STARTS[start]}$", f"domain: {name}", text, flags=re.MULTILINE)
+        return re.sub("|".join(rf"(?<![a-z]){e}\b" for e in words), lambda m: words[m[0]], text)
+
+    found = {folder / path.name: renamed(read_text(path)) for path in source.path.iterdir() if path.suffix in _SUFFIXES}
+    for path in shown.rglob("*"):
+        relative = path.relative_to(shown)
+        if path.suffix in _SUFFIXES and "learned" not in relative.parts:
+            found[place / renamed(str(relative))] = renamed(read_text(path))
+    found[folder / "README.md"] = f"# {name}\n\nSay here what this domain is about, and what it leaves out.\n"
+    return found
