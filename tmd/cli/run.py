@@ -106,6 +106,11 @@ def command(
             f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
             hint="give an environment (YAML)",
         )
+    if path.suffix == ".xml":
+        raise TmdError(
+            f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
+            hint="tmd scene shows the room",
+        )
     for output in (video, strip, log):
         _check_writable(output)
     corpus, world = load_scene(roots, environment, domain_name)
