@@ -52,7 +52,7 @@ def run_tmd(
 
 
 @pytest.fixture
-def tmd(tmp_path: Path) -> Tmd:
+def tmd(tmp_path: Path, learned: Path) -> Tmd:
     """``tmd("parse", "--text", "…")`` in an empty directory, with this checkout's domains and problems."""
     return lambda *arguments, **options: run_tmd(arguments, tmp_path, **options)
 
