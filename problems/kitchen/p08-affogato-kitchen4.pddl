@@ -365,7 +365,7 @@
   )
 
   (:goal (and
-        (contains cup1 coffee)
-        (contains cup1 chocolate_ice_cream)
-        (contains cup1 raspberry_syrup)))
+    (contains cup1 coffee)
+    (contains cup1 chocolate_ice_cream)
+    (contains cup1 raspberry_syrup)))
 )

@@ -302,8 +302,8 @@
   )
 
   (:goal (and
-        (at toy1 basket1 in)
-        (at toy2 basket1 in)
-        (at wrapper1 bin1 in)
-        (not (opened bin1_lid))))
+    (at toy1 basket1 in)
+    (at toy2 basket1 in)
+    (at wrapper1 bin1 in)
+    (not (opened bin1_lid))))
 )

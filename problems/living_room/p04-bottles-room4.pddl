@@ -429,9 +429,9 @@
   )
 
   (:goal (and
-        (at beer_bottle1 garbage_sack1 in)
-        (at beer_bottle2 garbage_sack1 in)
-        (at garbage_sack1 bin1 in)
-        (not (opened garbage_sack1))
-        (not (active tv1))))
+    (at beer_bottle1 garbage_sack1 in)
+    (at beer_bottle2 garbage_sack1 in)
+    (at garbage_sack1 bin1 in)
+    (not (opened garbage_sack1))
+    (not (active tv1))))
 )

@@ -449,9 +449,9 @@
   )
 
   (:goal (and
-        (at dvd1 console1 in)
-        (active tv1)
-        (set_to tv1_speaker medium)
-        (opened soda_tin1)
-        (at soda_tin1 snack_table1 on)))
+    (at dvd1 console1 in)
+    (active tv1)
+    (set_to tv1_speaker medium)
+    (opened soda_tin1)
+    (at soda_tin1 snack_table1 on)))
 )

@@ -66,13 +66,12 @@ class Checker:
         Raises:
             TmdError: There is nothing at ``path``.
         """
-        if not path.exists():
-            raise TmdError(f"{path}: no such file or directory")
+        files = files_of(path)
         if not path.is_dir():
             self.check_file(path)
             return
         inside = path.resolve()
-        for file in _files(path):
+        for file in files:
             if file.is_symlink() and not file.resolve().is_relative_to(inside):
                 place = Location(str(file), 1, 1)
                 hint = "put the file itself there"
@@ -205,6 +204,17 @@ def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:
         for fault in checked.faults
         if fault.code != "unused-predicate" or fault.message.split('"')[1] not in words
     ]
+
+
+def files_of(path: Path) -> list[Path]:
+    """``path``, or the files of a directory that are checked, what others need before the others.
+
+    Raises:
+        TmdError: There is nothing there.
+    """
+    if not path.exists():
+        raise TmdError(f"{path}: no such file or directory", hint="name a file, a folder or a bundled domain")
+    return list(_files(path)) if path.is_dir() else [path]
 
 
 def _files(directory: Path) -> Iterator[Path]:
