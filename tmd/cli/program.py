@@ -17,7 +17,20 @@ from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode
 
-COMMANDS = ("ground", "run", "scene", "check", "parse", "validate", "plan", "export", "compile", "data", "experiment")
+COMMANDS = (
+    "ground",
+    "run",
+    "scene",
+    "check",
+    "fmt",
+    "parse",
+    "validate",
+    "plan",
+    "export",
+    "compile",
+    "data",
+    "experiment",
+)
 """The sub-commands, in the order in which a newcomer meets them; each is the module of its name."""
 _MODULES = {"scene": "show_scene"}
 """But for these."""
