@@ -2,6 +2,8 @@
 
 An example is a ``console`` block after a ``<!-- tested -->`` line; its commands must print what stands below them.
 A block after ``<!-- file: NAME -->`` is a file that the examples of its page find in their working directory.
+Blocks after ``<!-- tested: one after another -->`` are a walk: the commands of the page run in one directory, which is
+empty at first, and a block after ``<!-- write: PATH -->`` writes that file when its turn comes.
 ``python tests/test_docs.py`` runs the examples and writes their output into the pages anew.
 """
 
@@ -19,6 +21,11 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[1]
 _BLOCK = re.compile(r"(?<=<!-- tested -->\n```console\n).*?(?=^```$)", re.MULTILINE | re.DOTALL)
+_WALK = re.compile(
+    r"<!-- tested: one after another -->\n```console\n(?P<console>.*?)^```$"
+    r"|<!-- write: (?P<path>[\w./]+) -->\n```\w*\n(?P<content>.*?)^```$",
+    re.MULTILINE | re.DOTALL,
+)
 _FILE = re.compile(r"<!-- file: ([\w.]+) -->\n```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
@@ -56,8 +63,12 @@ def executed(page: Path, command: str, directory: Path) -> str:
         (directory / name).symlink_to(ROOT / name)
     for name, content in _FILE.findall(page.read_text(encoding="utf-8")):
         (directory / name).write_text(content, encoding="utf-8")
-    tmd = directory / "bin" / "tmd"
-    tmd.parent.mkdir()
+    return _printed(command, directory, directory / "bin")
+
+
+def _printed(command: str, directory: Path, programs: Path) -> str:
+    tmd = programs / "tmd"
+    programs.mkdir(exist_ok=True)
     tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tmd "$@"\n', encoding="utf-8")
     tmd.chmod(0o755)
     environment = os.environ | {
@@ -78,11 +89,38 @@ def executed(page: Path, command: str, directory: Path) -> str:
     return done.stdout.decode("utf-8")
 
 
+def walked(page: Path, directory: Path) -> str:
+    """The page as it would be if every walk printed what it prints now."""
+    text, place, found = page.read_text(encoding="utf-8"), 0, ""
+    (directory / "here").mkdir()
+    for step in _WALK.finditer(text):
+        if step["path"]:
+            path = directory / "here" / step["path"]
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(step["content"], encoding="utf-8")
+            continue
+        found += text[place : step.start("console")]
+        for command, _ in _commands(step["console"]):
+            found += f"$ {command}\n{_printed(command, directory / 'here', directory / 'bin')}"
+        place = step.end("console")
+    return found + text[place:]
+
+
+WALKS = [page for page in pages() if "<!-- tested: one after another -->" in page.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("page", WALKS, ids=lambda page: page.name)
+def test_a_walk_goes_as_the_page_says(page: Path, tmp_path: Path, learned: Path) -> None:
+    assert walked(page, tmp_path) == page.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize(
     ("page", "command", "output"),
     [pytest.param(*example, id=f"{example[0].name}-{example[1][:40]}") for example in examples()],
 )
-def test_example_prints_what_the_page_shows(page: Path, command: str, output: str, tmp_path: Path) -> None:
+def test_example_prints_what_the_page_shows(
+    page: Path, command: str, output: str, tmp_path: Path, learned: Path
+) -> None:
     assert executed(page, command, tmp_path) == output
 
 
@@ -120,6 +158,9 @@ def rewrite() -> None:
     for page in pages():
         text = page.read_text(encoding="utf-8")
         page.write_text(_BLOCK.sub(lambda block, page=page: _again(page, block[0]), text), encoding="utf-8")
+    for page in WALKS:
+        with tempfile.TemporaryDirectory() as directory:
+            page.write_text(walked(page, Path(directory)), encoding="utf-8")
 
 
 def _again(page: Path, block: str) -> str:
