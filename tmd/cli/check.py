@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -13,26 +14,34 @@ from tmd.errors import ExitCode
 
 if TYPE_CHECKING:
     from tmd.check.diagnostic import Diagnostic
+    from tmd.check.run import Checker
 
 
 @click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Let warnings count as errors.")
+@click.option("--fix", is_flag=True, help="Mend what is mechanical, then check again.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
-def command(roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bool, as_json: bool) -> ExitCode:
+def command(
+    roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bool, fix: bool, as_json: bool
+) -> ExitCode:
     """Check files and folders, and tell every problem with its place and what to do.
 
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
     """
     from tmd.check.codes import Severity
-    from tmd.check.run import Checker
 
-    checker = Checker(roots.domains, roots.pddl_file(domain) if domain else None, roots.problems)
-    for name in paths:
-        checker.check(roots.path(name))
-    checker.finish()
+    given = roots.pddl_file(domain) if domain else None
+    checker = _checked(roots, paths, given)
+    fixed: list[Path] = []
+    for _ in range(_MOST_ROUNDS if fix else 0):
+        mended = _mend(checker)
+        if not mended:
+            break
+        fixed += [file for file in mended if file not in fixed]
+        checker = _checked(roots, paths, given)
     found = checker.findings.sorted()
     errors = sum(d.severity is Severity.ERROR for d in found)
     warnings = len(found) - errors
@@ -42,13 +51,49 @@ def command(roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bo
                 "files": len(checker.files),
                 "errors": errors,
                 "warnings": warnings,
+                "fixed": [str(file) for file in fixed],
                 "diagnostics": [_json(diagnostic) for diagnostic in found],
             }
         )
     else:
         emit("".join(_text(diagnostic) for diagnostic in found))
+        emit("".join(f"{file}: mended\n" for file in fixed))
         emit(f"{len(checker.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
     return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
+
+
+_MOST_ROUNDS = 4
+"""Mending one thing may bring another to light."""
+
+
+def _checked(roots: Roots, paths: tuple[str, ...], domain: Path | None) -> Checker:
+    from tmd.check.find import domains_in
+    from tmd.check.run import Checker
+
+    domains_in.cache_clear()
+    checker = Checker(roots.domains, domain, roots.problems)
+    for name in paths:
+        checker.check(roots.path(name))
+    checker.finish()
+    return checker
+
+
+def _mend(checker: Checker) -> list[Path]:
+    """Mend the files that were checked, each written whole; the files that changed."""
+    from tmd.atomic import write_text
+    from tmd.check.fix import FIXABLE, fix_file
+
+    by_file: dict[Path, list[Diagnostic]] = {}
+    for diagnostic in checker.findings.sorted():
+        if diagnostic.code in FIXABLE:
+            by_file.setdefault(Path(diagnostic.location.file), []).append(diagnostic)
+    changed = []
+    for file, diagnostics in sorted(by_file.items()):
+        text = fix_file(file, diagnostics)
+        if text is not None:
+            write_text(file, text)
+            changed.append(file)
+    return changed
 
 
 def _text(diagnostic: Diagnostic) -> str:
