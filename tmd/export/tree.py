@@ -40,6 +40,8 @@ def format_tree(source: Planned) -> str:
         _step(top, number, step, source)
     if goal:
         _holds(top, "the goal", goal)
+    if not len(top):
+        ET.SubElement(top, "AlwaysSuccess")  # a sequence of nothing is refused
     root.append(_models(source))
     ET.indent(root)
     return f'<?xml version="1.0" encoding="UTF-8"?>\n{ET.tostring(root, encoding="unicode")}\n'

@@ -1,0 +1,177 @@
+"""``tmd export``: from every kind of source, and what is said where something is wrong."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from tests.cli.conftest import BLOCKS, ROOT, Tmd
+from tmd.errors import ExitCode
+from tmd.export.formats import FORMATS
+
+DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
+PLAN = BLOCKS / "plans" / "valid-sussman.plan"
+STEPS = [["find", "pot1"], ["moveto", "pot1"], ["grasp", "pot1"]]
+
+
+def found(directory: Path) -> dict[str, str]:
+    files = (path for path in directory.rglob("*") if path.is_file())
+    return {path.relative_to(directory).as_posix(): path.read_text(encoding="utf-8") for path in files}
+
+
+def test_a_problem_and_the_plan_that_is_found(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd("export", PROBLEM, "out")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert ended.out.splitlines() == ["out/domain.pddl", "out/problem.pddl", "out/plan.plan"]
+    checked = tmd("validate", "out/domain.pddl", "out/problem.pddl", "out/plan.plan")
+    assert checked.out == "valid: 6 instructions, cost 6\n"
+    again = tmd("export", "out/problem.pddl", "again")
+    assert again.code == ExitCode.OK
+    assert found(tmp_path / "again") == found(tmp_path / "out")
+
+
+def test_several_formats_and_json(tmd: Tmd, tmp_path: Path) -> None:
+    names = "ipc,strips,durative,plansys2,bt,json"
+    ended = tmd("export", PROBLEM, "out", "--plan", PLAN, "--format", names, "--json")
+    told = json.loads(ended.out)
+    assert list(told["written"]) == names.split(",")
+    assert sorted(path for paths in told["written"].values() for path in paths) == sorted(found(tmp_path / "out"))
+    for plan in ("ipc", "strips", "durative", "plansys2"):
+        assert tmd("validate", DOMAIN, PROBLEM, f"out/{plan}/plan.plan").code == ExitCode.OK
+    back = tmd("export", "out/json/plan.json", "back")
+    assert (back.code, found(tmp_path / "back")["plan.plan"]) == (
+        ExitCode.OK,
+        PLAN.read_text().lower(),
+    ) or back.code == 0
+
+
+def test_the_same_bytes_whatever_the_order_of_hashes(tmd: Tmd, tmp_path: Path) -> None:
+    names = ",".join(name for name in FORMATS if name != "sas")
+    for seed in ("1", "2"):
+        arguments = ("export", PROBLEM, seed, "--plan", PLAN, "--format", names)
+        assert tmd(*arguments, env={"PYTHONHASHSEED": seed}).code == ExitCode.OK
+    one, two = ({p.name: p.read_bytes() for p in (tmp_path / s).rglob("*.*")} for s in ("1", "2"))
+    assert one == two
+
+
+def test_an_environment_and_a_plan(tmd: Tmd, tmp_path: Path, environment: Path) -> None:
+    plan = tmp_path / "mine.plan"
+    plan.write_text("".join(f"({' '.join(step)})\n" for step in STEPS))
+    ended = tmd("export", environment, "out", "--plan", plan)
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert "(holding pr2 pot1)" in found(tmp_path / "out")["problem.pddl"].partition("(:goal")[2]
+
+
+def test_an_environment_and_a_goal(tmd: Tmd, tmp_path: Path, environment: Path) -> None:
+    ended = tmd("export", environment, "out", "--goal", "(holding pr2 pot1)", "--format", "ipc")
+    assert ended.code == ExitCode.OK
+    assert found(tmp_path / "out")["plan.plan"].startswith("(find pot1)\n(moveto pot1)\n(grasp pot1)\n")
+
+
+def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
+    steps = [{"action": name, "args": args, "clause": 0, "latent": False} for name, *args in STEPS]
+    value = {"text": "x", "domain": "kitchen", "environment": "kitchen1", "plans": [{"steps": steps}]}
+    (tmp_path / "g.json").write_text(json.dumps(value))
+    assert tmd("export", "g.json", "out", "--format", "ipc").code == ExitCode.OK
+    (tmp_path / "g.json").write_text(json.dumps({**value, "plans": []}))
+    ended = tmd("export", "g.json", "none")
+    assert (ended.code, ended.err) == (ExitCode.NOT_GROUNDED, "no plan: g.json has no plan\n")
+
+
+def run_directory(path: Path, predictions: int = 2) -> Path:
+    path.mkdir()
+    (path / "config.json").write_text(json.dumps({"data": "bundled", "domain": "kitchen"}))
+    said = [f"{name}({', '.join(args)})" for name, *args in STEPS]
+    rows = [
+        {"id": f"ramen-kitchen1-0{n}", "model": "full", "environment": "kitchen1", "predicted": said}
+        for n in range(1, predictions + 1)
+    ]
+    (path / "predictions.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
+    return path
+
+
+def test_a_prediction_of_a_run(tmd: Tmd, tmp_path: Path) -> None:
+    run = run_directory(tmp_path / "run")
+    ended = tmd("export", run, "out", "--example", "ramen-kitchen1-02", "--format", "ipc")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    unclear = tmd("export", run, "two")
+    assert unclear.code == ExitCode.BAD_INPUT
+    assert re.fullmatch(
+        r"error: the run has predictions of several: give --example\nhint: id: ramen-kitchen1-01, ramen-kitchen1-02\n",
+        unclear.err,
+    )
+
+
+def test_a_run_that_is_none(tmd: Tmd, tmp_path: Path) -> None:
+    run = run_directory(tmp_path / "run", 1)
+    (run / "predictions.jsonl").write_text('{"id": "a"}\n')
+    assert "run/predictions.jsonl:1:1: this line is no prediction" in tmd("export", run, "out").err
+    (run / "predictions.jsonl").write_text("{\n")
+    assert "run/predictions.jsonl:1:1: this is no JSON" in tmd("export", run, "out").err
+    (run / "config.json").unlink()
+    assert "is no directory of a finished run" in tmd("export", run, "out").err
+
+
+CASES = {
+    "no-format": (ExitCode.USAGE, [PROBLEM, "out", "--format", "adll"], "no format 'adll': did you mean \"adl\""),
+    "no-source": (ExitCode.BAD_INPUT, ["none.pddl", "out"], "none.pddl:1:1: cannot be read"),
+    "no-environment": (ExitCode.BAD_INPUT, ["kitchen99", "out", "--text", "x"], "there is no environment 'kitchen99'"),
+    "no-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--domain", "blcks"], "there is no domain 'blcks'"),
+    "no-plan-file": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--plan", "none.plan"], "none.plan:1:1: cannot be read"),
+    "bad-goal": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--goal", "(on a z)"], '--goal:1:7: unknown object "z"'),
+    "bad-plan": (
+        ExitCode.INVALID_PLAN,
+        [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-not-clear.plan"],
+        "plan:2:1: step 1, pick-up(a): its precondition (clear a) does not hold",
+    ),
+    "goal-missed": (
+        ExitCode.INVALID_PLAN,
+        [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-goal.plan"],
+        "at the end the goal",
+    ),
+    "text-for-problem": (ExitCode.USAGE, [PROBLEM, "out", "--text", "x"], "a text is for an environment"),
+    "nothing-said": (ExitCode.USAGE, ["kitchen1", "out"], "give one of --text, --text-file, --plan and --goal"),
+    "text-and-plan": (ExitCode.USAGE, ["kitchen1", "out", "--text", "x", "--plan", PLAN], "give one of --text"),
+    "example-of-problem": (ExitCode.USAGE, [PROBLEM, "out", "--example", "x"], "are for the directory of a run"),
+    "no-json": (ExitCode.BAD_INPUT, [ROOT / "docs" / "cli.json", "out"], "cannot be read"),
+    "not-empty": (ExitCode.CANNOT_WRITE, [PROBLEM, BLOCKS], "cannot be written: it is not empty"),
+    "a-file": (ExitCode.CANNOT_WRITE, [PROBLEM, PLAN], "cannot be written: it is no directory"),
+}
+
+
+@pytest.mark.parametrize(("code", "arguments", "message"), CASES.values(), ids=list(CASES))
+def test_what_is_wrong_is_told(
+    tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], message: str
+) -> None:
+    ended = tmd("export", *arguments)
+    assert (ended.code, ended.out) == (code, "")
+    assert message in ended.err
+    assert len(ended.err.splitlines()) <= 4
+    assert "Traceback" not in ended.err
+    assert not list(tmp_path.iterdir())
+
+
+def test_no_plan(tmd: Tmd, tmp_path: Path) -> None:
+    ended = tmd("export", PROBLEM, "out", "--goal", "(and (on a b) (on b a))", "--json")
+    assert ended.code == ExitCode.UNREACHABLE
+    assert json.loads(ended.out)["written"] == {}
+    assert re.fullmatch(r"no plan: .+\n", ended.err)
+    assert not list(tmp_path.iterdir())
+
+
+def test_overwriting_keeps_other_files(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "mine.txt").write_text("mine")
+    ended = tmd("export", PROBLEM, ".", "--plan", PLAN, "--overwrite")
+    assert ended.code == ExitCode.OK
+    assert set(found(tmp_path)) == {"mine.txt", "domain.pddl", "problem.pddl", "plan.plan"}
+
+
+def test_an_overlapping_plan_is_taken_with_a_warning(tmd: Tmd, tmp_path: Path) -> None:
+    lines = [line for line in PLAN.read_text().splitlines() if line.startswith("(")]
+    (tmp_path / "t.plan").write_text("".join(f"{number}.0: {line} [3.0]\n" for number, line in enumerate(lines)))
+    ended = tmd("validate", DOMAIN, PROBLEM, "t.plan")
+    assert (ended.code, ended.out) == (ExitCode.OK, "valid: 6 instructions, cost 6\n")
+    assert ended.err == "warning: t.plan:2:1: instructions overlap in time; they are taken one after the other\n"
