@@ -3,7 +3,7 @@
 An example is a ``console`` block after a ``<!-- tested -->`` line; its commands must print what stands below them.
 A block after ``<!-- file: NAME -->`` is a file that the examples of its page find in their working directory.
 Blocks after ``<!-- tested: one after another -->`` are a walk: the commands of the page run in one directory, which is
-empty at first, and a block after ``<!-- write: PATH -->`` writes that file when its turn comes.
+empty at first, and a block after ``<!-- write: PATH -->`` (or ``append:``) writes that file when its turn comes.
 ``python tests/test_docs.py`` runs the examples and writes their output into the pages anew.
 """
 
@@ -23,7 +23,7 @@ ROOT = Path(__file__).resolve().parents[1]
 _BLOCK = re.compile(r"(?<=<!-- tested -->\n```console\n).*?(?=^```$)", re.MULTILINE | re.DOTALL)
 _WALK = re.compile(
     r"<!-- tested: one after another -->\n```console\n(?P<console>.*?)^```$"
-    r"|<!-- write: (?P<path>[\w./]+) -->\n```\w*\n(?P<content>.*?)^```$",
+    r"|<!-- (?P<how>write|append): (?P<path>[\w./]+) -->\n```\w*\n(?P<content>.*?)^```$",
     re.MULTILINE | re.DOTALL,
 )
 _FILE = re.compile(r"<!-- file: ([\w.]+) -->\n```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -97,11 +97,13 @@ def walked(page: Path, directory: Path) -> str:
         if step["path"]:
             path = directory / "here" / step["path"]
             path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(step["content"], encoding="utf-8")
+            with path.open("a" if step["how"] == "append" else "w", encoding="utf-8") as file:
+                file.write(step["content"])
             continue
         found += text[place : step.start("console")]
         for command, _ in _commands(step["console"]):
-            found += f"$ {command}\n{_printed(command, directory / 'here', directory / 'bin')}"
+            printed = _printed(f"unset TMD_LEARNED; {command}", directory / "here", directory / "bin")
+            found += f"$ {command}\n{printed}"
         place = step.end("console")
     return found + text[place:]
 
