@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from tmd.check.codes import SEVERITY, Severity
 from tmd.check.lint_domain import lint_domain
 from tmd.check.lint_problem import lint_problem
 from tmd.errors import Location, TmdError
@@ -39,6 +40,11 @@ class CheckedDomain:
     faults: list[TmdError]
     excused: Words = field(default_factory=dict)
 
+    @property
+    def sound(self) -> bool:
+        """Whether there is nothing wrong but perhaps what deserves a warning."""
+        return not any(_is_error(fault) for fault in self.faults)
+
 
 @dataclass(frozen=True, slots=True)
 class CheckedProblem:
@@ -67,12 +73,10 @@ def check_domain_text(text: str, file: str) -> CheckedDomain:
         faults.append(error)
         return CheckedDomain(Domain(""), Source(file, split_lines(text)), faults)
     excused = _excused(text, file, faults)
-    clean = not faults
-    meaning = check_domain(domain, source)
-    faults += _without_excused(meaning, excused)
-    if clean and not any(fault.code != "missing-requirement" for fault in meaning):
+    faults += _without_excused(check_domain(domain, source), excused)
+    if not any(_is_error(fault) for fault in faults):
         faults += lint_domain(domain, source)
-    return CheckedDomain(domain, source, faults, excused)
+    return CheckedDomain(domain, source, _without_echoes(faults), excused)
 
 
 def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> CheckedProblem:
@@ -87,12 +91,10 @@ def check_problem_text(text: str, file: str, checked: CheckedDomain | None) -> C
     if checked is None:
         return CheckedProblem(problem, source, faults)
     excused = _joined(checked.excused, _excused(text, file, faults))
-    clean = not faults and not any(f.code != "missing-requirement" for f in checked.faults if _is_error(f))
-    meaning = check_problem(problem, source)
-    faults += _without_excused(meaning, excused)
-    if clean and not any(fault.code != "missing-requirement" for fault in meaning):
+    faults += _without_excused(check_problem(problem, source), excused)
+    if checked.sound and not any(_is_error(fault) for fault in faults):
         faults += lint_problem(problem, source)
-    return CheckedProblem(problem, source, faults)
+    return CheckedProblem(problem, source, _without_echoes(faults, checked.faults))
 
 
 def domain_name(text: str) -> str:
@@ -106,9 +108,21 @@ def _domain_named_in(text: str) -> str:
 
 
 def _is_error(fault: TmdError) -> bool:
-    from tmd.check.codes import SEVERITY, Severity
-
     return SEVERITY.get(fault.code, Severity.ERROR) is Severity.ERROR
+
+
+_ECHOES = {
+    "unknown-requirement": ("missing-requirement", ""),
+    "unknown-function": ("missing-requirement", ":action-costs"),
+    "type-cycle": ("parent-after-child", ""),
+}
+"""A kind of fault, and the kind and a part of the message of what only follows from it."""
+
+
+def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:
+    """``faults`` without those that only follow from them, or from ``others``."""
+    found = [_ECHOES[fault.code] for fault in (*faults, *others) if fault.code in _ECHOES]
+    return [f for f in faults if not any(f.code == code and part in f.message for code, part in found)]
 
 
 def _without_excused(faults: Iterable[TmdError], excused: Words) -> list[TmdError]:

@@ -138,9 +138,9 @@ class Checker:
         self._add_all(result.faults, file)
         if path is None and name:
             self._not_found(name, result.source, found.others)
-        if path is not None and result.problem is not None and not result.faults and checked is not None:
-            self._problems.setdefault(path.resolve(), []).append(result.problem)
         faulty = any(SEVERITY.get(fault.code) is not Severity.WARNING for fault in result.faults)
+        if path is not None and result.problem is not None and not faulty and checked is not None and checked.sound:
+            self._problems.setdefault(path.resolve(), []).append(result.problem)
         self._read[file.resolve()] = None if faulty or checked is None else result.problem
 
     def problem(self, file: Path) -> Problem | None:
@@ -191,12 +191,14 @@ class Checker:
 
 
 def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:
-    """A predicate that ``objects.yaml`` derives others from plays a part, whatever the actions say."""
+    """A predicate that ``objects.yaml`` or environments speak of plays a part, whatever the actions say."""
     objects = file.parent / "objects.yaml"
+    from tmd.world.compile import AT, PART_OF
+
     if not objects.is_file() or not any(fault.code == "unused-predicate" for fault in checked.faults):
         return
     try:
-        words = set(re.findall(r"[a-z][a-z0-9_]*", read_text(objects)))
+        words = {PART_OF, AT, *re.findall(r"[a-z][a-z0-9_]*", read_text(objects))}
     except TmdError:
         return
     checked.faults[:] = [

@@ -148,7 +148,8 @@ class _Compiler:
             for state in said:
                 self.environment.source.recover(None, self._known_state, state, vertex.states, (*place, state), name)
             for state, value in {**vertex.states, **said}.items():
-                self._set(_vertex(name, vertex.name), state, value, (*place, state))
+                if state in vertex.states or state in self.predicates:
+                    self._set(_vertex(name, vertex.name), state, value, (*place, state))
             if not is_root and PART_OF in self.predicates:
                 self._add((PART_OF, _vertex(name, vertex.name), name), ("objects", name))
         for edge in graph.edges:
