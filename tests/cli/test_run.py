@@ -114,6 +114,24 @@ def test_a_robot_that_cannot_go_on_says_why(tmd: Tmd, plan: Path) -> None:
 
 
 @pytest.mark.usefixtures("robot")
+def test_a_thing_out_of_reach_is_told_with_its_place(tmd: Tmd, tmp_path: Path, plan: Path) -> None:
+    """The mug stands on the second of two tables, at its far end."""
+    (tmp_path / "far.yaml").write_text(
+        "name: far\ndomain: kitchen\nobjects:\n"
+        "  table1: {class: table, position: [2.5, 0, 0]}\n  table2: {class: table, position: [3.3, 0, 0]}\n"
+        "  mug1: {class: mug, at: on table2, position: [3.55, 0.0, 0.74]}\n"
+    )
+    plan.write_text("(find mug1)\n(moveto mug1)\n(grasp mug1)\n")
+    ended = tmd("run", "--environment", "far.yaml", "--kinematic", "--plan", plan, "--repairs", "0")
+    assert ended.code == ExitCode.NOT_EXECUTED, ended.err
+    assert re.search(
+        r"^stopped: .*grasp\(mug1\) failed: stance: no place to stand reaches 3\.55 -?0\.00 0\.74: ",
+        ended.out,
+        re.MULTILINE,
+    ), ended.out
+
+
+@pytest.mark.usefixtures("robot")
 def test_a_fault_is_told_and_overcome(tmd: Tmd, plan: Path) -> None:
     plan.write_text(f"{PLAN}(grasp pot1)\n")
     ended = tmd(*KITCHEN, "--plan", plan, "--fault", "slip")
@@ -193,6 +211,12 @@ WRONG = {
         "",
         r"error: none/out\.mp4 cannot be written: No such directory",
     ),
+    "read-only": (
+        ExitCode.CANNOT_WRITE,
+        [*KITCHEN, *TEXT, "--strip", "out.png"],
+        "import os; os.access = lambda path, mode, **_: mode != os.W_OK",  # the tests may run as root, who may write everywhere
+        r"error: out\.png cannot be written: Permission denied\nhint: name a file that you may write",
+    ),
     "log-is-a-directory": (
         ExitCode.CANNOT_WRITE,
         [*KITCHEN, *TEXT, "--log", ROOT],
@@ -228,6 +252,12 @@ WITH_ROBOT = {
     ),
     "no-urdf": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "none.urdf"], "", r"error: .*none\.urdf"),
     "other-robot": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "box.urdf"], "", r"error: box\.urdf is no PR2: "),
+    "no-meshes": (
+        ExitCode.BAD_INPUT,
+        [*KITCHEN, *TEXT, "--urdf", "lost.urdf"],
+        "",
+        r"error: lost\.urdf: its mesh package://\S+\.stl is missing\nhint: put the meshes where the URDF names them\n",
+    ),
     "overlap": (
         ExitCode.BAD_INPUT,
         ["run", "--environment", "overlap.yaml", *TEXT],
@@ -257,7 +287,10 @@ def test_what_cannot_be_run(
 def test_what_cannot_be_simulated(
     tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], before: str, told: str
 ) -> None:
+    from tmd.robot.pr2_urdf import packaged
+
     (tmp_path / "box.urdf").write_text(URDF)
+    (tmp_path / "lost.urdf").write_text(packaged("urdf/pr2.urdf").read_text())  # without the folder of its meshes
     (tmp_path / "overlap.yaml").write_text(OVERLAP)
     _refused(tmd(*arguments, before=before), code, told)
 
@@ -274,27 +307,36 @@ def test_a_domain_without_a_robot(tmd: Tmd, tmp_path: Path, missing: str) -> Non
 @pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
 def test_what_a_killed_run_has_written_is_readable(tmp_path: Path, plan: Path, how: signal.Signals) -> None:
     command = [sys.executable, "-m", "tmd", *KITCHEN, "--plan", str(plan), "--log", "log.jsonl", "--video", "out.mp4"]
-    log, film = tmp_path / "log.jsonl", tmp_path / "out.mp4"
+    """SIGKILL ends the process that writes the film as well, as when memory runs out."""
+    log, film, growing = (tmp_path / name for name in ("log.jsonl", "out.mp4", "out.unfinished.mp4"))
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(
-        command, cwd=tmp_path, env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        command,
+        cwd=tmp_path,
+        env=environment,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
     ) as process:
         while process.poll() is None and not (log.exists() and log.read_text().count('"event": "begin"') >= 2):
             time.sleep(0.05)
-        process.send_signal(how)
+        if how is signal.SIGKILL:
+            while process.poll() is None and not growing.stat().st_size:
+                time.sleep(0.05)
+            os.killpg(process.pid, how)
+        else:
+            process.send_signal(how)
         out, err = process.communicate(timeout=60)
     steps = [entry["event"] for entry in lines(log)]
     assert steps[:4] == ["plan", "begin", "step", "begin"]
     if how is signal.SIGKILL:
-        film = tmp_path / "out.unfinished.mp4"
-        deadline = time.monotonic() + 30  # its writer is a process of its own, which ends by itself
-        while not film.stat().st_size and time.monotonic() < deadline:
-            time.sleep(0.1)
+        film = growing
     else:
         assert (process.returncode, err) == (ExitCode.INTERRUPTED, "error: interrupted\n")
         assert "done:" not in out
         assert (steps[-1], lines(log)[-1]["status"]) == ("end", "interrupted")
-        assert not (tmp_path / "out.unfinished.mp4").exists()
+        assert not growing.exists()
     assert frames(film) > 10
 
 

@@ -316,3 +316,20 @@ def test_a_strip_of_nothing_is_not_written(tmp_path: Path) -> None:
     with stage(pictures=False) as ready:
         Film(ready.cell, ready.skills, strip=True).write_strip(tmp_path / "none.png")
     assert not list(tmp_path.iterdir())
+
+
+def test_a_caption_counts_tries_and_what_was_done(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of two instructions the first is done at its second try, and then the run stops."""
+    mug = parse_instruction("find(mug1)")
+    nothing: State = frozenset()
+    told: list[Caption] = []
+    with stage(pictures=False) as ready:
+        film = Film(ready.cell, ready.skills)
+        monkeypatch.setattr(film, "_hold", lambda seconds: told.append(film._caption))
+        for failure in ("it broke", ""):
+            title = Title(mug, 1, 2, False, None)
+            film.begin(title, [])
+            film.end(title, Step(mug, False, failure, "", (), (), 0, 0, nothing))
+        film.close(Execution(Status.STOPPED, "that was all", (), 1, nothing))
+    assert [caption.number for caption in told] == ["1/2", "1/2, try 2", ""]
+    assert told[-1].said == "1 of 2 instructions went as predicted; repairs of the plan: 1"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -77,6 +78,9 @@ class Film:
         self._camera = Camera(cell)
         self._caption = Caption("")
         self._last: Pixels | None = None
+        self._tries: Counter[int] = Counter()
+        self._done: set[int] = set()
+        self._of = 0
         if movie is not None:
             width, height = movie.size
             self._size = width, height - caption_height(width)
@@ -92,11 +96,17 @@ class Film:
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
+        self._of = title.of
+        if not title.repair:
+            self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
         names = self._cell.scene.names()
         self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
         self._caption = Caption(
-            str(title.instruction), _number(title), _said(title), tuple((str(atom), "expected") for atom in expected)
+            str(title.instruction),
+            self._number(title),
+            _said(title),
+            tuple((str(atom), "expected") for atom in expected),
         )
 
     def end(self, title: Title, step: Step) -> None:
@@ -108,23 +118,34 @@ class Film:
         note = step.failure or measured or step.evidence
         # what is missing first: there is room for a few facts only
         facts.sort(key=lambda fact: fact[1] == "confirmed")
-        self._caption = Caption(str(title.instruction), _number(title), _said(title), tuple(facts), note, badge)
+        if badge == "ok" and not title.repair:
+            self._done.add(title.number)
+        number = self._number(title)
+        self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
             self._tiles.append(under(self._picture(self._camera.best(), _TILE), self._caption))
 
     def close(self, execution: Execution) -> None:
         """End with how it ended."""
-        done = sum(not step.failure and not step.mismatches for step in execution.steps)
-        count = len(execution.steps)
         repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
         badge = "stopped" if execution.status is Status.STOPPED else ""
         note = execution.reason or "Every effect of the plan is confirmed."
         title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
         self._caption = Caption(
-            title, said=f"{done} of {count} instructions went as predicted{repairs}", note=note, badge=badge
+            title,
+            said=f"{len(self._done)} of {self._of} instructions went as predicted{repairs}",
+            note=note,
+            badge=badge,
         )
         self._hold(_ENDING)
+
+    def _number(self, title: Title) -> str:
+        """Its place in the plan, and which try it is, if it is not the first."""
+        if title.repair:
+            return "repair"
+        tries = self._tries[title.number]
+        return f"{title.number}/{title.of}{f', try {tries}' if tries > 1 else ''}"
 
     def write_strip(self, path: Path) -> None:
         """Write the filmstrip of what was done so far; nothing where nothing was done.
@@ -167,10 +188,6 @@ class Film:
     def _picture(self, view: View, size: tuple[int, int]) -> Pixels:
         sim = self._cell.sim
         return sim.picture(view.eye, view.target, *size, fov=FOV, shadow=sim.renderer != "tiny")
-
-
-def _number(title: Title) -> str:
-    return "repair" if title.repair else f"{title.number}/{title.of}"
 
 
 def _said(title: Title) -> str:
