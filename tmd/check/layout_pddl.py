@@ -18,6 +18,8 @@ from tmd.pddl.syntax import split_lines
 WIDTH = 120
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+_LOOSE = 2
+"""A comment that many blanks behind the code follows it; farther away it stands in a column."""
 _TOP = frozenset({"define", ":action"})
 _BODY = frozenset({"forall", "exists"})
 """Groups that continue two columns in from their parenthesis."""
@@ -75,7 +77,7 @@ def format_pddl(text: str, file: str = "<text>") -> str:
     Raises:
         TmdError: Its parentheses do not match, so nothing can be laid out.
     """
-    parse(text, file)
+    _refuse_unbalanced(text, file)
     tokens = list(_broken(_tokens(text)))
     while True:
         lines, starts = _lay_out(tokens)
@@ -86,6 +88,18 @@ def format_pddl(text: str, file: str = "<text>") -> str:
     if [t.text for t in _tokens(laid)] != [t.text for t in tokens]:
         raise TmdError("cannot be laid out without changing it", location=Location(file, 1, 1), hint="please report")
     return laid
+
+
+def _refuse_unbalanced(text: str, file: str) -> None:
+    """What else may be wrong does not keep a text from being laid out."""
+    depth = 0
+    for token in _tokens(text):
+        depth += {"(": 1, ")": -1}.get(token.text, 0)
+        if depth < 0:
+            break
+    if depth:
+        parse(text, file)
+        raise TmdError("the parentheses do not match", location=Location(file, 1, 1), code="unclosed-parenthesis")
 
 
 def _tokens(text: str) -> list[_Token]:
@@ -149,13 +163,23 @@ def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
             lines.append(" " * indent)
             starts.append(number)
         elif token.is_comment:
-            lines[-1] += " " * max(1, token.column + indent - token.indent - len(lines[-1]))
+            lines[-1] += " " * _gap(token, tokens[number - 1], tokens[starts[-1]], indent, len(lines[-1]))
         elif token.text != ")" and tokens[number - 1].text != "(":
             lines[-1] += " "
         _enter(token, stack, len(lines[-1]), indent, bool(fresh))
         lines[-1] += token.text
     starts.append(len(tokens))
     return lines, starts
+
+
+def _gap(comment: _Token, before: _Token, first: _Token, indent: int, length: int) -> int:
+    """The blanks before a comment: as many as there were, or so many that it stays in its column."""
+    was = comment.column - before.column - len(before.text)
+    if was <= _LOOSE:
+        return max(1, was)
+    if first.column != comment.indent:
+        return 1
+    return max(1, comment.column + indent - comment.indent - length)
 
 
 def _after_open(tokens: list[_Token], number: int) -> bool:

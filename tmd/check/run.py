@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.diagnostic import Findings
-from tmd.check.find import Found, find_domain_file
+from tmd.check.find import Found, domains_in, find_domain_file
 from tmd.check.lint_problem import lint_together
 from tmd.check.pddl_file import (
     CheckedDomain,
@@ -59,6 +59,9 @@ class Checker:
     _problems: dict[Path, list[Problem]] = field(default_factory=dict)
     _read: dict[Path, Problem | None] = field(default_factory=dict)
     _data_files: DataFiles | None = None
+
+    def __post_init__(self) -> None:
+        domains_in.cache_clear()
 
     def check(self, path: Path) -> None:
         """Check a file, or everything in a directory.

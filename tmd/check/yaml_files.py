@@ -11,7 +11,7 @@ from tmd.pddl.check import check_domain
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reader import parse_domain_unchecked
 from tmd.pddl.syntax import Report, nearest, read_text
-from tmd.world.classes import Classes
+from tmd.world.classes import Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -25,6 +25,11 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
         TmdError: The file cannot be used at all.
     """
     source = YamlSource(folder.path / "objects.yaml", report)
+    if not folder.instructions_path.is_file():
+        source.load(ObjectsFile)
+        hint = "a domain with objects.yaml has its instructions there; domain.pddl is compiled"
+        place = Location(str(source.path), 1, 1)
+        raise TmdError("there is no instructions.pddl beside this", location=place, hint=hint, code="missing-file")
     domain = _instructions(folder)
     if domain is None:
         return
@@ -84,9 +89,6 @@ def check_planviz(path: Path) -> None:
 def _instructions(folder: DomainFolder) -> Domain | None:
     """The hand-written domain that classes are compiled into; ``None`` where it has faults, which are told anyway."""
     path = folder.instructions_path
-    if not path.is_file():
-        hint = "a domain with objects.yaml has its instructions there; domain.pddl is compiled"
-        raise TmdError(f"{path} is missing", location=Location(str(path), 1, 1), hint=hint, code="missing-file")
     try:
         domain, source = parse_domain_unchecked(read_text(path), str(path))
     except TmdError:

@@ -67,10 +67,8 @@ _MOST_ROUNDS = 4
 
 
 def _checked(roots: Roots, paths: tuple[str, ...], domain: Path | None) -> Checker:
-    from tmd.check.find import domains_in
     from tmd.check.run import Checker
 
-    domains_in.cache_clear()
     checker = Checker(roots.domains, domain, roots.problems)
     for name in paths:
         checker.check(roots.path(name))

@@ -115,6 +115,9 @@ def read_typed_list(nodes: Sequence[Node], source: Source, *, variables: bool, w
         if isinstance(node, Word) and len(node.text) > 1 and node.text[0] == "-":
             rest.append(_after_dash(node, source))
             node = Word("-", node.location)
+        if isinstance(node, Word) and _LOOK_ALIKES.get(node.text) == "-":
+            source.recover(None, read_name, node, source, "a dash")
+            node = Word("-", node.location)
         if isinstance(node, Word) and node.text == "-":
             types = _types_after(node, rest, source)
             if not waiting:

@@ -1,0 +1,1 @@
+"""Which slips of domain authors which tool catches: ``python -m experiments.checkers``."""

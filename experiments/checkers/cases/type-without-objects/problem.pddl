@@ -1,0 +1,5 @@
+(define (problem serve)
+  (:domain cafe)
+  (:objects bun - food sink - place)
+  (:init (at bun counter) (tap sink))
+  (:goal (at bun sink)))

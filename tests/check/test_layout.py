@@ -1,0 +1,126 @@
+"""tmd fmt: twice is once, nothing else is said afterwards, and no comment is lost."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+import yaml
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tmd.check.layout_pddl import WIDTH, format_pddl
+from tmd.check.layout_yaml import format_yaml
+from tmd.errors import TmdError
+from tmd.pddl.reader import parse_domain
+
+ROOT = Path(__file__).resolve().parents[2]
+BUNDLED = sorted(
+    path for kind in ("domains", "problems") for path in (ROOT / kind).rglob("*") if path.suffix in (".pddl", ".yaml")
+)
+_TOKEN = re.compile(r";.*|[()]|[^\s();]+")
+
+WORDS = st.sampled_from(["and", "or", "p", "?x", "-", "thing", ":action", ":parameters", ":effect", "define", "forall"])
+GROUPS = st.recursive(
+    WORDS, lambda inner: st.lists(inner, max_size=5).map(lambda parts: ["(", *parts, ")"]), max_leaves=40
+)
+SPACES = st.lists(
+    st.sampled_from(["", " ", "  ", "\n", "\n\n\n", "\t", " ; a note\n", "\n   ; (another) one\n"]), min_size=1
+)
+
+
+def flat(node: object) -> list[str]:
+    return [node] if isinstance(node, str) else [word for part in node for word in flat(part)]  # type: ignore[attr-defined]
+
+
+def tokens(text: str) -> list[str]:
+    return [match[0].rstrip() for line in text.splitlines() for match in _TOKEN.finditer(line)]
+
+
+@settings(max_examples=150, deadline=None)
+@given(GROUPS.filter(lambda node: not isinstance(node, str)), SPACES)
+def test_any_groups(node: object, spaces: list[str]) -> None:
+    words = flat(node)
+    text = "".join(f"{word} {spaces[number % len(spaces)]}" for number, word in enumerate(words))
+    laid = format_pddl(text)
+    assert format_pddl(laid) == laid
+    assert tokens(laid) == tokens(text)
+    assert all(line == line.rstrip() for line in laid.splitlines())
+    assert "\n\n\n" not in laid
+
+
+def test_one_line_becomes_readable() -> None:
+    line = (
+        "(define (domain d)(:predicates (p ?x)(q ?x)) ; two\n"
+        "(:action a :parameters (?x) :precondition (and (p ?x)(not (q ?x))) :effect (q ?x)))"
+    )
+    assert format_pddl(line) == (
+        "(define (domain d)\n"
+        "  (:predicates (p ?x) (q ?x)) ; two\n"
+        "  (:action a\n"
+        "    :parameters (?x)\n"
+        "    :precondition (and (p ?x) (not (q ?x)))\n"
+        "    :effect (q ?x)))\n"
+    )
+
+
+def test_long_lines_are_broken() -> None:
+    objects = " ".join(f"object{n}" for n in range(100))
+    atoms = " ".join(f"(p object{n})" for n in range(100))
+    laid = format_pddl(f"(define (problem x) (:domain d) (:objects {objects}) (:init {atoms}) (:goal (p object1)))")
+    assert max(map(len, laid.splitlines())) <= WIDTH
+    assert format_pddl(laid) == laid
+
+
+@pytest.mark.parametrize("path", BUNDLED, ids=lambda path: str(path.relative_to(ROOT)))
+def test_what_is_bundled_is_laid_out(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert (format_pddl(text) if path.suffix == ".pddl" else format_yaml(text)) == text
+
+
+def test_what_does_not_match_is_left_alone() -> None:
+    with pytest.raises(TmdError, match="never closed"):
+        format_pddl("(define (domain d)")
+    with pytest.raises(TmdError, match="not YAML"):
+        format_yaml("a: [1,\nb: 2\n")
+
+
+def test_the_domain_stays_the_same() -> None:
+    text = (ROOT / "domains" / "kitchen" / "domain.pddl").read_text(encoding="utf-8")
+    squeezed = " ".join(line.partition(";")[0] for line in text.splitlines())
+    assert parse_domain(format_pddl(squeezed)) == parse_domain(text)
+
+
+def test_yaml_is_laid_out() -> None:
+    messy = "\ufeffa:\r\n      b:   1   # one\r\n      c:  { x: 1,y:  [1,2 , 3] }\r\n\r\n\r\n"
+    messy += "      # note\r\n      d: |\r\n         keep  this\r\n"
+    assert format_yaml(messy) == (
+        "a:\n  b: 1     # one\n  c: {x: 1, y: [1, 2, 3]}\n\n  # note\n  d: |\n     keep  this\n"
+    )
+
+
+VALUES = st.recursive(
+    st.one_of(st.text("ab :#-,", max_size=8), st.integers(-5, 5), st.booleans()),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3), st.dictionaries(st.text("abc", min_size=1), inner, max_size=3)
+    ),
+    max_leaves=12,
+)
+
+
+@settings(max_examples=150, deadline=None)
+@given(st.dictionaries(st.text("abc", min_size=1), VALUES, min_size=1), st.integers(1, 7), st.booleans())
+def test_any_yaml(data: dict[str, object], indent: int, flow: bool) -> None:
+    text = yaml.safe_dump(data, indent=max(2, indent), default_flow_style=flow)
+    commented = "".join(f"{line}   # note {n}\n" if line.endswith(("}", "]", "1")) else f"{line}\n"
+                        for n, line in enumerate(text.splitlines()))  # fmt: skip
+    for source in (text, commented):
+        try:
+            before = yaml.safe_load(source)
+        except yaml.YAMLError:
+            continue
+        laid = format_yaml(source)
+        assert yaml.safe_load(laid) == before
+        assert format_yaml(laid) == laid
+        assert re.findall(r"# note \d+", laid) == re.findall(r"# note \d+", source)
