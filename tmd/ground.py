@@ -18,7 +18,7 @@ from importlib.util import find_spec
 
 from tmd.energy.energy import Energy
 from tmd.energy.factors import AKIN
-from tmd.energy.infer import RARE, Inference
+from tmd.energy.infer import FEW, Inference
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
@@ -133,7 +133,7 @@ def ground(
         pair_nouns=model.extended,
         policy=Policy(reward, world) if reward is not None and model.generate else None,
         plan_stated=model.state,
-        rare=RARE,
+        few=FEW,
         guess=False,
         last_resort=_last_resort(planner, world),
     )

@@ -29,8 +29,8 @@ from tmd.veil.world import World
 Sequence_ = tuple[Instruction, ...]
 GENERATED = "policy"
 """The source of a sequence that was made from no demonstration."""
-RARE = 3.0
-"""The usual ``rare`` of :class:`Inference`."""
+FEW = 20.0
+"""The usual ``few`` of :class:`Inference`."""
 _MOST_GOALS = 64
 """So many ways of fulfilling what a clause states are looked at."""
 STATED = "planner"
@@ -107,8 +107,8 @@ class Inference:
         generated: How many sequences of the policy are looked at for each clause and environment.
         plan_stated: Whether the planner proposes, beside the templates, the shortest way to what the clause states
             (:mod:`tmd.veil.stated`).
-        rare: Below how many templates of a verb the policy is trusted less than half: with n its word counts
-            n / (n + ``rare``), and its proposals are charged (n + ``rare``) / n. What few demonstrations taught is
+        few: Below how many templates in all the policy is trusted less than half: with n its word counts
+            n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
             better done as it was shown. 0 trusts it always.
         guess: Whether anything is proposed for a verb that has no templates.
         last_resort: Makes the planner that is asked for that way where ``filler`` gave up and nothing else leads there.
@@ -129,7 +129,7 @@ class Inference:
         policy: Policy | None = None,
         generated: int = 5,
         plan_stated: bool = False,
-        rare: float = 0.0,
+        few: float = 0.0,
         guess: bool = True,
         last_resort: Callable[[], Planner] | None = None,
     ) -> None:
@@ -145,7 +145,7 @@ class Inference:
         self.policy = policy
         self.generated = generated
         self.plan_stated = plan_stated
-        self.rare = rare
+        self.few = few
         self.guess = guess
         self.last_resort = last_resort
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
@@ -254,7 +254,7 @@ class Inference:
         if self.policy is not None:
             whole = (*latent, *candidate.instructions)
             surprise = self.policy.surprise(clause, self._clauses[:number], done, whole)
-            raw["words"] = surprise * self._trust(clause)
+            raw["words"] = surprise * self._trust()
         return Choice(candidate.source, steps, self.energy.weigh(raw), raw), end
 
     def _resort(
@@ -320,7 +320,7 @@ class Inference:
         if self.policy is None:
             return []
         found: dict[Sequence_, _Candidate] = {}
-        charge = 1.0 / self._trust(clause)
+        charge = 1.0 / self._trust()
         for _, proposed in self.policy.best(clause, self._clauses[:number], done, self.generated):
             kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
             names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], state)
@@ -329,10 +329,10 @@ class Inference:
             found.setdefault(kept, _Candidate(GENERATED, kept, raw, energy, names))
         return list(found.values())
 
-    def _trust(self, clause: Clause) -> float:
-        """How far the policy is trusted with the clause's verb, above 0 and up to 1."""
-        known = max(len(self.library.propose(clause)), 1)
-        return known / (known + self.rare)
+    def _trust(self) -> float:
+        """How far the policy is trusted, above 0 and up to 1."""
+        known = max(len(self.library), 1)
+        return known / (known + self.few)
 
     def _first_possible(self, number: int, source: str, instructions: Sequence_) -> int:
         """The first t for which nothing in I[t..] is impossible in this environment."""

@@ -14,7 +14,7 @@ import numpy as np
 
 from tmd.energy.energy import Energy
 from tmd.energy.factors import AKIN
-from tmd.energy.infer import RARE, Inference
+from tmd.energy.infer import FEW, Inference
 from tmd.energy.journal import Journal
 from tmd.energy.learn import Learned, learn_weights
 from tmd.energy.plans import RankedPlan
@@ -280,7 +280,7 @@ class Crf:
             knowledge=self.knowledge,
             policy=taught.tree.policy(example.environment, example.world, data) if taught.tree else None,
             plan_stated=self.state,
-            rare=RARE if self.state else 0.0,
+            few=FEW if self.state else 0.0,
         )
         return inference.infer(self._clauses(example, data), world.task.init).plans
 

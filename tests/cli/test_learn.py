@@ -1,0 +1,125 @@
+"""``tmd learn``: what is kept says the same as learning anew, for as long as it is true and whole."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from tests.cli.conftest import ROOT, Tmd
+from tmd.errors import ExitCode
+from tmd.learned.knowledge import study
+from tmd.learned.store import MANIFEST, place, recall, save
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+
+SAID = (
+    "ground",
+    "--environment",
+    "lab2",
+    "--text",
+    "Put the sample tube in the centrifuge and close the lid.",
+    "--json",
+)
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Corpus:
+    """A copy of the laboratory that may be changed."""
+    for kind in ("domains", "problems"):
+        shutil.copytree(
+            ROOT / kind / "lab_bench", tmp_path / kind / "lab_bench", ignore=shutil.ignore_patterns("learned")
+        )
+    return Corpus(DomainFolder(tmp_path / "domains" / "lab_bench"), tmp_path / "problems" / "lab_bench")
+
+
+def test_what_was_kept_is_what_was_learned(lab: Corpus) -> None:
+    knowledge = study(lab)
+    directory = place(lab)
+    save(knowledge, lab, directory)
+    again = recall(lab, directory)
+    assert again is not None
+    assert again.library.verbs() == knowledge.library.verbs()
+    for verb in knowledge.library.verbs():
+        assert list(again.library.templates(verb)) == list(knowledge.library.templates(verb))
+        # what a clause is compared by does not tell all of it
+        assert [repr(t) for t in again.library.templates(verb)] == [repr(t) for t in knowledge.library.templates(verb)]
+    assert again.library.unaligned == knowledge.library.unaligned
+    assert again.reward is not None
+    assert knowledge.reward is not None
+    assert np.array_equal(again.reward.theta, knowledge.reward.theta)
+    assert again.reward.features.words == knowledge.reward.features.words
+    assert again.reward.features.properties == knowledge.reward.features.properties
+
+
+def test_the_same_demonstrations_leave_the_same_bytes(lab: Corpus, tmp_path: Path) -> None:
+    for name in ("one", "two"):
+        save(study(lab), lab, tmp_path / name)
+    for path in (tmp_path / "one").iterdir():
+        assert path.read_bytes() == (tmp_path / "two" / path.name).read_bytes()
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        "problems/lab_bench/bench_work/demonstrations.jsonl",
+        "problems/lab_bench/environments/lab1.yaml",
+        "domains/lab_bench/lexicon.yaml",
+        "domains/lab_bench/domain.pddl",
+    ],
+)
+def test_what_was_made_from_something_else_is_not_used(changed: str, lab: Corpus, tmp_path: Path) -> None:
+    save(study(lab), lab, place(lab))
+    path = tmp_path / changed
+    path.write_text(path.read_text() + "\n")
+    assert recall(lab, place(lab)) is None
+
+
+@pytest.mark.parametrize("file", ["library.json", "policy.json", "policy.npy", MANIFEST])
+def test_what_is_damaged_is_not_used(file: str, lab: Corpus) -> None:
+    save(study(lab), lab, place(lab))
+    path = place(lab) / file
+    whole = path.read_bytes()
+    for damaged in (whole[: len(whole) // 2], b"", b"\x00" + whole, b"[]"):
+        path.write_bytes(damaged)
+        assert recall(lab, place(lab)) is None
+    path.unlink()
+    assert recall(lab, place(lab)) is None
+
+
+def test_ground_says_the_same_with_and_without_it(lab: Corpus, tmd: Tmd) -> None:
+    before = tmd(*SAID)
+    done = tmd("learn", "lab_bench", "--out", "kept", "--no-weights")
+    assert done.code == ExitCode.OK
+    assert done.out.startswith("lab_bench: 10 demonstrations in lab1, lab2\n21 templates\n")
+    assert done.out.endswith("saved in kept/lab_bench\n")
+    after = tmd(*SAID, "--learned", "kept")
+    assert before.code == ExitCode.OK
+    assert (after.code, after.out) == (before.code, before.out)
+
+
+def test_weights_are_learned_and_used_when_asked_for(tmd: Tmd, tmp_path: Path) -> None:
+    missing = tmd(*SAID[:-1], "--weights", "learned", "--learned", "kept")
+    assert missing.code == ExitCode.BAD_INPUT
+    assert "tmd learn lab_bench" in missing.err
+    told = json.loads(tmd("learn", "lab_bench", "--out", "kept", "--json").out)
+    assert told["weights"]["after"] <= told["weights"]["before"]
+    assert (tmp_path / "kept" / "lab_bench" / "weights.txt").is_file()
+    assert tmd(*SAID[:-1], "--weights", "learned", "--learned", "kept").code == ExitCode.OK
+
+
+def test_a_domain_without_demonstrations_gets_one_line(lab: Corpus, tmd: Tmd) -> None:
+    (lab.directory / "bench_work" / "demonstrations.jsonl").unlink()
+    done = tmd("learn", "lab_bench")
+    assert done.code == ExitCode.BAD_INPUT
+    assert "there are no demonstrations of 'lab_bench'" in done.err
+
+
+def test_where_nothing_can_be_written_one_line_says_so(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    done = tmd("learn", "02_table", "--out", "file", "--no-weights")
+    assert done.code == ExitCode.CANNOT_WRITE
+    assert len(done.err.splitlines()) <= 2

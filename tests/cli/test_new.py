@@ -1,0 +1,83 @@
+"""``tmd new``: what it writes works at once, under any name, and nothing is ever overwritten."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.cli.conftest import ROOT, Tmd
+from tmd.errors import ExitCode, TmdError
+from tmd.learned.knowledge import study
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+from tmd.world.scaffold import STARTS, scaffold
+
+SAID = {"plain": "Put the red block on the green block.", "graph": "Put the key on the table."}
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_what_it_prints_to_try_next_works(start: str, tmd: Tmd, tmp_path: Path) -> None:
+    made = tmd("new", "mine", "--from", start)
+    assert made.code == ExitCode.OK
+    steps = made.out.partition("try next:\n")[2].splitlines()
+    assert len(steps) >= 4
+    for step in steps:
+        command, quote, text = step.partition('"')
+        words = [*command.split()[1:], *([text.rstrip('"')] if quote else [])]
+        done = tmd(*words)
+        assert done.code == ExitCode.OK, (step, done.err)
+        if words[0] == "ground":
+            assert text.rstrip('"') == SAID[start]
+            assert "valid" in done.out
+    assert (tmp_path / "problems" / "mine" / "learned" / "library.json").is_file()
+
+
+def test_it_lists_what_it_wrote(tmd: Tmd, tmp_path: Path) -> None:
+    made = json.loads(tmd("new", "mine", "--json").out)
+    written = [path.relative_to(tmp_path).as_posix() for path in tmp_path.rglob("*") if path.is_file()]
+    assert sorted(made["files"]) == sorted(written)
+
+
+@pytest.mark.parametrize("there", ["domains/mine", "problems/mine"])
+def test_nothing_is_overwritten(there: str, tmd: Tmd, tmp_path: Path) -> None:
+    kept = tmp_path / there / "kept.txt"
+    kept.parent.mkdir(parents=True)
+    kept.write_text("mine")
+    done = tmd("new", "mine")
+    assert done.code == ExitCode.CANNOT_WRITE
+    assert len(done.err.splitlines()) == 2
+    assert [path for path in tmp_path.rglob("*") if path.is_file()] == [kept]
+
+
+@pytest.mark.parametrize("name", ["", "Mine", "1st", "../mine", "a/b", "mine ", "größe", "a-b", "."])
+def test_a_bad_name_gets_one_line(name: str, tmp_path: Path) -> None:
+    with pytest.raises(TmdError, match="cannot name a domain"):
+        scaffold(name, "plain", tmp_path / "domains", tmp_path / "problems")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_an_unknown_start_gets_one_line(tmd: Tmd) -> None:
+    done = tmd("new", "mine", "--from", "plane")
+    assert done.code == ExitCode.BAD_INPUT
+    assert "'plane'" in done.err
+
+
+@settings(max_examples=15, deadline=None)
+@given(name=st.from_regex(r"[a-z][a-z0-9_]{0,12}", fullmatch=True), start=st.sampled_from(sorted(STARTS)))
+def test_any_name_makes_a_domain_that_teaches_what_its_model_does(
+    name: str, start: str, tmp_path_factory: pytest.TempPathFactory
+) -> None:
+    root = tmp_path_factory.mktemp("any")
+    made = scaffold(name, start, root / "domains", root / "problems")
+    corpus = Corpus(DomainFolder(made.folder), made.problems)
+    assert all(place.startswith(name) for place in corpus.environments())
+    own = study(corpus).library
+    source = study(Corpus(DomainFolder(ROOT / "domains" / STARTS[start]), ROOT / "problems" / STARTS[start])).library
+    assert own.verbs() == source.verbs()
+    assert [t.instructions for v in own.verbs() for t in own.templates(v)] == [
+        t.instructions for v in source.verbs() for t in source.templates(v)
+    ]
