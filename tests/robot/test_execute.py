@@ -128,13 +128,15 @@ def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Dem
     assert done.state == truth.state
 
 
-@pytest.mark.parametrize("number", range(0, 100, 17))
-def test_plans_of_the_living_room_are_done_as_well(number: int) -> None:
+def test_plans_of_the_living_room_are_done_as_well() -> None:
     """What its skills.yaml derives (what a held remote control carries, which player has a disc) is what PDDL says."""
     corpus = Corpus(find_domain("living_room", ROOT / "domains"), ROOT / "problems" / "living_room")
-    done, truth, _ = run(corpus, corpus.demonstrations()[number])
-    assert (done.status, done.repairs, done.reason) == (Status.DONE, 0, "")
-    assert done.state == truth.state
+    demonstrations = [d for d in corpus.demonstrations("movie_night") if d.environment == "room1"]
+    for word in ("insert", "remote1_power_button"):
+        chosen = next(d for d in demonstrations if any(word in str(i) for i in d.instructions))
+        done, truth, _ = run(corpus, chosen)
+        assert (done.status, done.repairs, done.reason) == (Status.DONE, 0, "")
+        assert done.state == truth.state
 
 
 @pytest.mark.parametrize("fault", [lose, break_off, carry_off])

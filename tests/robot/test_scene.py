@@ -20,7 +20,9 @@ from tmd.robot.scene import OVERLAP, Scene
 from tmd.robot.simulator import Simulator
 
 ROOT = Path(__file__).parents[2]
-ENVIRONMENTS = sorted(ROOT.glob("problems/*/environments/*.yaml"))
+ACTED_IN = sorted(path.parent.name for path in ROOT.glob("domains/*/skills.yaml"))
+"""The domains that the robot acts in; others need no shapes."""
+ENVIRONMENTS = [path for name in ACTED_IN for path in sorted(ROOT.glob(f"problems/{name}/environments/*.yaml"))]
 LOW, HIGH = 0.65, 1.15
 """Where handles, knobs and buttons are in reach."""
 

@@ -16,7 +16,8 @@ from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]
-DOMAINS = sorted(p.parent for p in ROOT.glob("domains/*/objects.yaml"))
+DOMAINS = sorted(p.parent for p in ROOT.glob("domains/*/skills.yaml"))
+"""Those that the robot acts in."""
 NO_OBJECTS = {"fixture", "appliance"}
 """Classes that only say what others have in common."""
 
