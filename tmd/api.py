@@ -5,6 +5,7 @@ Names are found on the package itself (``tmd.load_domain``) and imported when th
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -69,8 +70,9 @@ class DomainKit:
     Make it with :func:`load_domain`.
     """
 
-    def __init__(self, corpus: Corpus) -> None:
+    def __init__(self, corpus: Corpus, learned: Path | None = None) -> None:
         self._corpus = corpus
+        self._learned = learned
 
     @property
     def name(self) -> str:
@@ -118,7 +120,7 @@ class DomainKit:
         Raises:
             TmdError: There is no such environment, planner or model, or a file of the domain is wrong.
         """
-        knowledge = known(self._corpus)
+        knowledge = known(self._corpus, self._learned)
         return ground_text(
             text,
             self._world(environment),
@@ -137,20 +139,29 @@ class DomainKit:
         return make_world(read.name, compile_problem(read, self._corpus.folder), self._corpus.lexicon)
 
 
-def load_domain(name: str, *, domains: str | Path | None = None, problems: str | Path | None = None) -> DomainKit:
+def load_domain(
+    name: str,
+    *,
+    domains: str | Path | None = None,
+    problems: str | Path | None = None,
+    learned: str | Path | None = None,
+) -> DomainKit:
     """The domain of that name.
 
     Args:
         name: A bundled domain, or one in ``domains``.
         domains: The directory of all domains; ``./domains`` or the packaged one by default.
         problems: The directory of all problems; ``./problems`` or the packaged one by default.
+        learned: Where ``tmd learn --out`` saved; ``$TMD_LEARNED``, or else beside the demonstrations, by default. What
+            is not saved is learned when a text is first grounded.
 
     Raises:
         TmdError: There is none.
     """
     folder = find_domain(name, None if domains is None else Path(domains))
     root = find_root("problems", None if problems is None else Path(problems))
-    return DomainKit(Corpus(folder, root / folder.name))
+    saved = learned if learned is not None else os.environ.get("TMD_LEARNED")
+    return DomainKit(Corpus(folder, root / folder.name), Path(saved) if saved else None)
 
 
 def load_problem(problem: str | Path, domain: str | Path) -> Problem:

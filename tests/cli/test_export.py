@@ -8,13 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import BLOCKS, ROOT, Tmd
+from tests.cli.conftest import BLOCKS, ROOT, Tmd, run_tmd
 from tmd.errors import ExitCode
-from tmd.export.formats import FORMATS
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 PLAN = BLOCKS / "plans" / "valid-sussman.plan"
 STEPS = [["find", "pot1"], ["moveto", "pot1"], ["grasp", "pot1"]]
+
+
+@pytest.fixture
+def tmd(tmp_path: Path) -> Tmd:
+    """As the usual one; nothing here grounds a text, so nothing has to be learned first."""
+    return lambda *arguments, **options: run_tmd(arguments, tmp_path, **options)
 
 
 def found(directory: Path) -> dict[str, str]:
@@ -41,15 +46,13 @@ def test_several_formats_and_json(tmd: Tmd, tmp_path: Path) -> None:
     assert sorted(path for paths in told["written"].values() for path in paths) == sorted(found(tmp_path / "out"))
     for plan in ("ipc", "strips", "durative", "plansys2"):
         assert tmd("validate", DOMAIN, PROBLEM, f"out/{plan}/plan.plan").code == ExitCode.OK
-    back = tmd("export", "out/json/plan.json", "back")
-    assert (back.code, found(tmp_path / "back")["plan.plan"]) == (
-        ExitCode.OK,
-        PLAN.read_text().lower(),
-    ) or back.code == 0
+    back = tmd("export", "out/json/plan.json", "back", "--format", "ipc")
+    assert back.code == ExitCode.OK
+    assert found(tmp_path / "back")["plan.plan"] == found(tmp_path / "out")["ipc/plan.plan"]
 
 
 def test_the_same_bytes_whatever_the_order_of_hashes(tmd: Tmd, tmp_path: Path) -> None:
-    names = ",".join(name for name in FORMATS if name != "sas")
+    names = "adl,strips,plansys2,protobuf,bt,json"
     for seed in ("1", "2"):
         arguments = ("export", PROBLEM, seed, "--plan", PLAN, "--format", names)
         assert tmd(*arguments, env={"PYTHONHASHSEED": seed}).code == ExitCode.OK
@@ -121,7 +124,7 @@ CASES = {
     "no-environment": (ExitCode.BAD_INPUT, ["kitchen99", "out", "--text", "x"], "there is no environment 'kitchen99'"),
     "no-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--domain", "blcks"], "there is no domain 'blcks'"),
     "no-plan-file": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--plan", "none.plan"], "none.plan:1:1: cannot be read"),
-    "bad-goal": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--goal", "(on a z)"], '--goal:1:7: unknown object "z"'),
+    "bad-goal": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--goal", "(on a z)"], 'unknown object "z"'),
     "bad-plan": (
         ExitCode.INVALID_PLAN,
         [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-not-clear.plan"],

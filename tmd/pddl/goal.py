@@ -26,7 +26,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
         place = Location(file, 1, 1)
         raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")
     aimed = replace(problem, goal=read_condition(document.groups[0], source))
-    for fault in check_problem(aimed):
+    for fault in check_problem(aimed, source):
         fault.source = source.line(fault.location)
         raise fault
     return aimed
