@@ -67,12 +67,13 @@ def executed(page: Path, command: str, directory: Path) -> str:
 
 
 def _printed(command: str, directory: Path, programs: Path) -> str:
-    tmd = programs / "tmd"
     programs.mkdir(exist_ok=True)
-    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tmd "$@"\n', encoding="utf-8")
-    tmd.chmod(0o755)
+    for name, arguments in (("tmd", "-m tmd "), ("python", "")):
+        program = programs / name
+        program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments}"$@"\n', encoding="utf-8")
+        program.chmod(0o755)
     environment = os.environ | {
-        "PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}",
+        "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}",
         "PYTHONPATH": str(ROOT),
         "COLUMNS": "100",
     }

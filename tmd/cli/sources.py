@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import click
 
-from tmd.pddl.goal import with_goal
 from tmd.cli.roots import Roots
 from tmd.errors import ExitCode, Location, TmdError
 from tmd.export.planned import Planned, planned, with_outcome
+from tmd.pddl.goal import with_goal
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.syntax import read_text
@@ -72,7 +73,10 @@ def _of_problem(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
 
 
 def load_problem(roots: Roots, path: Path, domain: str | None) -> Problem:
-    """A PDDL problem with its domain: the one named, ``domain.pddl`` beside it, or the bundled one of that name.
+    """A PDDL problem with its domain.
+
+    That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has the
+    name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem names.
 
     Raises:
         TmdError: One of them is missing or wrong.
@@ -85,7 +89,13 @@ def load_problem(roots: Roots, path: Path, domain: str | None) -> Problem:
     beside = path.parent / "domain.pddl"
     if beside.is_file():
         return read_problem(path, read_domain(beside))
-    return read_problem(path, roots.folder(_domain_name(text, path)).domain)
+    named = _domain_name(text, path)
+    domain_read = None
+    with suppress(TmdError):
+        domain_read = roots.folder(path.resolve().parent.name).domain
+    if domain_read is None or domain_read.name != named:
+        domain_read = roots.folder(named).domain
+    return read_problem(path, domain_read)
 
 
 def _domain_name(text: str, path: Path) -> str:
