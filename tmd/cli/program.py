@@ -21,6 +21,8 @@ COMMANDS = (
     "ground",
     "run",
     "scene",
+    "new",
+    "learn",
     "check",
     "fmt",
     "parse",
