@@ -28,6 +28,7 @@ from tmd.language.clause import Parsed
 from tmd.pddl.syntax import nearest
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import FAST_DOWNWARD_FIRST, IN_PROCESS, make
+from tmd.planning.filler import QUICK
 from tmd.planning.result import Planner
 from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
@@ -135,6 +136,7 @@ def ground(
         plan_stated=model.state,
         few=FEW,
         guess=False,
+        goal_filler=make(planner, world.task, cap=QUICK) if planner == IN_PROCESS else None,
         last_resort=_last_resort(planner, world),
     )
     inferred = inference.infer(parsed.clauses, world.task.init)

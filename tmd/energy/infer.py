@@ -111,7 +111,8 @@ class Inference:
             n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
             better done as it was shown. 0 trusts it always.
         guess: Whether anything is proposed for a verb that has no templates.
-        last_resort: Makes the planner that is asked for that way where ``filler`` gave up and nothing else leads there.
+        goal_filler: The planner for that way; ``filler`` where none is given.
+        last_resort: Makes the planner that is asked for that way where that one gave up and nothing else leads there.
     """
 
     def __init__(
@@ -131,6 +132,7 @@ class Inference:
         plan_stated: bool = False,
         few: float = 0.0,
         guess: bool = True,
+        goal_filler: Planner | None = None,
         last_resort: Callable[[], Planner] | None = None,
     ) -> None:
         self.world = world
@@ -147,6 +149,7 @@ class Inference:
         self.plan_stated = plan_stated
         self.few = few
         self.guess = guess
+        self.goal_filler = goal_filler or filler
         self.last_resort = last_resort
         self._constraints: dict[Sequence_, tuple[Cube, ...]] = {}
         self._statements: dict[tuple[int, Bits], list[tuple[Cube, ...]]] = {}
@@ -216,7 +219,10 @@ class Inference:
             steps = tuple(Step(i, number, latent=False) for i in candidate.instructions)
             return Choice(candidate.source, steps, self.energy.weigh(candidate.raw), candidate.raw), state
         operators = [self.world.task.by_instruction[i] for i in candidate.instructions]
-        answer = self.filler.fill(state, candidate.goal or self._needs(candidate.instructions, operators))
+        if candidate.goal:
+            answer = self.goal_filler.fill(state, candidate.goal)
+        else:
+            answer = self.filler.fill(state, self._needs(candidate.instructions, operators))
         match answer:
             case Filled() if candidate.goal:
                 return self._choice(number, clause, self._made(candidate, answer.plan), answer, state, done)
