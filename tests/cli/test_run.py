@@ -211,10 +211,10 @@ WRONG = {
         "",
         r"error: none/out\.mp4 cannot be written: No such directory",
     ),
-    "read-only": (
+    "read-only": (  # made up: the tests may run as root, who may write everywhere
         ExitCode.CANNOT_WRITE,
         [*KITCHEN, *TEXT, "--strip", "out.png"],
-        "import os; os.access = lambda path, mode, **_: mode != os.W_OK",  # the tests may run as root, who may write everywhere
+        "import os; os.access = lambda path, mode, **_: mode != os.W_OK",
         r"error: out\.png cannot be written: Permission denied\nhint: name a file that you may write",
     ),
     "log-is-a-directory": (

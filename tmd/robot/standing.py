@@ -50,11 +50,13 @@ def free_spots(things: Inventory, room: Room, name: str, relation: str, item: st
             gap = HEAP_GAP if region.heap else GAP
             free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
             spots += map(Spot, free)
+            if region.heap:
+                taken = [pose for pose in fitting if pose not in free]
+                heaped += (Spot(pose) for pose in _heaped(things, taken, own, near, high))
             if free:
                 break
-            if region.heap:
-                heaped += (Spot(pose) for pose in _heaped(things, fitting, own, near, high))
-    return _spread(spots or sorted(heaped, key=lambda spot: spot.pose.position[2]))
+    # beside what lies in a heap there may be room for a thing, and none for the hand
+    return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
 
 
 def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list[Pose]:
