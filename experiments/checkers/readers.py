@@ -47,13 +47,7 @@ def _plado(domain: str, problem: str) -> None:
 def _pymimir(domain: str, problem: str) -> None:
     import pymimir
 
-    try:
-        pymimir.PDDLParser(domain, problem)
-    except AttributeError:
-        from pymimir.advanced.formalism import Parser
-
-        parser = Parser(domain)
-        parser.parse_problem(problem)
+    pymimir.Problem(pymimir.Domain(domain), problem)
 
 
 def _fast_downward(domain: str, problem: str) -> None:
@@ -63,11 +57,12 @@ def _fast_downward(domain: str, problem: str) -> None:
 
     import up_fast_downward
 
-    found = next(Path(up_fast_downward.__file__).parent.rglob("translate/translate.py"))
-    sys.path.insert(0, str(found.parent))
+    found = next(Path(up_fast_downward.__file__).parent.rglob("translate"))
+    script = found / "translate.py" if (found / "translate.py").is_file() else found / "__main__.py"
+    sys.path[:0] = [str(found.parent.parent), str(found)]
     with tempfile.TemporaryDirectory() as directory:
-        sys.argv = [str(found), domain, problem, "--sas-file", f"{directory}/output.sas"]
-        runpy.run_path(str(found), run_name="__main__")
+        sys.argv = [str(script), domain, problem, "--sas-file", f"{directory}/output.sas"]
+        runpy.run_path(str(script), run_name="__main__")
 
 
 TOOLS = {

@@ -67,8 +67,7 @@ class DataFiles:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.demonstrations import texts_of
-        from tmd.check.words import check_lexicon
+        from tmd.check.words import check_lexicon, texts_of
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]

@@ -62,20 +62,3 @@ def _place(demonstration: Demonstration, line: str) -> Location | None:
     place = demonstration.location
     column = line.find(json.dumps(demonstration.environment))
     return Location(place.file, place.line, column + 1) if place and column >= 0 else place
-
-
-def texts_of(path: Path) -> list[str]:
-    """The texts of a corpus, as far as it can be read."""
-    texts = []
-    try:
-        lines = read_text(path).splitlines()
-    except TmdError:
-        return []
-    for line in lines:
-        try:
-            said = json.loads(line)
-        except (json.JSONDecodeError, RecursionError):
-            continue
-        if isinstance(said, dict) and isinstance(said.get("text"), str):
-            texts.append(said["text"])
-    return texts

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.pddl.conjunctions import conjuncts
-from tmd.pddl.hierarchy import TypeHierarchy, universe
+from tmd.pddl.hierarchy import TypeHierarchy, Universe, universe
 from tmd.pddl.model import ActionSchema, Atom, Effect, GroundAtom, Problem, TypedName
 
 Scope = Mapping[str, tuple[str, ...]]
@@ -23,12 +23,14 @@ class Possible:
 
     Attributes:
         problem: The problem.
+        objects: Its objects by type.
         actions: The names of the actions that may apply.
         blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
         adding: The effects that may add an atom of a predicate, each with the types of its variables.
     """
 
     problem: Problem
+    objects: Universe
     actions: set[str] = field(default_factory=set)
     blocked: dict[str, str | Atom] = field(default_factory=dict)
     adding: dict[str, list[tuple[Effect, Scope]]] = field(default_factory=dict)
@@ -38,7 +40,7 @@ class Possible:
     @property
     def hierarchy(self) -> TypeHierarchy:
         """The types of the domain."""
-        return universe(self.problem).hierarchy
+        return self.objects.hierarchy
 
     def reaches(self, atom: GroundAtom) -> bool:
         """Whether ``atom`` holds at the start, or some possible action may add it."""
@@ -47,7 +49,7 @@ class Possible:
         return any(self._may_add(effect.atom, scope, atom) for effect, scope in self.adding.get(atom.predicate, ()))
 
     def _may_add(self, pattern: Atom, scope: Scope, atom: GroundAtom) -> bool:
-        objects = universe(self.problem)
+        objects = self.objects
         bound: dict[str, str] = {}
         for term, name in zip(pattern.terms, atom.args, strict=True):
             if term.startswith("?"):
@@ -81,12 +83,12 @@ class Possible:
         """Whether the initial state has an object of ``types`` at that place of the predicate."""
         key = predicate, place, types
         if key not in self._fitting:
-            objects = universe(self.problem)
+            objects = self.objects
             self._fitting[key] = any(objects.is_a(name, types) for name in self._columns[predicate][place])
         return self._fitting[key]
 
     def _unify(self, atom: Atom, scope: Scope, other: Atom, inner: Scope) -> bool:
-        objects = universe(self.problem)
+        objects = self.objects
         for one, two in zip(atom.terms, other.terms, strict=True):
             if one.startswith("?") and two.startswith("?"):
                 if not self._overlap(scope[one], inner[two]):
@@ -114,7 +116,7 @@ class Possible:
 
     def lacks(self, action: ActionSchema) -> str | Atom | None:
         """The first thing that keeps ``action`` from applying, as far as is known now."""
-        objects = universe(self.problem)
+        objects = self.objects
         for parameter in action.parameters:
             if not objects.of(parameter.types):
                 return parameter.types[0]
@@ -127,18 +129,21 @@ class Possible:
 
 def possible(problem: Problem) -> Possible:
     """What is possible in ``problem``, which has no faults."""
-    found = Possible(problem)
+    found = Possible(problem, universe(problem))
     found.collect_init()
-    waiting = list(problem.domain.actions)
-    while True:
-        still = [action for action in waiting if found.lacks(action) is not None]
-        for action in waiting:
-            if action not in still:
-                _admit(found, action)
-        if len(still) == len(waiting):
-            break
-        waiting = still
-    found.blocked = {action.name: lack for action in waiting if (lack := found.lacks(action)) is not None}
+    waiting: dict[str, list[ActionSchema]] = {}
+    ready = list(reversed(problem.domain.actions))
+    while ready:
+        action = ready.pop()
+        lack = found.lacks(action)
+        if lack is None:
+            found.blocked.pop(action.name, None)
+            for predicate in _admit(found, action):
+                ready += waiting.pop(predicate, ())
+        else:
+            found.blocked[action.name] = lack
+            if isinstance(lack, Atom):
+                waiting.setdefault(lack.predicate, []).append(action)
     return found
 
 
@@ -147,11 +152,12 @@ def types_of(parameters: Iterable[TypedName]) -> dict[str, tuple[str, ...]]:
     return {parameter.name: parameter.types for parameter in parameters}
 
 
-def _admit(found: Possible, action: ActionSchema) -> None:
-    """Let the effects of ``action`` count."""
+def _admit(found: Possible, action: ActionSchema) -> list[str]:
+    """Let the effects of ``action`` count; the predicates that it adds."""
     found.actions.add(action.name)
     scope = types_of(action.parameters)
     for effect in action.effects:
         if effect.positive:
             inner = scope | types_of(effect.parameters)
             found.adding.setdefault(effect.atom.predicate, []).append((effect, inner))
+    return list(dict.fromkeys(effect.atom.predicate for effect in action.effects if effect.positive))

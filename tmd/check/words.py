@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Collection, Iterable, Iterator
 from pathlib import Path
@@ -47,6 +48,23 @@ def check_lexicon(path: Path, actions: Collection[str], names: Collection[str], 
             hint = "add a demonstration that uses it, let it stand for a verb that has one, or remove it"
             found.append(source.error(verb, verb, message, hint, "unserved-verb"))
     return found
+
+
+def texts_of(path: Path) -> list[str]:
+    """The texts of a corpus, as far as it can be read."""
+    texts = []
+    try:
+        lines = read_text(path).splitlines()
+    except TmdError:
+        return []
+    for line in lines:
+        try:
+            said = json.loads(line)
+        except (json.JSONDecodeError, RecursionError):
+            continue
+        if isinstance(said, dict) and isinstance(said.get("text"), str):
+            texts.append(said["text"])
+    return texts
 
 
 class _Served:

@@ -130,7 +130,7 @@ def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> Non
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
     """``(:predicates ...)``, each with the comment that stands beside it."""
     declared = group.parts[1:]
-    following = [*(n.location.line for n in declared[1:]), group.end.line + 1]
+    following = [*(n.location.line for n in declared[1:]), group.end.line + 1][: len(declared)]
     found: list[Predicate] = []
     for node, next_line in zip(declared, following, strict=True):
         last = isinstance(node, Group) and node.end.line != next_line

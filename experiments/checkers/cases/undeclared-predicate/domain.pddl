@@ -15,7 +15,7 @@
     :precondition (and (at ?x ?p) (not (held ?x)))
     :effect (and (held ?x) (not (at ?x ?p))))
 
-  (:action place
+  (:action put
     :parameters (?x - thing ?p - place)
     :precondition (held ?x)
     :effect (and (at ?x ?p) (not (held ?x))))
