@@ -33,6 +33,9 @@ STRIDES = np.array([0.04, 0.04, 0.08])
 CLEARANCE = 0.02
 """Metres that the way keeps from things, where its start and its goal do."""
 DEEPEST = 0.01
+_OUTWARDS = (0.0, 0.12, -0.12, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3)
+_AWAY = (0.6, 0.4, 0.25)
+_MOST_WAYS_OUT = 3
 _BLOCK = 6
 _ATTEMPTS = 20
 _TURN = 0.35
@@ -46,7 +49,7 @@ def plan_base(
     *,
     ignore: Ignored = (),
     rng: np.random.Generator,
-    budget: int = 8000,
+    budget: int = 4000,
     clearance: float = CLEARANCE,
 ) -> list[Base] | None:
     """A way for the robot, as its arms are and with what it holds, to a pose of the base.
@@ -72,11 +75,44 @@ def plan_base(
                     return None
                 pair = name, body, link
                 checker.allowed[pair] = max(checker.allowed.get(pair, -np.inf), depth + 1e-3)
-        path = _Lattice(checker, start, end).search(budget)
+        path = _search(checker, start, end, budget)
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng, tries=100)
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
+
+
+def _search(checker: Checker, start: Array, end: Array, budget: int) -> Array | None:
+    """A way from the start, or from somewhere straight away from what is close to the start."""
+    lattice = _Lattice(checker, start, end)
+    path = lattice.straight()
+    if path is not None:
+        return path
+    ways_out = [start] if checker.apart(start[None])[0] else [*_ways_out(checker, start), start]
+    for out in ways_out[:_MOST_WAYS_OUT]:
+        path = _Lattice(checker, out, end).search(budget // len(ways_out[:_MOST_WAYS_OUT]))
+        if path is not None:
+            return path if out is start else np.vstack([start[None], path])
+    return None
+
+
+def _ways_out(checker: Checker, start: Array) -> list[Array]:
+    """Places that are reached straight from the start, backwards first; the farthest free one each way."""
+    found = []
+    for turn in _OUTWARDS:
+        angle = start[2] + pi + turn
+        for away in _AWAY:
+            out = start + np.array([away * np.cos(angle), away * np.sin(angle), 0.0])
+            if free_line(checker, start, out):
+                found.append(out)
+                break
+    return found
+
+
+def free_line(checker: Checker, start: Array, end: Array) -> bool:
+    """Whether all poses from one to the other are free; the first is not looked at."""
+    count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
+    return checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
 
 
 class _Lattice:
@@ -95,8 +131,8 @@ class _Lattice:
         result: Array = self._goal + np.array([i * PITCH, j * PITCH, k * tau / HEADINGS])
         return result
 
-    def search(self, budget: int) -> Array | None:
-        """Corners from start to goal, (n, 3), or None."""
+    def straight(self) -> Array | None:
+        """Corners of a way with one corner at most, (n, 3), or None."""
         if self._line(self._start, self._goal):
             return np.array([self._start, self._goal])
         # turning first, driving, turning at the end is what people expect, and it is often free
@@ -106,6 +142,12 @@ class _Lattice:
         ):
             if self._line(self._start, corner) and self._line(corner, self._goal):
                 return np.array([self._start, corner, self._goal])
+        return None
+
+    def search(self, budget: int) -> Array | None:
+        """Corners from start to goal, (n, 3), or None."""
+        if (path := self.straight()) is not None:
+            return path
         # the search looks at points only; what lies between them is looked at once a way is found
         for _ in range(_ATTEMPTS):
             cells = self._astar(budget)
@@ -184,5 +226,4 @@ class _Lattice:
         self._screened.update(zip(cells, verdicts, strict=True))
 
     def _line(self, start: Array, end: Array) -> bool:
-        count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
-        return self._checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
+        return free_line(self._checker, start, end)

@@ -27,6 +27,8 @@ _BACK = 0.1
 _STEPS_BACK = (0.12, 0.25, 0.4)
 """Metres that the base goes back where the arms have no room."""
 _NEARBY = 300
+_SWEEP, _SWEEP_MARGIN = 7, 0.03
+"""So many angles of a door are looked at, and so many metres it must stay away."""
 _LIGHTLY = 15.0
 """Newtons that a lid is lifted with, so that what it is on stays where it is."""
 _PINS = 0.015
@@ -76,9 +78,9 @@ class Cell:
         handle = self.scene.handle(name)
         if handle is None or handle.kind in ("knob", "button"):
             return None
-        return self._way(name) >= OPEN_SHARE
+        return self.way(name) >= OPEN_SHARE
 
-    def _way(self, name: str) -> float:
+    def way(self, name: str) -> float:
         """How far a joint is on its way from closed (0) to open (1)."""
         handle = self.scene.handle(name)
         assert handle is not None
@@ -97,10 +99,15 @@ class Cell:
         return name_ if abs(angle - at) <= _SETTING_SHARE * step else None
 
     def reach(self, name: str) -> float:
-        """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres."""
+        """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres.
+
+        What is in something is as near as that.
+        """
         x, y, _ = self.robot.base()
         low, high = self.sim.extents(self.scene.place(name)[0])
-        return hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
+        own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
+        place = self.support(self.whole(name))
+        return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
 
     def measured(self, atom: GroundAtom, sensor: str) -> str:
         """The numbers behind a fact."""
@@ -224,13 +231,42 @@ class Cell:
         self.scene.spring_open(name)
         for _ in range(20):
             self.sim.step(24)
-            if self._way(name) > 0.98:
+            if self.way(name) > 0.98:
                 break
         self.scene.calm(name)
 
+    def sweeps(
+        self, name: str, base: tuple[float, float, float], *, goal: float | None = None, side: str | None = None
+    ) -> bool:
+        """Whether a door would touch the robot, if that stood at ``base``, on its way from where it is.
+
+        Args:
+            name: The door.
+            base: x, y, theta.
+            goal: The position of its joint at the end of its way; None: open.
+            side: An arm that is not looked at, because it moves the door.
+        """
+        handle = self.scene.handle(name)
+        if handle is None:
+            return False
+        start = self.sim.joint_position(handle.body, handle.index)
+        end = handle.open if goal is None else goal
+        arm = frozenset(self.robot.tree.below(f"{side[0]}_shoulder_pan_link")) if side else frozenset()
+        try:
+            for share in np.linspace(0.0, 1.0, _SWEEP):
+                self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
+                touched = self.robot.collides(base=base, margin=_SWEEP_MARGIN)
+                if any(
+                    body == handle.body and link == handle.index and own not in arm for own, body, link, _ in touched
+                ):
+                    return True
+        finally:
+            self.sim.set_joint(handle.body, handle.index, start)
+        return False
+
     def how_open(self, name: str) -> str:
         """For people."""
-        return f"{name} is {100 * self._way(name):.0f} % open"
+        return f"{name} is {100 * self.way(name):.0f} % open"
 
     # what skills ask
 

@@ -86,7 +86,9 @@ class Checker:
         self._margin = margin
         self._ignore = frozenset(ignore)
         self._vary = tuple(vary)
-        self._helds = [held for held in (robot.helds() if helds is None else helds) if arm in (None, held.side)]
+        everything = robot.helds() if helds is None else helds
+        self._helds = [held for held in everything if arm in (None, held.side)]
+        self._others = [held for held in everything if held not in self._helds]
         self._undo = ExitStack()
         self.allowed: dict[tuple[str, int, int], float] = {}
         """How deep pairs may be in each other; those that are not named here: not at all."""
@@ -102,6 +104,9 @@ class Checker:
             self._add_held(held, tree, frames)
         self._centres = np.array([box.centre for box in self._boxes])
         self._halves = np.array([box.half for box in self._boxes])
+        self._places = {
+            held.body: Pose.from_matrix(frames[f"{held.side[0]}_{TOOL}"]) * held.grip for held in self._others
+        }
         self._obstacles = self._find_obstacles()
         self._lower = np.array([lower for _, _, lower, _ in self._obstacles]).reshape(-1, 3)
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
@@ -110,10 +115,12 @@ class Checker:
     def __enter__(self) -> Checker:
         sim, body, joints = self._sim, self._robot.body, self._robot.movable
         positions, velocities = sim.joint_states(body, joints)
-        for held in self._helds:
+        for held in (*self._helds, *self._others):
             self._undo.callback(sim.set_motion, held.body, sim.motion(held.body))
         self._undo.callback(sim.set_joints, body, joints, positions, velocities)
         self._set(self._positions)
+        for moved_along, place in self._places.items():
+            sim.set_pose(moved_along, place)
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -154,6 +161,10 @@ class Checker:
         found = []
         for body in sim.bodies():
             if body in taken or (body, None) in self._ignore:
+                continue
+            if body in self._places:  # in the other hand: it goes where the robot goes
+                low, high = moved(box_of(sim, body), self._places[body].homogeneous()[None])
+                found.append((body, -1, tuple(low[0]), tuple(high[0])))
                 continue
             for link in self._robot.solid_links(body):
                 if (body, link) not in self._ignore:

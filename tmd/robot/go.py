@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from contextlib import suppress
+from collections.abc import Iterator
 from math import atan2, cos, degrees, sin
 
 from tmd.robot.carry import pick_options
@@ -14,9 +14,14 @@ from tmd.robot.reach import DISTANCES, Base, candidates, get_to, stances
 from tmd.robot.simulator import STEPS_PER_SECOND
 
 _MOST_STANCES = 8
-_BACKWARDS = (0.45, 0.3, 0.15)
+_BACKWARDS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
 """Metres that a robot steps back."""
-_FARTHER = (*DISTANCES, 1.0, 1.1)
+_MOST_LOOKOUTS = 8
+_BRIEFLY = 2000
+"""What looking for a place from which a thing can be taken may cost: it may be taken from another one later."""
+_SHIFTS = (0.15, 0.3, 0.45)
+_SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7))
+_FARTHER = (*DISTANCES, 1.1)
 
 
 def look(cell: Cell, name: str) -> str:
@@ -30,17 +35,39 @@ def look(cell: Cell, name: str) -> str:
     point = cell.centre(name)
     if seen := _seen(cell, name, point):
         return seen
-    x, y, _ = cell.robot.base()
-    places: list[Base] = [(x, y, atan2(point[1] - y, point[0] - x))]
-    places += [base for base in stances(cell, Pose(point), cell.front(name)) if not cell.robot.collides(base=base)][:6]
-    for base in places:
+    tried = 0
+    for base, torso in _lookouts(cell, name, point):
+        tried += 1
         try:
-            get_to(cell, base, cell.robot.torso())
+            get_to(cell, base, torso)
         except SkillError:
             continue
         if seen := _seen(cell, name, point):
             return seen
-    raise SkillError(Stage.EFFECT, f"{name} is not in view from {len(places)} places")
+    raise SkillError(Stage.EFFECT, f"{name} is not in view from {tried} places")
+
+
+def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, float]]:
+    """Places from which nothing hides a thing, the nearest ones first: what the robot is near to stays near."""
+    robot = cell.robot
+    x, y, _ = here = robot.base()
+    low = robot.torso()
+    body, _ = cell.scene.place(name)
+    steps = [(dx, dy) for size in _SHIFTS for dx, dy in _SIDES for dx, dy in [(size * dx, size * dy)]]
+    bases: list[Base] = [(x, y, atan2(point[1] - y, point[0] - x))]
+    bases += [(x + dx, y + dy, atan2(point[1] - y - dy, point[0] - x - dx)) for dx, dy in steps]
+    bases += [base for base in stances(cell, Pose(point), cell.front(name)) if base != here]
+    found = 0
+    for base in bases:
+        for torso in (low, 0.3):
+            eye = (robot.base_link(base) * robot.base_link().inverse() * robot.eye()).position
+            hit = cell.sim.ray((eye[0], eye[1], eye[2] + torso - low), point)
+            if (hit is None or hit.body in (body, robot.body)) and not robot.collides(base=base, torso=torso):
+                found += 1
+                yield base, torso
+                break
+        if found == _MOST_LOOKOUTS:
+            return
 
 
 def _seen(cell: Cell, name: str, point: Vector) -> str:
@@ -66,7 +93,10 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     last = SkillError(Stage.STANCE, f"there is no place to stand before {name}")
     focus = Pose(cell.centre(name))
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
-    found = [c for c, _ in zip(candidates(cell, options, focus, cell.front(name)), range(2 + attempt), strict=False)]
+    found = [
+        c
+        for c, _ in zip(candidates(cell, options, focus, cell.front(name), _BRIEFLY), range(2 + attempt), strict=False)
+    ]
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
     here = cell.robot.torso()
     clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
@@ -84,16 +114,18 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     raise last
 
 
-def step_back(cell: Cell) -> None:
-    """Make room for a door, if there is any behind the robot."""
+def step_back(cell: Cell, door: str) -> None:
+    """Make room for a door that is about to open, as little as is needed, if there is any behind the robot."""
     x, y, theta = cell.robot.base()
     for away in _BACKWARDS:
         base = (x - away * cos(theta), y - away * sin(theta), theta)
-        if cell.robot.collides(base=base):
+        if (away and cell.robot.collides(base=base)) or cell.sweeps(door, base):
             continue
-        with suppress(SkillError):
+        try:
             get_to(cell, base, cell.robot.torso())
-            return
+        except SkillError:
+            continue
+        return
 
 
 def wait(cell: Cell, seconds: float) -> str:

@@ -44,7 +44,7 @@ class HandChecker:
         self._obstacles = self._find_obstacles()
 
     def _find_obstacles(self) -> list[tuple[int, int]]:
-        taken = {self._robot.body} | ({self._held.body} if self._held else set())
+        taken = {self._robot.body, *(held.body for held in self._robot.helds())}  # they go where the robot goes
         return [
             (body, link)
             for body in self._robot.sim.bodies()

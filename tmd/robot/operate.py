@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import cos, pi, sin
+from itertools import product
+from math import copysign, cos, pi, sin
 
 from tmd.robot.cell import Cell
 from tmd.robot.fittings import TIP
 from tmd.robot.outcome import SkillError, Stage
-from tmd.robot.pose import Pose
-from tmd.robot.reach import Links, Option, follow, reach
+from tmd.robot.pose import Pose, Vector
+from tmd.robot.present import reach_for
+from tmd.robot.reach import Accept, Base, Links, Option, follow, reach
 from tmd.robot.scene import Handle
 from tmd.robot.simulator import Simulator
 
@@ -23,11 +25,22 @@ PRESSED = 0.5
 _WAYPOINTS = 8
 _PUSHES = ((0.5, 1.0), (0.75, 1.0), (0.3, 1.0), (1.0, 1.0), (0.0, 0.5))
 """How a flap, or a door that is to be shut, is pushed."""
-_PARTS = (1.0, 0.8, 0.65)
+_OPEN = (1.0, 0.8, 0.65)
 """How far a door is opened, as a part of its way."""
+_PIECES = (0.4, 0.25)
+"""How far it is moved where it cannot be moved all the way at once."""
+_STAGES = 4
 _PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
 """How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
 _PULLED, _PUSHED = 0, 1
+_SIDES = (
+    Pose((0.0, 0.0, 0.0)),
+    Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
+    Pose((0.0, 0.0, 0.0), (0.5, -0.5, -0.5, 0.5)),
+)
+"""A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls."""
+_ASIDE = 0.45
+"""Radians off its front from which a door is opened: it comes towards the robot."""
 
 
 def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
@@ -36,32 +49,119 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     Raises:
         SkillError: It has none, cannot be reached, or does not move.
     """
-    handle = _handle(cell, name)
-    start = cell.sim.joint_position(handle.body, handle.index)
-    hands = cell.free()
-    if not hands:
+    if not cell.free():
         raise SkillError(Stage.PRECONDITION, "both hands are full")
+    for _ in range(_STAGES):
+        _swing_somehow(cell, name, attempt, _goals(cell, name, opened))
+        if cell.is_open(name) == opened:
+            return cell.how_open(name)
+    raise SkillError(Stage.EFFECT, f"{cell.how_open(name)} after it was moved")
+
+
+def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:
+    """Move it as far as the first of the goals that is possible."""
+    last = SkillError(Stage.STANCE, f"{name} cannot be moved any farther")
+    for each in goals:
+        try:
+            _swing(cell, name, attempt, each)
+        except SkillError as error:
+            if error.stage not in (Stage.STANCE, Stage.PATH):
+                raise
+            last = error
+        else:
+            return
+    raise last
+
+
+def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
+    """How far open a thing may be at the end, best first.
+
+    From no one place may a hand get all the way: then a part of it is done from here, and the rest from elsewhere.
+    """
+    now, door = cell.way(name), _handle(cell, name).kind == "door"
+    if not opened:
+        return [(0.0,), *([tuple(now - piece for piece in _PIECES if now > piece)] if door else [])]
+    if not door:
+        return [_OPEN]
+    return [_OPEN[:2], _OPEN[2:], tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])]
+
+
+def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
+    handle = _handle(cell, name)
+    for side in cell.free():
+        cell.robot.open_gripper(side, handle.opening)
+    chosen = reach_for(
+        cell,
+        name,
+        lambda: swing_options(cell, name, goals),
+        handle.grasp,
+        attempt,
+        stop=2,
+        front=_aside(cell, name, handle),
+        accept=_out_of_its_way(cell, name, handle),
+    )
+    _pull(cell, name, _handle(cell, name), chosen)
+    cell.retire(chosen.side, chosen.ignore)
+
+
+def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
+    """The heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
+    front = cell.front(name)
+    if front is None or handle.kind != "door":
+        return front
+    x, y, _ = (a - b for a, b in zip(_closed_grasp(cell, name, handle), handle.origin, strict=True))
+    across = -sin(front) * x + cos(front) * y
+    return front + copysign(_ASIDE, across)
+
+
+def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
+    """Where the handle of a door is when it is shut."""
+    start = cell.sim.joint_position(handle.body, handle.index)
+    cell.sim.set_joint(handle.body, handle.index, handle.closed)
+    shut = _handle(cell, name).grasp.position
+    cell.sim.set_joint(handle.body, handle.index, start)
+    return shut
+
+
+def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
+    """Asks whether a door passes the robot; the same place is asked about once."""
+    known: dict[tuple[Base, float, str], bool] = {}
+
+    def accept(option: Option, base: Base) -> bool:
+        key = base, option.part, option.side
+        if key not in known:
+            known[key] = not cell.sweeps(name, base, goal=_end(handle, option.part), side=option.side)
+        return known[key]
+
+    return accept
+
+
+def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]:
+    """Ways to open or close something with a free hand; the spot of an option says whether it is pulled or pushed.
+
+    Args:
+        cell: Robot and scene.
+        name: The door, drawer or lid.
+        goals: How far open it may be at the end (1 is as far as it goes), best first.
+    """
+    handle, hands = _handle(cell, name), cell.free()
+    start = cell.sim.joint_position(handle.body, handle.index)
     ignore: Links = frozenset({(handle.body, handle.index)})
     options = []
-    for part in _PARTS if opened else (1.0,):
-        goal = start + part * ((handle.open if opened else handle.closed) - start)
+    for part in goals:
+        goal = _end(handle, part)
         tools = _tools(cell, name, handle, start, goal)
-        options += [
-            Option(side, poses, ignore, spot) for spot, poses in _ways(handle, tools, goal - start) for side in hands
-        ]
-        if not opened and handle.turns and handle.kind == "door":
+        ways = list(_ways(handle, tools, goal - start))
+        if handle.kind == "door" and part < cell.way(name):
             pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
-            ways = _ways(handle, pushed, goal - start, _PUSHES)
-            options += [Option(side, poses, ignore, _PUSHED) for _, poses in ways for side in hands]
-    for side in hands:
-        cell.robot.open_gripper(side, handle.opening)
-    middle = options[0].poses[len(options[0].poses) // 2]
-    chosen = reach(cell, options, middle, cell.front(name), attempt, stop=2)
-    _pull(cell, name, handle, chosen)
-    cell.retire(chosen.side, ignore)
-    if cell.is_open(name) != opened:
-        raise SkillError(Stage.EFFECT, f"{cell.how_open(name)} after it was pulled")
-    return cell.how_open(name)
+            ways += _ways(handle, pushed, goal - start, _PUSHES)
+        options += [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
+    return options
+
+
+def _end(handle: Handle, part: float) -> float:
+    """The joint's position when it is open for a part of its way."""
+    return handle.closed + part * (handle.open - handle.closed)
 
 
 def _ways(
@@ -71,8 +171,8 @@ def _ways(
     pushes = handle.kind == "flap" or headings is not None
     if headings is None:
         headings = _PUSHES if pushes else _PULLS if handle.turns else _PULLS[:1]
-    for lead, follows in headings:
-        turned = [_turned(tool, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
+    for side, (lead, follows) in product(_SIDES if handle.kind == "lid" else _SIDES[:1], headings):
+        turned = [_turned(tool * side, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
         yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-BEFORE, 0.0, 0.0)), *turned)
 
 

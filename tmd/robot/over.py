@@ -10,7 +10,8 @@ from math import acos, cos, degrees, hypot, pi, sin
 from tmd.robot.cell import Cell
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose, Vector
-from tmd.robot.reach import Links, Option, follow, reach, with_room
+from tmd.robot.present import reach_for
+from tmd.robot.reach import Links, Option, follow, with_room
 
 ABOVE = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.02), (0.03, 0.03), (0.01, 0.03))
 """Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth on the
@@ -23,6 +24,8 @@ _ABOVE = (0.05, 0.02)
 """Metres above a rim from which a spoon goes down."""
 DEEP = 0.02
 """Metres that a spoon goes below a rim."""
+_POURED = (0.6, 0.8, 1.0)
+"""How far an open thing is tipped before a niche, as a part of the whole: a half full one keeps what is in it."""
 _ENOUGH = 1.2
 """Radians from which contents run out."""
 _RIM = 0.85
@@ -102,12 +105,16 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     """
     side = _side(cell, item)
     known = mouths(cell, item, side)
-    options: list[Option] = []
-    for room in ABOVE:
-        options += with_room(cell, tip_options(cell, item, target, known, *room, closed=squeezed))
-        if len(options) >= _ENOUGH_WAYS:
-            break
-    chosen = reach(cell, options, Pose(_over(cell, target, ABOVE[0][0])), cell.front(target), attempt)
+
+    def options() -> list[Option]:
+        found: list[Option] = []
+        for room in ABOVE:
+            found += with_room(cell, tip_options(cell, item, target, known, *room, closed=squeezed))
+            if len(found) >= _ENOUGH_WAYS:
+                break
+        return found
+
+    chosen = reach_for(cell, target, options, Pose(_over(cell, target, ABOVE[0][0])), attempt)
     how = known[chosen.spot]
     if squeezed:
         cell.robot.close_gripper(side, _SQUEEZE)
@@ -129,7 +136,8 @@ def tip_options(
 ) -> list[Option]:
     """Ways to tip what is held over a rim, and as near to its edge; the spot of an option is the number of its mouth.
 
-    What is ``closed`` until it is squeezed may be tipped before it is brought into a niche.
+    Before a niche a thing is tipped outside, as far as nothing runs out: what is ``closed`` until it is squeezed all
+    the way.
     """
     side = _side(cell, item)
     grip = cell.in_tool(side, item).inverse()
@@ -144,11 +152,11 @@ def tip_options(
             poses = tuple(_over_rim(stood, how, at, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
             outside = before(cell, target, poses[0])
             options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
-            if outside and closed:
-                tipped = _over_rim(stood, how, at, turned) * grip
-                (end,) = before(cell, target, tipped)
+            if outside:
+                inside = [_over_rim(stood, how, at, turned * k) * grip for k in ((1.0,) if closed else _POURED)]
+                (end,) = before(cell, target, inside[0])
                 start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
-                options.append(Option(side, (start, end, tipped), _hands(cell, item), index))
+                options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
     return options
 
 
@@ -178,6 +186,21 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     """
     side = _side(cell, item)
     how = mouths(cell, item, side)[0]
+    focus = Pose(_over(cell, target, _ABOVE[0]))
+    chosen = reach_for(cell, target, lambda: dip_options(cell, item, target, how), focus, attempt)
+    at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
+    beside, below = _beside(cell, at, target), cell.top(target) - at[2]
+    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
+    cell.fold()
+    said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
+    if below < -0.01 or beside > _BESIDE:
+        raise SkillError(Stage.EFFECT, said)
+    return said
+
+
+def dip_options(cell: Cell, item: str, target: str, how: Mouth) -> list[Option]:
+    """Ways to bring the end of what is held below a rim."""
+    side = _side(cell, item)
     grip = cell.in_tool(side, item).inverse()
     ignore = _hands(cell, item, target)
     options = []
@@ -188,15 +211,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
             stood = _leaning(Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS), how, lean)
             poses = tuple(_held_at(stood, how, at, 0.0) * grip for at in (above, inside))
             options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
-    chosen = reach(cell, options, Pose(_over(cell, target, _ABOVE[0])), cell.front(target), attempt)
-    at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
-    beside, below = _beside(cell, at, target), cell.top(target) - at[2]
-    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
-    cell.fold()
-    said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
-    if below < -0.01 or beside > _BESIDE:
-        raise SkillError(Stage.EFFECT, said)
-    return said
+    return options
 
 
 def _side(cell: Cell, item: str) -> str:

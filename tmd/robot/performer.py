@@ -35,9 +35,8 @@ class RobotPerformer:
         if task.skill == "push":
             seen = {p for p, sensor in self.skills.seen.items() if sensor == "joint"}
             springs = sorted(a.args[0] for a in gains if a.predicate in seen and a.args[0] != task.object)
-            if springs:
-                go.step_back(self.cell)
             for name in springs:
+                go.step_back(self.cell, name)
                 self.cell.spring(name)
         return said
 

@@ -7,21 +7,23 @@ its poses and a way to the first of them is taken.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import islice, pairwise
-from math import atan2, ceil, cos, hypot, pi, sin, sqrt
+from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.cell import Cell
 from tmd.robot.hand import HandChecker
 from tmd.robot.motion import DEEPEST, between, plan_arm, plan_base, plan_poses
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose
+from tmd.robot.span import Wrists
 
 Base = tuple[float, float, float]
 Links = frozenset[tuple[int, int | None]]
+Accept = Callable[["Option", Base], bool]
 
-DISTANCES = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90)
+DISTANCES = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90, 1.0)
 """Metres from the base to what is to be reached, best first."""
 SWINGS = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
 """Radians off the front."""
@@ -29,17 +31,17 @@ TURNS = (0.0, 0.35, -0.35)
 """Radians that the base is turned away from what it faces, so that a shoulder does."""
 ABOVE_HAND = (0.10, 0.32, -0.1)
 """Metres from the hand's height to the shoulder's, best first."""
-MOST_QUESTIONS = 800
-"""So many postures are asked for before a search ends."""
+PATIENCE = 6000
+"""What a search may cost before it ends: about so many milliseconds."""
+_PRICES = (3, 15, 40)
+"""Of asking about a pose that has no posture, one whose postures touch something, and a motion."""
+_ALIKE = 0.15
+"""Metres between places that are as good as one."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
-_REACH = (0.25, 0.95)
-"""Metres from the shoulder to the wrist's tool that are worth asking about."""
+_COARSE = 4.0
 _POSTURES = 8
 """So many postures of one pose are looked at."""
-_BACK = -0.25
-"""Least cosine between the way the hand points and the way from the shoulder to it."""
-_SHOULDER = 0.188
 _SHOULDER_HEIGHT = 0.790675
 
 
@@ -52,12 +54,14 @@ class Option:
         poses: Of the tool in the world: the first is reached freely, the others one after the other in straight lines.
         ignore: (body, link) that the hand may touch at the first pose and on the way along the others.
         spot: What was chosen with it, for the skill.
+        part: How far open something is at the end.
     """
 
     side: str
     poses: tuple[Pose, ...]
     ignore: Links
     spot: int = 0
+    part: float = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +81,8 @@ def reach(
     attempt: int,
     *,
     stop: int | None = None,
+    stay: bool = False,
+    accept: Accept | None = None,
 ) -> Option:
     """Bring a hand through the poses of one of the ``options``.
 
@@ -87,6 +93,8 @@ def reach(
         front: The heading of the side it is reached from, where it has one.
         attempt: How often this was tried before; later tries begin farther down the list.
         stop: Go only to so many of the poses; the others must be possible from there.
+        stay: Neither the base nor the torso may move.
+        accept: Says of an option from a base whether it will do.
 
     Raises:
         SkillError: None can be reached (stance), there is no way (path), or the robot did not get there (execution).
@@ -96,15 +104,28 @@ def reach(
     fitting = with_room(cell, options)
     if not fitting:
         raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
-    found = candidates(cell, fitting, focus, front)
+    found = candidates(cell, fitting, focus, front, stay=stay, accept=accept)
     last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
-    for candidate in islice(found, 2 * attempt, 2 * attempt + MOST_TRIES):
+    failed: list[Candidate] = []
+    closed: list[Base] = []
+    for candidate in islice(found, 2 * attempt, None):
+        if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
+            continue
         try:
-            _take(cell, candidate, stop)
+            get_to(cell, candidate.base, candidate.torso)
         except SkillError as error:
             last = error
+            closed.append(candidate.base)
         else:
-            return candidate.option
+            try:
+                _take(cell, candidate.option, stop)
+            except SkillError as error:
+                last = error
+                failed.append(candidate)
+            else:
+                return candidate.option
+        if len(failed) + len(closed) >= MOST_TRIES:
+            break
     raise last
 
 
@@ -122,23 +143,51 @@ def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
     return found
 
 
-def candidates(cell: Cell, options: Sequence[Option], focus: Pose, front: float | None) -> Iterator[Candidate]:
-    """Options from places to stand for which all poses have postures without collisions."""
+def candidates(
+    cell: Cell,
+    options: Sequence[Option],
+    focus: Pose,
+    front: float | None,
+    patience: int = PATIENCE,
+    *,
+    stay: bool = False,
+    accept: Accept | None = None,
+) -> Iterator[Candidate]:
+    """Options from places to stand for which all poses have postures without collisions.
+
+    The search ends when its questions have cost more than ``patience``.
+    """
+    if not options:
+        return
     here = cell.robot.base()
-    asked = 0
-    heights = _heights(cell, sum(option.poses[-1].position[2] for option in options) / max(1, len(options)))
-    for base in stances(cell, focus, front):
-        near = [(torso, o) for torso in heights for o in options if _near_enough(o, base, torso)]
-        if not near or (base != here and cell.robot.collides(base=base)):
+    left = patience
+    hand = sum(option.poses[-1].position[2] for option in options) / len(options)
+    heights = [cell.robot.torso()] if stay else _heights(cell, hand)
+    wrists = Wrists(cell.robot, [o.side for o in options], [o.poses for o in options])
+    for base in [here] if stay else stances(cell, focus, front):
+        near = {torso: wrists.within(base, torso) for torso in heights}
+        if not any(near.values()) or (base != here and cell.robot.collides(base=base)):
             continue
-        for torso in heights:
-            for option in (o for t, o in near if t == torso):
-                asked += 1
-                if _possible(cell, option, base, torso):
+        for torso, numbers in near.items():
+            for option in (options[number] for number in numbers):
+                if accept is not None and not accept(option, base):
+                    continue
+                possible, price = _possible(cell, option, base, torso)
+                left -= price
+                if possible:
                     yield Candidate(option, base, torso)
                     break
-        if asked > MOST_QUESTIONS:
+        if left < 0:
             return
+
+
+def _alike(one: Candidate, other: Candidate) -> bool:
+    """Whether what failed there will fail here: the same arm in nearly the same place."""
+    return one.option is other.option and _close(one.base, other.base)
+
+
+def _close(one: Base, other: Base) -> bool:
+    return hypot(one[0] - other[0], one[1] - other[1]) < _ALIKE
 
 
 def stances(cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = DISTANCES) -> Iterator[Base]:
@@ -188,18 +237,17 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
         raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}")
 
 
-def dense(poses: Sequence[Pose]) -> list[Pose]:
-    """``poses`` with others in between, 1 cm and 0.05 rad apart at most."""
+def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
+    """``poses`` with others in between, ``pitch`` cm and 0.05 ``pitch`` rad apart at most."""
     found = [poses[0]]
     for start, end in pairwise(poses):
-        pieces = max(1, ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9))
+        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
         found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
     return found
 
 
-def _take(cell: Cell, candidate: Candidate, stop: int | None) -> None:
-    option, side = candidate.option, candidate.option.side
-    get_to(cell, candidate.base, candidate.torso)
+def _take(cell: Cell, option: Option, stop: int | None) -> None:
+    side = option.side
     rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
     if rows is None:
         raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
@@ -212,36 +260,17 @@ def _take(cell: Cell, candidate: Candidate, stop: int | None) -> None:
         follow(cell, side, option.poses[1:stop], option.ignore)
 
 
-def _possible(cell: Cell, option: Option, base: Base, torso: float) -> bool:
-    """Whether there is a posture for the last pose, and a motion through all of them."""
+def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
+    """Whether there is a posture for the last pose, and a motion through all of them; and what it cost to ask."""
     robot, side = cell.robot, option.side
     found = robot.solve(side, option.poses[-1], base=base, torso=torso)[:_POSTURES]
+    if not found:
+        return False, _PRICES[0]
     if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
-        return False
-    poses = dense(option.poses)
-    return plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso) is not None
-
-
-def _near_enough(option: Option, base: Base, torso: float) -> bool:
-    """Whether all poses are at arm's length from the shoulder."""
-    x, y, theta = base
-    out = -_SHOULDER if option.side == "right" else _SHOULDER
-    shoulder = (
-        x - 0.05 * cos(theta) - out * sin(theta),
-        y - 0.05 * sin(theta) + out * cos(theta),
-        _SHOULDER_HEIGHT + torso,
-    )
-    return all(_handy(pose, shoulder) for pose in option.poses)
-
-
-def _handy(pose: Pose, shoulder: tuple[float, float, float]) -> bool:
-    """Whether a hand can be there: not too far, and not pointing back at the shoulder."""
-    x, y, z = (a - b for a, b in zip(pose.position, shoulder, strict=True))
-    away = sqrt(x * x + y * y + z * z)
-    if not _REACH[0] < away < _REACH[1]:
-        return False
-    ahead = pose.rotate((1.0, 0.0, 0.0))
-    return (x * ahead[0] + y * ahead[1] + z * ahead[2]) / away > _BACK
+        return False, _PRICES[1]
+    poses = dense(option.poses, _COARSE)  # what lies in between is looked at once the robot is there
+    rows = plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso)
+    return rows is not None, _PRICES[2]
 
 
 def _heights(cell: Cell, hand: float) -> list[float]:

@@ -191,8 +191,8 @@ def lid(model: Model, look: Look, radius: float, height: float) -> None:
         friction=0.02, mass=0.01,
     )  # fmt: skip
     model.cylinder((radius, 0.0, 0.0065), radius, 0.011, look.accent, link="lid")
-    model.box((2 * radius + 0.005, 0.0, 0.0065), (0.016, 0.02, 0.009), look.accent, link="lid")
-    tool = Frame((2 * radius + 0.007, 0.0, 0.0065), INTO, LEFT)
+    model.box((2 * radius + 0.010, 0.0, 0.0065), (0.026, 0.02, 0.009), look.accent, link="lid")
+    tool = Frame((2 * radius + 0.016, 0.0, 0.0065), INTO, LEFT)  # far enough out for a hand from the side
     model.grips.append(Grip(ROOT, "lid", "lid", tool, 0.04, 0.0, 1.75))
 
 
