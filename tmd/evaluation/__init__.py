@@ -12,7 +12,7 @@ module              holds
 ``prediction``      what a model says of an example, clause by clause
 ``models``          what is compared, each behind one small interface
 ``crf``             the paper's own model among them, its ablations, and our variants
-``predefined``      Predefined Templates: a library that people wrote
+``predefined``      Predefined Templates: a library that people wrote; ``template_file`` its file
 ``tree``            Instruction-Tree Search
 ``units``           the unit of work: one model, one training set, the folds that share it
 ``backends``        who does the units: this process, others on this machine, a cluster
