@@ -6,6 +6,10 @@ import os
 import time
 from pathlib import Path
 
+# the tests run side by side already: linear algebra in many threads would make each of them wait for the others
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
 import pytest
 
 from tmd.learned.knowledge import study
