@@ -11,8 +11,8 @@ import pytest
 
 from tmd.errors import MissingToolError, TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.read_formula import read_condition
 from tmd.pddl.parentheses import parse
+from tmd.pddl.read_formula import read_condition
 from tmd.pddl.task import Cube, Task
 from tmd.planning import up_worker
 from tmd.planning.backends import make, solve
