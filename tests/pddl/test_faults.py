@@ -186,7 +186,7 @@ DOMAIN_FAULTS = {
         None,
     ),
     "either for a constant": ("table - place", "table - (either item place)", 4, 15, "one type", "parent"),
-    "bad name": ("(domain cafe)", "(domain 1cafe)", 1, 17, '"1cafe" is not', "begin with a letter"),
+    "bad name": ("(domain cafe)", "(domain !cafe)", 1, 17, '"!cafe" is not', "begin with a letter"),
     "reserved name": ("(held ?i - item)", "(when ?i - item)", 5, 43, '"when" is a word of PDDL', None),
     "captured variable": (
         "(forall (?n - mug) (when (at ?n table) (full ?n)))",
@@ -309,6 +309,10 @@ def test_a_missing_requirement_is_told_and_let_pass(old: str, line: int, column:
     assert message in faults[0].message
 
 
+def test_a_name_that_planners_take_is_read() -> None:
+    assert parse_domain(DOMAIN.replace("(domain cafe)", "(domain 1cafe)")).name == "1cafe"
+
+
 def test_a_domain_without_requirements_is_strips() -> None:
     strips = "(define (domain d) (:predicates (p) (q)) (:action a :precondition (p) :effect (and (q) (not (p)))))"
     assert parse_domain(strips).requirements == ()
@@ -391,7 +395,7 @@ TOKENS = [
 ]
 
 
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 @given(st.data())
 def test_damaged_domains_give_clear_errors(data: st.DataObject) -> None:
     """Cut, doubled or mixed-up text is either read or refused with a place; never a traceback."""
@@ -405,7 +409,7 @@ def test_damaged_domains_give_clear_errors(data: st.DataObject) -> None:
         assert error.source is not None
 
 
-@settings(max_examples=300)
+@settings(max_examples=300, deadline=None)
 @given(st.data())
 def test_damaged_problems_give_clear_errors(data: st.DataObject) -> None:
     start = data.draw(st.integers(0, len(PROBLEM)))
