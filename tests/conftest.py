@@ -11,6 +11,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import pytest
+from hypothesis import settings
 
 from tmd.learned.knowledge import study
 from tmd.learned.store import place, save
@@ -18,6 +19,10 @@ from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[1]
+
+# how long an example takes depends on what else the machine does
+settings.register_profile("untimed", deadline=None)
+settings.load_profile("untimed")
 
 
 @pytest.fixture(scope="session")
