@@ -101,7 +101,8 @@ def read_number(node: Node, source: Source) -> int | None:
     whole = _NUMBER.fullmatch(node.text)
     if whole:
         return int(whole[1])
-    message = f'not supported: numbers other than whole ones from 0 to 10^15: "{node.text}"'
+    shown = node.text if len(node.text) <= 30 else f"{node.text[:30]}…"
+    message = f'not supported: numbers other than whole ones from 0 to 10^15: "{shown}"'
     raise source.error(message, node.location, "multiply all costs by 10, 100, ...", "not-supported")
 
 
