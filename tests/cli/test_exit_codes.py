@@ -242,11 +242,19 @@ def test_interrupted(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     command = [sys.executable, "-m", "tmd", "parse", "--text-file", str(pipe)]
-    with subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
-        writer = os.open(pipe, os.O_WRONLY)  # returns when tmd has begun to read
+
+    def heeding() -> None:
+        """Tests that run in the background of a script inherit that an interrupt is ignored."""
+        signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heeding)
+    writer = os.open(pipe, os.O_WRONLY)  # returns when tmd has begun to read
+    try:
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=60)
+    finally:
         os.close(writer)
+        process.kill()
     assert (process.returncode, out, err) == (ExitCode.INTERRUPTED, "", "error: interrupted\n")
 
 
