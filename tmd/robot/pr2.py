@@ -428,6 +428,13 @@ class Pr2:
         with Checker(self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin) as checker:
             return checker.collisions(())
 
+    def free_bases(self, bases: Sequence[tuple[float, float, float]]) -> list[bool]:
+        """For many poses of the base, whether the robot as it is would touch nothing there."""
+        if not bases:
+            return []
+        with Checker(self, BASE_JOINTS) as checker:
+            return checker.each_free(np.array(bases, dtype=float))
+
     def clear(
         self,
         side: str,

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice, pairwise
+from itertools import islice, pairwise, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.cell import Cell
@@ -29,6 +29,10 @@ SWINGS = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
 """Radians off the front."""
 TURNS = (0.0, 0.35, -0.35)
 """Radians that the base is turned away from what it faces, so that a shoulder does."""
+_FINE_DISTANCES = (0.44, 0.51, 0.58, 0.66, 0.74, 0.82, 0.90, 0.98)
+_FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
+_FINE_TURNS = (0.0, 0.35, -0.35, 0.7, -0.7)
+"""Of the places that are looked at where furniture leaves little room."""
 ABOVE_HAND = (0.10, 0.32, -0.1)
 """Metres from the hand's height to the shoulder's, best first."""
 PATIENCE = 6000
@@ -39,6 +43,8 @@ _ALIKE = 0.15
 """Metres between places that are as good as one."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
+_SQUEEZED = 0.004
+"""Metres that the base keeps from things where it cannot keep more."""
 _COARSE = 4.0
 _POSTURES = 8
 """So many postures of one pose are looked at."""
@@ -164,10 +170,8 @@ def candidates(
     hand = sum(option.poses[-1].position[2] for option in options) / len(options)
     heights = [cell.robot.torso()] if stay else _heights(cell, hand)
     wrists = Wrists(cell.robot, [o.side for o in options], [o.poses for o in options])
-    for base in [here] if stay else stances(cell, focus, front):
+    for base in [here] if stay else _free(cell, focus, front):
         near = {torso: wrists.within(base, torso) for torso in heights}
-        if not any(near.values()) or (base != here and cell.robot.collides(base=base)):
-            continue
         for torso, numbers in near.items():
             for option in (options[number] for number in numbers):
                 if accept is not None and not accept(option, base):
@@ -179,6 +183,15 @@ def candidates(
                     break
         if left < 0:
             return
+
+
+def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
+    """Places to stand where the robot touches nothing: the usual ones, then many more between them."""
+    here = cell.robot.base()
+    usual = list(stances(cell, focus, front))
+    yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
+    closer = list(_round(cell, focus, front, _FINE_DISTANCES, _FINE_SWINGS, _FINE_TURNS))
+    yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
 def _alike(one: Candidate, other: Candidate) -> bool:
@@ -196,14 +209,25 @@ def stances(cell: Cell, focus: Pose, front: float | None, distances: Sequence[fl
     here = cell.robot.base()
     if hypot(here[0] - x, here[1] - y) < 1.05:
         yield here
-    middle = front if front is not None else atan2(here[1] - y, here[0] - x)
     swings = SWINGS if front is not None else (*SWINGS, 1.6, -1.6, 2.2, -2.2, pi)
-    for swing in swings:
-        for distance in distances:
-            angle = middle + swing
-            place = x + distance * cos(angle), y + distance * sin(angle)
-            for turn in TURNS:
-                yield (*place, _wrapped(angle + pi + turn))
+    yield from _round(cell, focus, front, distances, swings, TURNS)
+
+
+def _round(
+    cell: Cell,
+    focus: Pose,
+    front: float | None,
+    distances: Sequence[float],
+    swings: Sequence[float],
+    turns: Sequence[float],
+) -> Iterator[Base]:
+    """Places round the focus; without a front, the robot's own side is the front."""
+    x, y, _ = focus.position
+    here = cell.robot.base()
+    middle = front if front is not None else atan2(here[1] - y, here[0] - x)
+    for swing, distance, turn in product(swings, distances, turns):
+        angle = middle + swing
+        yield x + distance * cos(angle), y + distance * sin(angle), _wrapped(angle + pi + turn)
 
 
 def get_to(cell: Cell, base: Base, torso: float) -> None:
@@ -216,6 +240,8 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
     if hypot(base[0] - here[0], base[1] - here[1]) > 0.01 or abs(_wrapped(base[2] - here[2])) > 0.01:
         cell.fold()
         path = plan_base(cell.robot, base, rng=cell.rng)
+        if path is None:  # between furniture there may be less room
+            path = plan_base(cell.robot, base, rng=cell.rng, clearance=_SQUEEZED)
         if path is None:
             raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
         if not cell.robot.drive(path):
