@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
@@ -25,6 +26,11 @@ class Ended:
 
 
 Tmd = Callable[..., Ended]
+
+
+def heed_interrupts() -> None:
+    """For a process to interrupt: where the tests run in the background, it would inherit that interrupts are ignored."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 def run_tmd(

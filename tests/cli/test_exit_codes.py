@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd
+from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd, heed_interrupts
 from tmd.errors import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
@@ -242,12 +242,9 @@ def test_interrupted(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     command = [sys.executable, "-m", "tmd", "parse", "--text-file", str(pipe)]
-
-    def heeding() -> None:
-        """Tests that run in the background of a script inherit that an interrupt is ignored."""
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-    process = subprocess.Popen(command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heeding)
+    process = subprocess.Popen(
+        command, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, preexec_fn=heed_interrupts
+    )
     writer = os.open(pipe, os.O_WRONLY)  # returns when tmd has begun to read
     try:
         process.send_signal(signal.SIGINT)

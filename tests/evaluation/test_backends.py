@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Ended, run_tmd
+from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.errors import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation import cluster, models
@@ -79,6 +79,7 @@ def begin(out: Path, *options: str) -> subprocess.Popen[bytes]:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         start_new_session=True,
+        preexec_fn=heed_interrupts,
     )
 
 
