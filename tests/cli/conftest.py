@@ -29,7 +29,7 @@ Tmd = Callable[..., Ended]
 
 
 def heed_interrupts() -> None:
-    """For a process to interrupt: where the tests run in the background, it would inherit that interrupts are ignored."""
+    """For a process to interrupt: from tests in the background it would inherit that interrupts are ignored."""
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
