@@ -29,7 +29,7 @@ _STEPS_BACK = (0.12, 0.25, 0.4)
 _NEARBY = 300
 _SWEEP, _SWEEP_MARGIN = 7, 0.03
 """So many angles of a door are looked at, and so many metres it must stay away."""
-_LIGHTLY = 15.0
+_LIGHTLY = 4.0
 """Newtons that a lid is lifted with, so that what it is on stays where it is."""
 _PINS = 0.015
 """Metres from the middle of a knob to the two points that the fingers hold it at."""

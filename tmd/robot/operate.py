@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 from math import copysign, cos, pi, sin
 
 from tmd.robot.cell import Cell
@@ -32,6 +31,8 @@ _PIECES = (0.4, 0.25)
 _STAGES = 4
 _PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
 """How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
+_LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0))
+"""The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
 _PULLED, _PUSHED = 0, 1
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
@@ -171,7 +172,12 @@ def _ways(
     pushes = handle.kind == "flap" or headings is not None
     if headings is None:
         headings = _PUSHES if pushes else _PULLS if handle.turns else _PULLS[:1]
-    for side, (lead, follows) in product(_SIDES if handle.kind == "lid" else _SIDES[:1], headings):
+    held = (
+        [(side, heading) for heading in _LIFTS for side in _SIDES]
+        if handle.kind == "lid"
+        else [(_SIDES[0], heading) for heading in headings]
+    )
+    for side, (lead, follows) in held:
         turned = [_turned(tool * side, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
         yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-BEFORE, 0.0, 0.0)), *turned)
 

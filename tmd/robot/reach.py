@@ -43,7 +43,7 @@ _ALIKE = 0.15
 """Metres between places that are as good as one."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
-_SQUEEZED = 0.004
+_SQUEEZED = 0.008
 """Metres that the base keeps from things where it cannot keep more."""
 _COARSE = 4.0
 _POSTURES = 8
