@@ -25,25 +25,33 @@ settings.register_profile("untimed", deadline=None)
 settings.load_profile("untimed")
 
 
+LEARNED = ("living_room", "kitchen")
+
+
 @pytest.fixture(scope="session")
 def learned(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
-    """A directory as `tmd learn --out` leaves it, for commands that tests run; one process learns, the others wait."""
+    """A directory as `tmd learn --out` leaves it, for commands that tests run; one process learns each domain."""
     base = tmp_path_factory.getbasetemp()
     root = (base if worker_id == "master" else base.parent) / "learned"
+    root.mkdir(exist_ok=True)
     os.environ["TMD_LEARNED"] = str(root)
-    done = root / "done"
-    try:
-        root.mkdir()
-    except FileExistsError:
-        for _ in range(2_000):
-            if done.exists():
-                break
-            time.sleep(0.1)
-        return root
-    try:
-        for name in ("kitchen", "living_room"):
-            corpus = Corpus(DomainFolder(ROOT / "domains" / name), ROOT / "problems" / name)
-            save(study(corpus), corpus, place(corpus, root))
-    finally:
-        done.touch()
+    for name in LEARNED:
+        _learn(name, root)
+    for _ in range(2_000):
+        if all((root / f"{name}.done").exists() for name in LEARNED):
+            break
+        time.sleep(0.1)
     return root
+
+
+def _learn(name: str, root: Path) -> None:
+    """Learn a domain, unless another process does."""
+    try:
+        (root / f"{name}.begun").touch(exist_ok=False)
+    except FileExistsError:
+        return
+    try:
+        corpus = Corpus(DomainFolder(ROOT / "domains" / name), ROOT / "problems" / name)
+        save(study(corpus), corpus, place(corpus, root))
+    finally:
+        (root / f"{name}.done").touch()
