@@ -97,7 +97,7 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
     back = tuple(-value * BEFORE for value in cell.scene.entry(target, relation))
     links = _links(cell, item)
     found = []
-    spots = cell.scene.support(target, relation, item)[:6]
+    spots = cell.scene.support(target, relation, item, cell.in_hand.values())[:6]
     for fall, (number, spot), turn in product(CLEAR, enumerate(spots), range(_TURNS)):
         stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / _TURNS)
         tool = stood * grip

@@ -19,6 +19,8 @@ _BACKWARDS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
 _MOST_LOOKOUTS = 8
 _BRIEFLY = 2000
 """What looking for a place from which a thing can be taken may cost: it may be taken from another one later."""
+_HEAD = 0.45
+"""Metres round the eye in which there is nothing but the robot."""
 _SHIFTS = (0.15, 0.3, 0.45)
 _SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7))
 _FARTHER = (*DISTANCES, 1.1)
@@ -58,24 +60,42 @@ def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, floa
     bases += [(x + dx, y + dy, atan2(point[1] - y - dy, point[0] - x - dx)) for dx, dy in steps]
     bases += [base for base in stances(cell, Pose(point), cell.front(name)) if base != here]
     found = 0
-    for base in bases:
+    free = robot.free_bases(bases)
+    hidden: list[tuple[Base, float]] = []
+    for base in (base for base, possible in zip(bases, free, strict=True) if possible):
+        eye = (robot.base_link(base) * robot.base_link().inverse() * robot.eye()).position
         for torso in (low, 0.3):
-            eye = (robot.base_link(base) * robot.base_link().inverse() * robot.eye()).position
-            hit = cell.sim.ray((eye[0], eye[1], eye[2] + torso - low), point)
-            if (hit is None or hit.body in (body, robot.body)) and not robot.collides(base=base, torso=torso):
+            above = (eye[0], eye[1], eye[2] + torso - low)
+            hits = [cell.sim.ray(_past_robot(above, spot), spot) for spot in _spots(cell, name, point)]
+            if any(hit is None or hit.body in (body, robot.body) for hit in hits):
                 found += 1
                 yield base, torso
                 break
+        else:
+            hidden.append((base, low))
         if found == _MOST_LOOKOUTS:
             return
+    yield from hidden[: _MOST_LOOKOUTS - found]  # the robot itself may have been in the way of a ray
+
+
+def _past_robot(eye: Vector, spot: Vector) -> Vector:
+    """Where a ray begins: not at the eye, for the robot stands elsewhere now, and may stand there."""
+    share = min(_HEAD / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
+    x, y, z = (a + share * (b - a) for a, b in zip(eye, spot, strict=True))
+    return (x, y, z)
+
+
+def _spots(cell: Cell, name: str, point: Vector) -> tuple[Vector, ...]:
+    """Points of a thing that are looked at: its middle, its top, two corners of its box."""
+    low, high = cell.sim.extents(*cell.scene.place(name))
+    middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2)
+    return point, (*middle, high[2] - 0.005), (low[0], low[1], high[2]), (high[0], high[1], high[2])
 
 
 def _seen(cell: Cell, name: str, point: Vector) -> str:
     cell.robot.look_at(point)
     body, _ = cell.scene.place(name)
-    low, high = cell.sim.extents(*cell.scene.place(name))
-    middle = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2)
-    for spot in (point, (*middle, high[2] - 0.005), (low[0], low[1], high[2]), (high[0], high[1], high[2])):
+    for spot in _spots(cell, name, point):
         if cell.robot.sees(spot, body):
             pan = degrees(cell.robot.positions()["head_pan_joint"])
             return (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -158,15 +158,16 @@ class Scene(Inventory):
 
     # ------------------------------------------------------------------ where things may stand, and stand
 
-    def support(self, name: str, relation: str, item: str | None = None) -> list[Spot]:
+    def support(self, name: str, relation: str, item: str | None = None, held: Collection[str] = ()) -> list[Spot]:
         """Free places on, in or next to something as it is now, best first.
 
         Args:
             name: An object or part, or the floor.
             relation: ``on``, ``in`` or ``next_to``.
             item: What is to stand there; without it, a thing 7 cm wide is meant.
+            held: What is in a hand, and takes no place away.
         """
-        return free_spots(self, self.room, name, relation, item)
+        return free_spots(self, self.room, name, relation, item, held)
 
     def supported(self, item: str) -> tuple[str, str] | None:
         """What the item physically is on, in or next to now, and how; None while it is in the air or in a hand.

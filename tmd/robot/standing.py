@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 from tmd.robot.features import Region
@@ -29,10 +30,12 @@ class Spot:
     pose: Pose
 
 
-def free_spots(things: Inventory, room: Room, name: str, relation: str, item: str | None) -> list[Spot]:
+def free_spots(
+    things: Inventory, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
+) -> list[Spot]:
     """Free places on, in or next to something, best first; see :meth:`tmd.robot.scene.Scene.support`."""
     own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
-    names = [other for other in things.items() if other not in (item, things.whole(name))]
+    names = [other for other in things.items() if other not in (item, things.whole(name), *held)]
     others = {other: (things.sim.pose(things.bodies[other]), things.footprint(other)) for other in names}
     if name == FLOOR:
         return [Spot(pose) for pose in floor_spots(room, others.values(), own)]
