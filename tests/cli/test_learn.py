@@ -11,7 +11,7 @@ import pytest
 
 from tests.cli.conftest import ROOT, Tmd
 from tmd.errors import ExitCode
-from tmd.learned.knowledge import study
+from tmd.learned.knowledge import Knowledge, study
 from tmd.learned.store import MANIFEST, place, recall, save
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
@@ -36,8 +36,13 @@ def lab(tmp_path: Path) -> Corpus:
     return Corpus(DomainFolder(tmp_path / "domains" / "lab_bench"), tmp_path / "problems" / "lab_bench")
 
 
-def test_what_was_kept_is_what_was_learned(lab: Corpus) -> None:
-    knowledge = study(lab)
+@pytest.fixture(scope="module")
+def knowledge() -> Knowledge:
+    """What the laboratory teaches, wherever its files lie."""
+    return study(Corpus(DomainFolder(ROOT / "domains" / "lab_bench"), ROOT / "problems" / "lab_bench"))
+
+
+def test_what_was_kept_is_what_was_learned(lab: Corpus, knowledge: Knowledge) -> None:
     directory = place(lab)
     save(knowledge, lab, directory)
     again = recall(lab, directory)
@@ -71,16 +76,19 @@ def test_the_same_demonstrations_leave_the_same_bytes(lab: Corpus, tmp_path: Pat
         "domains/lab_bench/domain.pddl",
     ],
 )
-def test_what_was_made_from_something_else_is_not_used(changed: str, lab: Corpus, tmp_path: Path) -> None:
-    save(study(lab), lab, place(lab))
+def test_what_was_made_from_something_else_is_not_used(
+    changed: str, lab: Corpus, knowledge: Knowledge, tmp_path: Path
+) -> None:
+    save(knowledge, lab, place(lab))
+    assert recall(lab, place(lab)) is not None
     path = tmp_path / changed
     path.write_text(path.read_text() + "\n")
     assert recall(lab, place(lab)) is None
 
 
 @pytest.mark.parametrize("file", ["library.json", "policy.json", "policy.npy", MANIFEST])
-def test_what_is_damaged_is_not_used(file: str, lab: Corpus) -> None:
-    save(study(lab), lab, place(lab))
+def test_what_is_damaged_is_not_used(file: str, lab: Corpus, knowledge: Knowledge) -> None:
+    save(knowledge, lab, place(lab))
     path = place(lab) / file
     whole = path.read_bytes()
     for damaged in (whole[: len(whole) // 2], b"", b"\x00" + whole, b"[]"):
@@ -102,13 +110,14 @@ def test_ground_says_the_same_with_and_without_it(lab: Corpus, tmd: Tmd) -> None
 
 
 def test_weights_are_learned_and_used_when_asked_for(tmd: Tmd, tmp_path: Path) -> None:
-    missing = tmd(*SAID[:-1], "--weights", "learned", "--learned", "kept")
+    said = ("ground", "--environment", "corner2", "--text", "Put the cup on the first table.", "--weights", "learned")
+    missing = tmd(*said, "--learned", "kept")
     assert missing.code == ExitCode.BAD_INPUT
-    assert "tmd learn lab_bench" in missing.err
-    told = json.loads(tmd("learn", "lab_bench", "--out", "kept", "--json").out)
+    assert "tmd learn 02_table" in missing.err
+    told = json.loads(tmd("learn", "02_table", "--out", "kept", "--json").out)
     assert told["weights"]["after"] <= told["weights"]["before"]
-    assert (tmp_path / "kept" / "lab_bench" / "weights.txt").is_file()
-    assert tmd(*SAID[:-1], "--weights", "learned", "--learned", "kept").code == ExitCode.OK
+    assert (tmp_path / "kept" / "02_table" / "weights.txt").is_file()
+    assert tmd(*said, "--learned", "kept").code == ExitCode.OK
 
 
 def test_a_domain_without_demonstrations_gets_one_line(lab: Corpus, tmd: Tmd) -> None:
