@@ -119,7 +119,7 @@ def test_every_unit_is_in_one_share() -> None:
 def test_processes_at_once_in_one_directory(tmp_path: Path, serial: dict[str, bytes]) -> None:
     """Two shards, and the whole of it beside them, which does everything twice."""
     out = tmp_path / "out"
-    processes = [begin(out, *options) for options in (("--shard", "1/2"), ("--shard", "2/2"), ("--jobs", "1"))]
+    processes = [begin(out, "--jobs", "1", *options) for options in (("--shard", "1/2"), ("--shard", "2/2"), ())]
     told = [process.communicate(timeout=300) for process in processes]
     assert [process.returncode for process in processes] == [0, 0, 0], told
     run(config(out))
