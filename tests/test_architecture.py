@@ -27,6 +27,7 @@ FLOORS = {
     "api": 5.5,
     "trial": 5.5,
     "check": 5.5,
+    "studio": 5.7,
     "cli": 6,
 }
 HEAVY = {

@@ -57,11 +57,11 @@ def command(
     directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
     12 or 20 where none is found. One format fills DIR, several a directory each.
     """
-    from tmd.cli.ground import short_enough
     from tmd.cli.said import said
     from tmd.cli.sources import Asked, NoPlan, planned_source
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
+    from tmd.language.length import short_enough
 
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)

@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 LEARNED = "learned"
 """The weights that `tmd learn` saved."""
-MAX_WORDS = 1_000
-"""Longer texts are refused: grounding takes time for every clause."""
 
 
 @click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
@@ -79,6 +77,7 @@ def command(
     from tmd.cli.scene import frequent_verbs, load_scene, unknown_nouns
     from tmd.cli.show_plans import grounded_json, grounded_text
     from tmd.ground import ground, make_model
+    from tmd.language.length import short_enough
     from tmd.learned.store import known
     from tmd.planning.backends import IN_PROCESS
 
@@ -110,20 +109,6 @@ def command(
     for line in remarks(grounded, unknown, frequent_verbs(library)):
         emit(line, error=True)
     return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED
-
-
-def short_enough(text: str) -> str:
-    """The text, if it can be grounded at once.
-
-    Raises:
-        TmdError: It has too many words.
-    """
-    count = len(text.split())
-    if count > MAX_WORDS:
-        raise TmdError(
-            f"the text has {count:,} words; at most {MAX_WORDS:,} are grounded at once", hint="ground it in parts"
-        )
-    return text
 
 
 def _no_weights(domain: str) -> NoReturn:

@@ -85,12 +85,12 @@ def command(
     if plan_file is not None and (text, text_file) != (None, None):
         raise click.UsageError("give one of --text, --text-file and --plan")
 
-    from tmd.cli.ground import short_enough
     from tmd.cli.orders import orders_of_file, orders_of_text
     from tmd.cli.said import said
     from tmd.cli.scene import load_scene
     from tmd.cli.show_run import RunLog, Telling, plan_json, refusal_json
     from tmd.cli.stopping import stoppable
+    from tmd.language.length import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.captions import pillow
     from tmd.robot.faults import Fault

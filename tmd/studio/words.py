@@ -1,0 +1,134 @@
+"""Facts and broken preconditions in plain words: those of the comments beside the domain's predicates.
+
+``(near ?r - robot ?x - thing)  ; x is within reach`` lets ``(near pr2 mug1)`` be told as *mug1 is within reach*. Where
+a comment does not speak of everything that a fact is about, the fact is told as it is written in PDDL.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from tmd.pddl.conjunctions import conjuncts
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import (
+    And,
+    Atom,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Instruction,
+    Not,
+    Or,
+    Predicate,
+    Problem,
+    State,
+)
+from tmd.pddl.semantics import Binding, bind, bindings, holds, instantiate, schema_of
+from tmd.pddl.writer import format_formula
+
+_WORDS = frozenset({"a", "i"})
+"""Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
+
+
+class Wording:
+    """The words of one problem. It keeps nothing but what it was made from: threads may share it.
+
+    Args:
+        problem: The environment.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        domain = problem.domain
+        self._objects = universe(problem)
+        self._constants = frozenset(constant.name for constant in domain.constants)
+        self._predicates = {predicate.name: predicate for predicate in domain.predicates}
+        self._changing = frozenset(effect.atom.predicate for action in domain.actions for effect in action.effects)
+
+    def fact(self, atom: GroundAtom) -> str:
+        """What ``atom`` says, without full stop: *mug1 is on counter1*."""
+        predicate = self._predicates.get(atom.predicate)
+        told = self._told(predicate, atom.args) if predicate is not None else ""
+        return told or str(atom)
+
+    def broken(self, instruction: Instruction, state: State) -> str:
+        """The first part of the instruction's precondition that fails in ``state``; empty if all hold.
+
+        Returns:
+            *needs: mug1 is within reach* where something is missing, *not while both hands hold something* where
+            something is in the way.
+
+        Raises:
+            TmdError: Unknown action or object, wrong number or type of arguments.
+        """
+        binding = bind(self.problem, instruction)
+        precondition = schema_of(self.problem, instruction).precondition
+        return "" if self._holds(precondition, state, binding) else self._wish(precondition, state, binding)
+
+    def _holds(self, part: Formula, state: State, binding: Binding) -> bool:
+        return holds(part, state, self._objects, binding)
+
+    def _wish(self, part: Formula, state: State, binding: Binding) -> str:
+        """What would have to be otherwise so that ``part``, which is false, holds."""
+        match part:
+            case And(parts):
+                return self._wish(next(p for p in parts if not self._holds(p, state, binding)), state, binding)
+            case Or(parts):
+                able = [inner for inner in parts if self._changeable(inner)] or list(parts)
+                return ", or ".join(dict.fromkeys(self._wish(inner, state, binding) for inner in able))
+            case Forall(parameters, inner):
+                choices = bindings(parameters, self._objects, binding)
+                return self._wish(inner, state, next(b for b in choices if not self._holds(inner, state, b)))
+            case Exists(parameters, inner):
+                choices = bindings(parameters, self._objects, binding)
+                nearest = max(choices, key=lambda b: self._held(inner, state, b), default=None)
+                return self._wish(inner, state, nearest) if nearest is not None else self._as_written(part, binding)
+            case Atom():
+                return f"needs: {self.fact(instantiate(part, binding))}"
+            case Not(Atom() as atom):
+                return f"not while {self.fact(instantiate(atom, binding))}"
+            case _:
+                return self._as_written(part, binding)
+
+    def _held(self, part: Formula, state: State, binding: Binding) -> int:
+        """How many conjuncts of ``part`` hold."""
+        return sum(self._holds(inner, state, binding) for inner in conjuncts(part))
+
+    def _as_written(self, part: Formula, binding: Binding) -> str:
+        return f"needs: {format_formula(part, binding)}"
+
+    def _changeable(self, part: Formula) -> bool:
+        """Whether some instruction can change what ``part`` says."""
+        inner = part.part if isinstance(part, Not) else part
+        return inner.predicate in self._changing if isinstance(inner, Atom) else not isinstance(inner, Equals)
+
+    def _told(self, predicate: Predicate, args: Sequence[str]) -> str:
+        """The comment of ``predicate`` with ``args`` in it; empty where it does not speak of all of them."""
+        comment = re.split(r"[:;(]", predicate.comment)[0].strip()
+        names = [parameter.name.removeprefix("?") for parameter in predicate.parameters]
+        if not comment or _WORDS & set(names):
+            return ""
+        for parameter, argument in zip(predicate.parameters, args, strict=True):
+            comment = _chosen(comment, argument, self._objects.of(parameter.types))
+        found = dict(zip(names, args, strict=True))
+        silent = [name for name in names if not _word(name).search(comment)]
+        if any(found[name] not in self._constants for name in silent):
+            return ""
+        return re.sub("|".join(rf"\b{re.escape(name)}\b" for name in names) or "$^", lambda m: found[m[0]], comment)
+
+
+def _word(name: str) -> re.Pattern[str]:
+    return re.compile(rf"\b{re.escape(name)}\b")
+
+
+def _chosen(comment: str, argument: str, others: Iterable[str]) -> str:
+    """``comment`` with a list of alternatives (*on, in or next to*) cut down to ``argument``, if it is one."""
+    plain = argument.replace("_", " ")
+    one = "|".join(sorted((re.escape(name.replace("_", " ")) for name in others), key=len, reverse=True))
+    if not one:
+        return comment
+    listed = re.compile(rf"\b(?:{one})(?:(?:, | or |, or )(?:{one}))+\b")
+    return listed.sub(lambda m: plain if plain in re.split(r", or |, | or ", m[0]) else m[0], comment)
