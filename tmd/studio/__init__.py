@@ -7,6 +7,7 @@ module              holds
 ``session``         one person's demonstration under way
 ``history``         undo and redo
 ``alignment``       which clause a step serves, as a proposal
+``offers``          what may be done with an object, and why the rest may not
 ``words``           facts and broken preconditions in plain words
 ==================  ==============================================================================
 """

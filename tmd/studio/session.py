@@ -16,7 +16,7 @@ from tmd.language.lexicon import Lexicon
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
-from tmd.studio.alignment import propose
+from tmd.studio.alignment import NO_HABITS, Habits, propose
 from tmd.studio.history import History
 from tmd.studio.pieces import Piece, clean, cut
 from tmd.studio.words import Wording
@@ -69,6 +69,7 @@ class Session:
         instructions: What was done already.
         pins: What the person said about it: for the number of a step, from 1, that of its clause, from 0.
         proposed: The plan that is corrected, if one is.
+        habits: What was done for verbs before; proposals of clauses are better with it.
 
     Attributes:
         world: The environment.
@@ -89,11 +90,13 @@ class Session:
         instructions: Iterable[Instruction] = (),
         pins: Mapping[int, int] | None = None,
         proposed: tuple[Step, ...] | None = None,
+        habits: Habits = NO_HABITS,
     ) -> None:
         self.world = world
         self.text = clean(text)
         self.clauses: tuple[Piece, ...] = cut(self.text, lexicon)
         self.proposed = proposed
+        self._habits = habits
         self._wording = Wording(world.task.problem)
         self._lock = threading.RLock()
         self._cursor = 0
@@ -232,7 +235,7 @@ class Session:
         self._cursor = len(version.steps)
 
     def _version(self, done: tuple[Instruction, ...], states: tuple[Bits, ...], pins: Mapping[int, int]) -> _Version:
-        clauses = propose(self.clauses, done, self.world, states[0], pins)
+        clauses = propose([piece.clause for piece in self.clauses], done, self.world, pins, self._habits)
         pairs = enumerate(zip(done, clauses, strict=True))
         steps = tuple(Step(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
         return _Version(steps, states, MappingProxyType(dict(pins)))

@@ -41,9 +41,9 @@ def split(
     """
     if len(clauses) == 1:
         return [tuple(instructions)]
-    speaks = [_speaks_of(clause, mentions, state) for clause in clauses]
-    fits = [[_fit(instruction, said, profiles) for instruction in instructions] for said in speaks]
-    cuts = [_cut(instructions, at, profiles) for at in range(len(instructions) + 1)]
+    speaks = [speaks_of(clause, mentions, state) for clause in clauses]
+    fits = [[fit(instruction, said, profiles) for instruction in instructions] for said in speaks]
+    cuts = [cut_cost(instructions, at, profiles) for at in range(len(instructions) + 1)]
     ends = _best_ends(fits, cuts)
     starts = [0, *ends[:-1]]
     return [tuple(instructions[a:b]) for a, b in zip(starts, ends, strict=True)]
@@ -53,7 +53,7 @@ def _best_ends(fits: Sequence[Sequence[float]], cuts: Sequence[float]) -> list[i
     """Where the run of each clause ends, for the division of greatest fit; ties go to the later cut."""
     count = len(cuts)
     best: list[tuple[float, list[int]] | None] = [(0.0, [])] + [None] * (count - 1)
-    for number, fit in enumerate(fits):
+    for number, row in enumerate(fits):
         last = number == len(fits) - 1
         following: list[tuple[float, list[int]] | None] = [None] * count
         for begin in range(count):
@@ -63,7 +63,7 @@ def _best_ends(fits: Sequence[Sequence[float]], cuts: Sequence[float]) -> list[i
             gained = before[0] - _NOTHING_LEFT
             for end in range(begin, count):
                 if end > begin:
-                    gained += fit[end - 1] + (_NOTHING_LEFT if end == begin + 1 else 0.0)
+                    gained += row[end - 1] + (_NOTHING_LEFT if end == begin + 1 else 0.0)
                 value = gained - (cuts[end] if 0 < end < count - 1 else 0.0)
                 known = following[end]
                 if (end == count - 1 or not last) and (known is None or value > known[0] - 1e-9):
@@ -73,7 +73,7 @@ def _best_ends(fits: Sequence[Sequence[float]], cuts: Sequence[float]) -> list[i
     return found[1] if found is not None else [count - 1] * len(fits)
 
 
-def _speaks_of(clause: Clause, mentions: Mentions, state: Bits) -> dict[str, float]:
+def speaks_of(clause: Clause, mentions: Mentions, state: Bits) -> dict[str, float]:
     """How surely the clause speaks of each object."""
     found: dict[str, float] = {}
     for noun in clause.resolved():
@@ -84,7 +84,7 @@ def _speaks_of(clause: Clause, mentions: Mentions, state: Bits) -> dict[str, flo
     return found
 
 
-def _fit(instruction: Instruction, said: dict[str, float], profiles: Profiles) -> float:
+def fit(instruction: Instruction, said: dict[str, float], profiles: Profiles) -> float:
     """How well an instruction fits a clause: the mean over its objects of whether the clause speaks of them."""
     own = [_spoken_of(name, said, profiles) for name in _objects(instruction, profiles)]
     return sum(own) / len(own) if own else 0.0
@@ -100,7 +100,7 @@ def _spoken_of(name: str, said: dict[str, float], profiles: Profiles) -> float:
     return max(found, _SIBLING * siblings, _WHOLE * said.get(whole, 0.0))
 
 
-def _cut(instructions: Sequence[Instruction], at: int, profiles: Profiles) -> float:
+def cut_cost(instructions: Sequence[Instruction], at: int, profiles: Profiles) -> float:
     """What it costs to cut before instruction ``at``."""
     if not 0 < at < len(instructions):
         return 0.0
