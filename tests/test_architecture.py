@@ -23,6 +23,7 @@ FLOORS = {
     "ground": 4.5,
     "evaluation": 5,
     "export": 5,
+    "view": 5,
     "robot": 5,
     "api": 5.5,
     "trial": 5.5,

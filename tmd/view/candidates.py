@@ -1,0 +1,55 @@
+"""Ranked plans: the energy of each by factor and by clause, why each lost, and what could not be used at all."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tmd.energy.plans import RankedPlan, Refusal
+from tmd.view.markup import templates
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """Templates of a clause that cannot be used here for one and the same reason."""
+
+    clause: int
+    reason: str
+    sources: tuple[str, ...]
+
+
+def candidates(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[Refusal] = ()) -> str:
+    """Ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
+
+    Args:
+        plans: The plans, least energy first.
+        verdicts: For each plan why it does not work, empty for one that does.
+        refusals: Templates that could not be used.
+    """
+    template = templates().get_template("candidates.html.j2")
+    return template.render(
+        plans=plans,
+        verdicts=[verdicts[i] if i < len(verdicts) else "" for i in range(len(plans))],
+        factors=factors_of(plans),
+        clauses=max((len(plan.choices) for plan in plans), default=0),
+        refused=grouped(refusals),
+    )
+
+
+def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
+    """The factors that are not 0 in every plan, those that weigh most first."""
+    weight: defaultdict[str, float] = defaultdict(float)
+    for plan in plans:
+        for name, value in plan.factors.items():
+            weight[name] += round(abs(value), 6)
+    return sorted((name for name in weight if weight[name]), key=lambda name: (-weight[name], name))
+
+
+def grouped(refusals: Sequence[Refusal]) -> list[Refused]:
+    """Refusals by clause and reason, the most frequent reasons of a clause first."""
+    found: dict[tuple[int, str], list[str]] = {}
+    for refusal in refusals:
+        found.setdefault((refusal.clause, refusal.reason), []).append(refusal.source)
+    rows = [Refused(clause, reason, tuple(sorted(set(sources)))) for (clause, reason), sources in found.items()]
+    return sorted(rows, key=lambda row: (row.clause, -len(row.sources), row.reason))
