@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from tmd.errors import Location, TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.syntax import Report, nearest, read_text
+from tmd.pddl.syntax import Report, nearest, read_text, split_lines
 from tmd.veil.demonstration import Demonstration, read_demonstration
 from tmd.veil.replay import replay
 
@@ -26,7 +27,7 @@ def check_demonstrations(path: Path, world: Callable[[str], Problem | None], kno
         TmdError: The file cannot be read.
     """
     seen: dict[str, int] = {}
-    for number, line in enumerate(read_text(path).splitlines(), start=1):
+    for number, line in enumerate(split_lines(read_text(path)), start=1):
         if not line.strip():
             continue
         try:
@@ -49,12 +50,22 @@ def _play(demonstration: Demonstration, line: str, world: Callable[[str], Proble
     problem = world(demonstration.environment)
     if problem is None:
         return
+    what = f"'{demonstration.id}'"
     try:
         replay(demonstration, problem)
+        if demonstration.proposed is not None:
+            what = f"the plan that '{demonstration.id}' corrects"
+            replay(_as_proposed(demonstration), problem)
     except TmdError as error:
-        message = f"'{demonstration.id}' cannot be executed in {demonstration.environment}: {error.message}"
+        message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
         hint = "mend the demonstration, or the domain or environment if they are what changed"
         raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
+
+
+def _as_proposed(demonstration: Demonstration) -> Demonstration:
+    """What would have been done without the correction; how it ends is not stated."""
+    segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
+    return replace(demonstration, segments=segments, end_state=())
 
 
 def _place(demonstration: Demonstration, line: str) -> Location | None:

@@ -8,6 +8,9 @@ module              holds
 ``history``         undo and redo
 ``alignment``       which clause a step serves, as a proposal
 ``offers``          what may be done with an object, and why the rest may not
+``archive``         saving a session in a corpus of demonstrations
+``drafts``          what is not saved yet, kept for when its visitor returns
+``lock``            one writer at a time, among threads and processes
 ``words``           facts and broken preconditions in plain words
 ==================  ==============================================================================
 """

@@ -95,7 +95,7 @@ class Session:
         self.world = world
         self.text = clean(text)
         self.clauses: tuple[Piece, ...] = cut(self.text, lexicon)
-        self.proposed = proposed
+        self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
         self._habits = habits
         self._wording = Wording(world.task.problem)
         self._lock = threading.RLock()
@@ -104,7 +104,10 @@ class Session:
         done = tuple(instructions)
         for number, instruction in enumerate(done, start=1):
             states.append(self._applied(instruction, states[-1], number))
-        self._history = History(self._version(done, tuple(states), self._known_pins(pins or {}, len(done))))
+        whole = self._version(done, tuple(states), self._known_pins(pins or {}, len(done)))
+        self._history = History(_first(whole, 0))
+        for steps in range(1, len(done) + 1):
+            self._history.add(_first(whole, steps))
         self._cursor = len(done)
 
     @property
@@ -224,10 +227,10 @@ class Session:
 
     def segments(self) -> tuple[Segment, ...]:
         """The pieces of the text with what serves each, as a demonstration has them."""
-        steps = self.steps
+        steps, proposed = self.steps, self.proposed
         return tuple(
-            Segment(piece.start, piece.end, tuple(step.instruction for step in steps if step.clause == number))
-            for number, piece in enumerate(self.clauses)
+            Segment(piece.start, piece.end, _own(steps, n), None if proposed is None else _own(proposed, n))
+            for n, piece in enumerate(self.clauses)
         )
 
     def _become(self, version: _Version) -> None:
@@ -265,3 +268,22 @@ class Session:
         bind(task.problem, instruction)
         why = self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
         raise TmdError(f"step {step}, {instruction}, does not apply: {why}")
+
+
+def _first(version: _Version, steps: int) -> _Version:
+    """The version as it was after so many steps."""
+    pins = {number: clause for number, clause in version.pins.items() if number < steps}
+    return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
+
+
+def _in_order(steps: Iterable[Step], clauses: int) -> tuple[Step, ...]:
+    """The steps with clauses that there are, never falling."""
+    found: list[Step] = []
+    for step in steps:
+        clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)
+        found.append(Step(step.instruction, clause, step.marked))
+    return tuple(found)
+
+
+def _own(steps: Iterable[Step], clause: int) -> tuple[Instruction, ...]:
+    return tuple(step.instruction for step in steps if step.clause == clause)

@@ -9,6 +9,9 @@ A corpus is JSON Lines, one demonstration a line::
 
 Segments are pieces of the text, in order and without overlap; each carries the instructions that serve it.
 ``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done.
+
+Three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands where somebody corrected a plan: it
+lists the instructions of that plan, and each segment has those of its own as ``proposed``.
 """
 
 from __future__ import annotations
@@ -21,18 +24,23 @@ from pathlib import Path
 from tmd.errors import Location, TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.syntax import read_text
+from tmd.pddl.syntax import read_text, split_lines
 
 _KEYS = ("id", "task", "environment", "text", "segments")
+_ENDS = "\x85\u2028\u2029"
 
 
 @dataclass(frozen=True, slots=True)
 class Segment:
-    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it."""
+    """A piece ``text[start:end]`` of a demonstration's text, and the instructions that serve it.
+
+    ``proposed`` are those that a plan had for it which was corrected; ``None`` where there was none.
+    """
 
     start: int
     end: int
     instructions: tuple[Instruction, ...]
+    proposed: tuple[Instruction, ...] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,12 +53,35 @@ class Demonstration:
     text: str
     segments: tuple[Segment, ...]
     end_state: tuple[str, ...] = ()
+    proposed: tuple[Instruction, ...] | None = None
+    who: str | None = None
+    when: str | None = None
     location: Location | None = field(default=None, compare=False, repr=False)
 
     @property
     def instructions(self) -> tuple[Instruction, ...]:
         """The whole sequence, segment after segment."""
         return tuple(instruction for segment in self.segments for instruction in segment.instructions)
+
+
+def demonstration_line(demonstration: Demonstration) -> str:
+    """The line of a corpus that :func:`read_demonstration` reads ``demonstration`` from, without its end."""
+    text = demonstration.text
+    data: dict[str, object] = {key: getattr(demonstration, key) for key in _KEYS[:4]}
+    data["segments"] = [
+        {"text": text[s.start : s.end], "instructions": list(map(str, s.instructions)), **_proposed(s.proposed)}
+        for s in demonstration.segments
+    ]
+    data["end_state"] = list(demonstration.end_state)
+    data |= _proposed(demonstration.proposed)
+    data |= {key: value for key in ("who", "when") if (value := getattr(demonstration, key)) is not None}
+    line = json.dumps(data, ensure_ascii=False)
+    # other programs may take these for ends of lines
+    return "".join(f"\\u{ord(c):04x}" if c in _ENDS else c for c in line)
+
+
+def _proposed(instructions: tuple[Instruction, ...] | None) -> dict[str, list[str]]:
+    return {} if instructions is None else {"proposed": list(map(str, instructions))}
 
 
 def read_demonstrations(path: Path) -> list[Demonstration]:
@@ -61,7 +92,7 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
     """
     found: list[Demonstration] = []
     seen: set[str] = set()
-    for number, line in enumerate(read_text(path).splitlines(), start=1):
+    for number, line in enumerate(split_lines(read_text(path)), start=1):
         if not line.strip():
             continue
         reader = _Line(path, number)
@@ -112,15 +143,40 @@ class _Line:
         end_state = data.get("end_state", [])
         if not isinstance(end_state, list) or not all(isinstance(item, str) for item in end_state):
             raise self.error("'end_state' is not a list of strings")
+        segments = tuple(self._segments(data["text"], data["segments"]))
         return Demonstration(
             data["id"],
             data["task"],
             data["environment"],
             data["text"],
-            tuple(self._segments(data["text"], data["segments"])),
+            segments,
             tuple(end_state),
+            self._corrected(data, segments),
+            self._said(data, "who"),
+            self._said(data, "when"),
             Location(str(self.path), self.number, 1),
         )
+
+    def _said(self, data: dict[str, object], key: str) -> str | None:
+        value = data.get(key)
+        if value is not None and not isinstance(value, str):
+            raise self.error(f"'{key}' is not a string")
+        return value
+
+    def _corrected(self, data: dict[str, object], segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
+        """The plan that was corrected; its segments must be that plan as well."""
+        parts = [segment.proposed for segment in segments]
+        if "proposed" not in data:
+            if any(part is not None for part in parts):
+                raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
+            return None
+        whole = tuple(self._instructions("the demonstration", data["proposed"], "proposed"))
+        if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
+            raise self.error(
+                "'proposed' is not what its segments have one after the other",
+                "each segment has the part of the plan that was to serve it",
+            )
+        return whole
 
     def _segments(self, text: str, segments: object) -> Iterator[Segment]:
         if not isinstance(segments, list):
@@ -137,11 +193,15 @@ class _Line:
                     "segments are pieces of the text, letter by letter and in its order",
                 )
             after = start + len(segment["text"])
-            yield Segment(start, after, tuple(self._instructions(where, segment.get("instructions"))))
+            instructions = tuple(self._instructions(where, segment.get("instructions")))
+            proposed = None
+            if "proposed" in segment:
+                proposed = tuple(self._instructions(where, segment["proposed"], "proposed"))
+            yield Segment(start, after, instructions, proposed)
 
-    def _instructions(self, where: str, lines: object) -> Iterator[Instruction]:
+    def _instructions(self, where: str, lines: object, key: str = "instructions") -> Iterator[Instruction]:
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
-            raise self.error(f"{where}: 'instructions' is not a list of strings")
+            raise self.error(f"{where}: '{key}' is not a list of strings")
         for line in lines:
             try:
                 yield parse_instruction(line)

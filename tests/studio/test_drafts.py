@@ -1,0 +1,199 @@
+"""What was not saved is offered again, whatever ended the process; what is damaged is told of and kept."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from tmd import atomic
+from tmd.errors import OutputError, TmdError
+from tmd.pddl.plan_file import parse_instruction
+from tmd.studio.drafts import Drafts, place
+from tmd.studio.session import Session, Step
+from tmd.veil.corpus import Corpus
+
+ROOT = Path(__file__).parents[2]
+TEXT = "Take the cup and put it on the shelf."
+PLAN = ["moveto(cup1)", "grasp(cup1)", "moveto(shelf1)", "keep(cup1, shelf1, on)"]
+DEMONSTRATOR = """
+import sys
+from pathlib import Path
+from tmd.pddl.plan_file import parse_instruction
+from tmd.studio.drafts import Drafts
+from tmd.studio.session import Session
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+
+corpus = Corpus(DomainFolder(Path(sys.argv[1])), Path(sys.argv[2]))
+drafts = Drafts(Path(sys.argv[3]))
+drafts.enter("guest")
+session = Session(corpus.world("corner1"), sys.argv[4], corpus.lexicon)
+for line in sys.argv[5:]:
+    session.do(parse_instruction(line))
+    drafts.keep("guest", session, "shown")
+    print(line, flush=True)
+while True:
+    session.undo()
+    session.redo()
+    drafts.keep("guest", session, "shown")
+"""
+
+
+@pytest.fixture
+def drafts(tmp_path: Path) -> Drafts:
+    return Drafts(tmp_path / "drafts")
+
+
+def demonstrated(corpus: Corpus, steps: int = 4) -> Session:
+    found = Session(corpus.world("corner1"), TEXT, corpus.lexicon)
+    for line in PLAN[:steps]:
+        found.do(parse_instruction(line))
+    return found
+
+
+def test_a_draft_is_the_session_again(table: Corpus, drafts: Drafts) -> None:
+    session = demonstrated(table)
+    session.mark(3, 1)
+    session.proposed = (Step(parse_instruction(PLAN[0]), 0), Step(parse_instruction(PLAN[2]), 1))
+    visitor = drafts.enter()
+    drafts.keep(visitor, session, "shown")
+    assert drafts.offered().drafts == ()
+    drafts.leave(visitor)
+    (offered,) = drafts.offered().drafts
+    mine = drafts.enter("me")
+    taken = drafts.take(mine, offered)
+    assert (taken.visitor, taken.task, taken.environment) == ("me", "shown", "corner1")
+    again = taken.resume(table.world("corner1"), table.lexicon)
+    assert (again.steps, again.pins, again.text, again.state) == (session.steps, {3: 1}, session.text, session.state)
+    assert again.proposed == session.proposed
+    assert again.undo()
+    assert again.instructions == session.instructions[:3]
+    drafts.discard(mine)
+    drafts.leave(mine)
+    assert drafts.offered() == Drafts(drafts.directory).offered()
+    assert list(drafts.directory.iterdir()) == []
+
+
+def test_only_one_takes_a_draft(table: Corpus, drafts: Drafts) -> None:
+    drafts.enter("gone")
+    drafts.keep("gone", demonstrated(table), "shown")
+    drafts.leave("gone")
+    (offered,) = drafts.offered().drafts
+    studios = [drafts, Drafts(drafts.directory)]
+    guests = [f"guest{n}" for n in range(10)]
+    for number, guest in enumerate(guests):
+        studios[number % 2].enter(guest)
+
+    def take(number: int) -> bool:
+        try:
+            return studios[number % 2].take(guests[number], offered).visitor == guests[number]
+        except TmdError:
+            return False
+
+    with ThreadPoolExecutor(10) as pool:
+        assert sum(pool.map(take, range(10))) == 1
+    assert drafts.offered().drafts == ()
+
+
+def test_who_is_here_is_here_once(drafts: Drafts, table: Corpus) -> None:
+    drafts.enter("me")
+    for studio in (drafts, Drafts(drafts.directory)):
+        with pytest.raises(TmdError, match="'me' is here already"):
+            studio.enter("me")
+    with pytest.raises(TmdError, match="'you' is not here"):
+        drafts.keep("you", demonstrated(table), "shown")
+    for name in ("../x", "a b", "x" * 65, "ä"):
+        with pytest.raises(TmdError, match="cannot be the name of a visitor"):
+            drafts.enter(name)
+
+
+def test_a_killed_process_loses_no_action_that_was_done(table: Corpus, drafts: Drafts) -> None:
+    arguments = [str(ROOT / "domains" / "02_table"), str(table.directory), str(drafts.directory), TEXT, *PLAN[:3]]
+    process = subprocess.Popen([sys.executable, "-c", DEMONSTRATOR, *arguments], stdout=subprocess.PIPE, text=True)
+    assert process.stdout is not None
+    for line in PLAN[:3]:
+        assert process.stdout.readline().strip() == line
+    assert Drafts(drafts.directory).offered().drafts == ()
+    process.kill()
+    process.wait()
+    process.stdout.close()
+    found = drafts.offered()
+    assert found.complaints == ()
+    (draft,) = found.drafts
+    assert len(draft.instructions) in (2, 3)
+    again = draft.resume(table.world("corner1"), table.lexicon)
+    assert [str(i) for i in again.instructions] == PLAN[: len(draft.instructions)]
+
+
+DAMAGE = ["", "{", "[]", "null", '{"draft": 2}', '{"draft": 1}', "\x00", "[" * 100_000, '"' + "x" * 2_000_000 + '"']
+
+
+@pytest.mark.parametrize("content", DAMAGE, ids=range(len(DAMAGE)))
+def test_a_damaged_draft_is_told_of_and_set_aside(table: Corpus, drafts: Drafts, content: str) -> None:
+    drafts.enter("good")
+    drafts.keep("good", demonstrated(table), "shown")
+    drafts.leave("good")
+    (drafts.directory / "bad.json").write_text(content)
+    found = drafts.offered()
+    assert [draft.visitor for draft in found.drafts] == ["good"]
+    (complaint,) = found.complaints
+    assert complaint.startswith("the draft of 'bad' is damaged (")
+    assert "\n" not in complaint
+    assert (drafts.directory / "bad.json.damaged-1").read_text() == content
+    assert drafts.offered().complaints == ()
+
+
+@settings(max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(data=st.data())
+def test_no_draft_crashes_the_studio(table: Corpus, drafts: Drafts, data: st.DataObject) -> None:
+    drafts.enter("one")
+    drafts.keep("one", demonstrated(table), "shown")
+    drafts.leave("one")
+    file = drafts.directory / "one.json"
+    content = json.loads(file.read_text())
+    anything = (
+        st.none() | st.integers() | st.text(max_size=5) | st.lists(st.integers() | st.text(max_size=3), max_size=3)
+    )
+    for key in data.draw(st.lists(st.sampled_from(sorted(content)), max_size=3)):
+        content[key] = data.draw(anything | st.lists(anything, max_size=2))
+    file.write_text(json.dumps(content))
+    found = drafts.offered()
+    assert len(found.drafts) + len(found.complaints) == 1
+    for draft in found.drafts:
+        try:
+            draft.resume(table.world("corner1"), table.lexicon)
+        except TmdError as error:
+            assert "\n" not in str(error)
+
+
+def test_a_disk_that_takes_nothing_leaves_the_draft_before(
+    table: Corpus, drafts: Drafts, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    drafts.enter("me")
+    drafts.keep("me", demonstrated(table, 2), "shown")
+
+    def full(path: Path, data: bytes, flags: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(atomic, "_write", full)
+    with pytest.raises(OutputError, match="No space left on device"):
+        drafts.keep("me", demonstrated(table, 3), "shown")
+    draft = drafts.of("me")
+    assert draft is not None
+    assert len(draft.instructions) == 2
+
+
+def test_each_corpus_has_its_own_drafts(table: Corpus, kitchen: Corpus, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TMD_STUDIO_STATE", "/somewhere")
+    assert place(table).parent == Path("/somewhere")
+    assert place(table) != place(Corpus(table.folder, ROOT / "problems" / "02_table"))
+    monkeypatch.delenv("TMD_STUDIO_STATE")
+    monkeypatch.setenv("XDG_STATE_HOME", "/state")
+    assert place(kitchen).parent == Path("/state/tmd/studio")
