@@ -8,6 +8,8 @@ module              holds
 ``history``         undo and redo
 ``alignment``       which clause a step serves, as a proposal
 ``offers``          what may be done with an object, and why the rest may not
+``correction``      a proposed plan: edits, what breaks, what a planner puts in
+``tasks``           texts to draw from
 ``archive``         saving a session in a corpus of demonstrations
 ``drafts``          what is not saved yet, kept for when its visitor returns
 ``lock``            one writer at a time, among threads and processes
