@@ -40,12 +40,14 @@ def command(
     what it was learned from; otherwise it learns anew each time. The weights are used when asked for:
     `tmd ground --weights learned`.
     """
+    from tmd.learned.digest import digest
     from tmd.learned.store import place, save
 
     corpus = roots.corpus(roots.folder(domain))
     directory = place(corpus, out or learned)
+    made_from = digest(corpus)
     knowledge, tuned = _learn(corpus, seed, weigh=not no_weights)
-    save(knowledge, corpus, directory)
+    save(knowledge, corpus, directory, made_from)
     report = _report(corpus, knowledge, tuned, directory)
     if as_json:
         emit_json(report)

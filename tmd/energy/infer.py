@@ -49,6 +49,10 @@ class Path:
 class Policy(Protocol):
     """A learned distribution over instruction sequences given the words of a clause: not in the paper."""
 
+    def knows(self, verb: str) -> bool:
+        """Whether it was learned from demonstrations with that verb."""
+        ...
+
     def best(
         self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int
     ) -> Sequence[tuple[float, Sequence_]]:
@@ -103,7 +107,8 @@ class Inference:
         pair_nouns: The extension of :mod:`tmd.veil.instantiate`; without it the rules are the paper's own.
         knowledge: Whether the robot knows what its instructions need and do. Without it (*No Domain Knowledge*) every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
-        policy: Proposes sequences of its own beside the templates, and judges all (Δ_words).
+        policy: Proposes sequences of its own beside the templates, and judges all (Δ_words). It is not asked about a
+            clause whose templates all have verbs that it does not know: then it is older than the library.
         generated: How many sequences of the policy are looked at for each clause and environment.
         plan_stated: Whether the planner proposes, beside the templates, the shortest way to what the clause states
             (:mod:`tmd.veil.stated`).
@@ -257,7 +262,7 @@ class Inference:
         }
         if self.plan_stated:
             raw["stated"] = delta_stated(self._stated(number, clause, state), end)
-        if self.policy is not None:
+        if self.policy is not None and self._heard(clause):
             whole = (*latent, *candidate.instructions)
             surprise = self.policy.surprise(clause, self._clauses[:number], done, whole)
             raw["words"] = surprise * self._trust()
@@ -323,7 +328,7 @@ class Inference:
 
     def _generated(self, number: int, clause: Clause, state: Bits, done: Sequence_) -> list[_Candidate]:
         """The sequences that the policy proposes, without what can never be done here."""
-        if self.policy is None:
+        if self.policy is None or not self._heard(clause):
             return []
         found: dict[Sequence_, _Candidate] = {}
         charge = 1.0 / self._trust()
@@ -334,6 +339,12 @@ class Inference:
             energy = sum(self.energy.weigh(raw).values())
             found.setdefault(kept, _Candidate(GENERATED, kept, raw, energy, names))
         return list(found.values())
+
+    def _heard(self, clause: Clause) -> bool:
+        """Whether the policy knows the verb of one of the clause's templates, or the clause has none."""
+        templates = self.library.propose(clause)
+        verbs = dict.fromkeys(template.clause.verb for template in templates)
+        return not verbs or any(self.policy is not None and self.policy.knows(verb) for verb in verbs)
 
     def _trust(self) -> float:
         """How far the policy is trusted, above 0 and up to 1."""

@@ -208,17 +208,23 @@ class Crf:
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
     def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
-        """Weights for one kind of world. A training example never sees what its own environment taught."""
-        order = random.permutation(len(examples))[: self.most_examples]
-        chosen = [examples[int(i)] for i in sorted(order)]
+        """Weights for one kind of world. A training example never sees what its own environment taught.
+
+        What corrects a plan is learned from in any case. It sees what was known when that plan was proposed: all but
+        itself, so that the plan is among the proposals again. (The policy is that of all examples.)
+        """
+        order = sorted(random.permutation(len(examples)).tolist(), key=lambda i: not _corrects(examples[i]))
+        chosen = [examples[i] for i in sorted(order[: self.most_examples])]
         left_out = _groups(examples)
         held_out = {
-            group: self._without(name, group, examples, data) for group in dict.fromkeys(left_out[e.id] for e in chosen)
+            group: self._without(name, group, examples, data)
+            for group in dict.fromkeys(left_out[e.id] for e in chosen if not _corrects(e))
         }
 
         def propose(number: int, weights: Weights) -> list[tuple[RankedPlan, float]]:
             example = chosen[number]
-            plans = self._plans(example, data, held_out[left_out[example.id]], weights, top=self.proposals)
+            taught = self._before(name, example) if _corrects(example) else held_out[left_out[example.id]]
+            plans = self._plans(example, data, taught, weights, top=self.proposals)
             return [(plan, loss(plan, example, data.world(example.environment))) for plan in plans]
 
         journal = Journal(self.journal, name) if self.journal else None
@@ -234,6 +240,12 @@ class Crf:
         if not self.language:
             library = whole(library)
         return _Taught(library, count(library), self._policy(others, data))
+
+    def _before(self, name: str, example: Example) -> _Taught:
+        """What all but ``example`` teach."""
+        own = example.demonstration.id
+        library = self.libraries_[name].filtered(lambda template: template.source != own)
+        return _Taught(library, count(library), self.tree_)
 
     def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
         # its own seed: a model that is restored has the same policy
@@ -299,6 +311,11 @@ def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
     return {e.id: by_place[e.environment] for e in examples}
 
 
+def _corrects(example: Example) -> bool:
+    """Whether it is a correction of a plan that was proposed."""
+    return example.demonstration.proposed is not None
+
+
 def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
     """A plan with what it does for each clause, and why."""
     served = tuple(
@@ -318,8 +335,10 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
 def loss(plan: RankedPlan, example: Example, world: World) -> float:
     """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules.
 
-    The one who judges knows those rules, whatever the robot knows.
+    The one who judges knows those rules, whatever the robot knows. A plan that a person corrected is as far as can be.
     """
+    if plan.instructions == example.demonstration.proposed:
+        return 1.0
     first = world.task.init
     mine, gold = (first ^ run(world, first, done) for done in (plan.instructions, example.gold))
     same = (mine & gold).bit_count() / ((mine | gold).bit_count() + EPSILON) if mine or gold else 1.0

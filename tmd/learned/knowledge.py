@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,8 +32,12 @@ class Knowledge:
     weights: Weights | None = None
 
 
-def study(corpus: Corpus) -> Knowledge:
+def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowledge:
     """Learn library and policy from all demonstrations of a domain.
+
+    Args:
+        corpus: The domain.
+        tell: Is told which share of the policy, which takes the longest, is learned.
 
     Raises:
         TmdError: A demonstration is wrong, or cannot be executed in its environment.
@@ -42,4 +47,4 @@ def study(corpus: Corpus) -> Knowledge:
     if not len(library):
         return Knowledge(library)
     random = np.random.default_rng(_SEED)
-    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random))
+    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=tell))

@@ -31,8 +31,15 @@ def place(corpus: Corpus, root: Path | None = None) -> Path:
     return root / corpus.folder.name if root is not None else corpus.directory / FOLDER
 
 
-def save(knowledge: Knowledge, corpus: Corpus, directory: Path) -> None:
+def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str | None = None) -> None:
     """Write what was learned; a reader finds all of it or, until the last file is there, none.
+
+    Args:
+        knowledge: What was learned.
+        corpus: The domain.
+        directory: Where to.
+        made_from: The :func:`~tmd.learned.digest.digest` of the corpus before it was read, where others may write to it
+            meanwhile; what it is now where none is given.
 
     Raises:
         OutputError: It cannot be written.
@@ -45,7 +52,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path) -> None:
         files[WEIGHTS] = format_weights(knowledge.weights).encode()
     manifest = {
         "domain": corpus.folder.name,
-        "made_from": digest(corpus),
+        "made_from": made_from or digest(corpus),
         "files": {name: _checksum(content) for name, content in sorted(files.items())},
     }
     make_directory(directory)

@@ -40,6 +40,7 @@ def learn_policy(
     rounds: int = 8,
     rate: float = 0.2,
     ridge: float = 3.0,
+    tell: Callable[[float], None] | None = None,
 ) -> Reward:
     """Learn the constraints, the features and their weights.
 
@@ -56,6 +57,7 @@ def learn_policy(
         rounds: How often the training data are gone through.
         rate: Step size of the ascent.
         ridge: Weight of the squared weights.
+        tell: Is told which share of the ascent, which takes the longest, is done.
     """
     lessons = study(demonstrations, world_of, lexicon)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
@@ -67,7 +69,7 @@ def learn_policy(
         if lesson.things not in menus:
             menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
         data += steps_made(lesson, menus[lesson.things], grounded=grounded)
-    theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge)
+    theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge, tell=tell)
     choices = max(sum(len(made.choices) for made in data), 1)
     before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
     return Reward(features, theta, before, after)

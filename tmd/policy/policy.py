@@ -71,6 +71,10 @@ class Policy:
         self.slack = slack
         self._last: tuple[tuple[object, ...], tuple[Menu, Ints, Ints]] | None = None
 
+    def knows(self, verb: str) -> bool:
+        """Whether it was learned from demonstrations with that verb."""
+        return _verb(verb) in self.reward.features.words
+
     def best(
         self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int = 1
     ) -> list[tuple[float, tuple[Instruction, ...]]]:
@@ -140,7 +144,12 @@ class Policy:
 def bag(clause: Clause, *, grounded: bool) -> list[str]:
     """The words of a clause, its verb, and one that every clause has; ``grounded`` with what its pronouns stand for."""
     resolved = clause.resolved() if grounded else ()
-    return ["", *_WORD.findall(clause.text.lower()), f"verb {clause.verb}", *resolved]
+    return ["", *_WORD.findall(clause.text.lower()), _verb(clause.verb), *resolved]
+
+
+def _verb(verb: str) -> str:
+    """The word that stands for a clause's verb: no word of a text is like it."""
+    return f"verb {verb}"
 
 
 def nothing(things: Things) -> Ints:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -58,17 +58,26 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
 
 
 def ascend(
-    features: Features, data: Sequence[Made], random: np.random.Generator, *, rounds: int, rate: float, ridge: float
+    features: Features,
+    data: Sequence[Made],
+    random: np.random.Generator,
+    *,
+    rounds: int,
+    rate: float,
+    ridge: float,
+    tell: Callable[[float], None] | None = None,
 ) -> Floats:
     """The weights θ by stochastic gradient ascent, with the step sizes of AdaGrad, from zero.
 
-    What is raised is the log-likelihood less ridge/2 · |θ|².
+    What is raised is the log-likelihood less ridge/2 · |θ|². ``tell`` is told which share of the work is done.
     """
     theta: Floats = np.zeros(features.size)
     squares: Floats = np.full(features.size, _SMALL)
-    for _ in range(rounds):
+    for done in range(rounds):
         order = random.permutation(len(data)).tolist()
         for start in range(0, len(order), _BATCH):
+            if tell is not None:
+                tell((done + start / len(order)) / rounds)
             part = [data[number] for number in order[start : start + _BATCH]]
             gradient: Floats = theta * (-ridge * len(part) / len(data))
             likelihood(features, theta, part, gradient)

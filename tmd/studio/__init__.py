@@ -12,6 +12,8 @@ module              holds
 ``tasks``           texts to draw from
 ``archive``         saving a session in a corpus of demonstrations
 ``drafts``          what is not saved yet, kept for when its visitor returns
+``teaching``        what is known of a domain while demonstrations come
+``training``        learning everything again, in a process of its own
 ``lock``            one writer at a time, among threads and processes
 ``words``           facts and broken preconditions in plain words
 ==================  ==============================================================================

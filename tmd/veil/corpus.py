@@ -88,6 +88,10 @@ class Corpus:
         tasks = self.tasks() if task is None else [task]
         return [demonstration for name in tasks for demonstration in self._of_task(name)]
 
+    def reread(self) -> None:
+        """Forget which demonstrations were read: their files may have grown. Environments are kept."""
+        self._demonstrations = {}
+
     def _of_task(self, task: str) -> list[Demonstration]:
         """The demonstrations of one task, read and checked once."""
         if task not in self._demonstrations:

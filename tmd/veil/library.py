@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.language import parse
@@ -51,6 +51,22 @@ class Library:
                     found.add(template)
         return found
 
+    def extended(self, taught: Iterable[Taught], order: Mapping[str, int]) -> Library:
+        """A library with more templates, as if all had been learned together.
+
+        Args:
+            taught: What is new.
+            order: For each demonstration by its id its place in the corpus.
+        """
+        new = list(taught)
+        found = Library(self.lexicon)
+        templates = [t for own in self._by_verb.values() for t in own] + [t for part in new for t in part.templates]
+        for template in sorted(templates, key=lambda t: order[t.source]):
+            found.add(template)
+        unaligned = [*self.unaligned, *(pair for part in new for pair in part.unaligned)]
+        found.unaligned = sorted(unaligned, key=lambda pair: order[pair[0]])
+        return found
+
     def templates(self, verb: str) -> Sequence[Template]:
         """The templates of a canonical verb."""
         return self._by_verb.get(verb, ())
@@ -90,22 +106,40 @@ def learn(demonstrations: Iterable[Demonstration], world_of: Callable[[str], Wor
     """
     library = Library(lexicon)
     for demonstration in demonstrations:
-        world = world_of(demonstration.environment)
-        for lesson in lessons(demonstration, world, lexicon):
-            if lesson.clause is None:
-                library.unaligned.append((demonstration.id, lesson.text))
-            else:
-                template = generalise(
-                    demonstration.id,
-                    lesson.clause,
-                    demonstration.environment,
-                    lesson.instructions,
-                    lesson.states,
-                    world.profiles,
-                    world.mentions,
-                )
-                library.add(template)
+        taught = teach(demonstration, world_of(demonstration.environment), lexicon)
+        library.unaligned += taught.unaligned
+        for template in taught.templates:
+            library.add(template)
     return library
+
+
+@dataclass(frozen=True, slots=True)
+class Taught:
+    """What one demonstration adds to a library."""
+
+    templates: tuple[Template, ...]
+    unaligned: tuple[tuple[str, str], ...]
+
+
+def teach(demonstration: Demonstration, world: World, lexicon: Lexicon) -> Taught:
+    """What a demonstration shows, as templates."""
+    templates: list[Template] = []
+    unaligned: list[tuple[str, str]] = []
+    for lesson in lessons(demonstration, world, lexicon):
+        if lesson.clause is None:
+            unaligned.append((demonstration.id, lesson.text))
+        else:
+            template = generalise(
+                demonstration.id,
+                lesson.clause,
+                demonstration.environment,
+                lesson.instructions,
+                lesson.states,
+                world.profiles,
+                world.mentions,
+            )
+            templates.append(template)
+    return Taught(tuple(templates), tuple(unaligned))
 
 
 @dataclass(frozen=True, slots=True)
