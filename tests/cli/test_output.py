@@ -13,9 +13,10 @@ from tmd.errors import ExitCode
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 TEXT = "Fill the pot with water."
 GROUND_KEYS = [
-    "text", "domain", "environment", "clauses", "skipped", "unseen_verbs", "unknown_nouns", "plans", "refusals"
+    "text", "domain", "environment", "clauses", "skipped", "unseen_verbs", "unknown_nouns", "plans", "refusals",
+    "environment_file", "made_with",
 ]  # fmt: skip
-PLAN_KEYS = ["steps", "energy", "factors", "valid", "cost", "why_not_first"]
+PLAN_KEYS = ["steps", "energy", "factors", "valid", "cost", "why_not_first", "choices"]
 
 
 def test_ground_json(tmd: Tmd, environment: Path) -> None:
@@ -57,7 +58,12 @@ def test_a_pddl_problem_is_an_environment(tmd: Tmd, tmp_path: Path, environment:
     tmd("compile", environment, "--output", problem)
     ended = tmd("ground", "--environment", problem, "--domain", "kitchen", "--text", TEXT, "--json")
     assert ended.code == ExitCode.OK
-    assert ended.out == tmd("ground", "--environment", environment, "--text", TEXT, "--json").out
+    told, theirs = (
+        json.loads(out)
+        for out in (ended.out, tmd("ground", "--environment", environment, "--text", TEXT, "--json").out)
+    )
+    assert told.pop("environment_file") == str(problem) and theirs.pop("environment_file") == str(environment)
+    assert told == theirs
 
 
 def test_the_reference_planner_finds_plans_of_the_same_cost(tmd: Tmd) -> None:

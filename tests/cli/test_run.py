@@ -84,7 +84,8 @@ def test_the_record(tmd: Tmd) -> None:
     ended = tmd(*KITCHEN, "--text", "Take the cup.", "--json")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
     record = json.loads(ended.out)
-    keys = ["text", "domain", "environment", "mode", "seed", "fault", "planner", "plan", "steps", "faults"]
+    keys = ["text", "domain", "environment", "mode", "seed", "fault", "planner", "plan"]
+    keys += ["version", "environment_file", "strip", "grounding", "steps", "faults"]
     assert list(record) == [*keys, "status", "reason", "repairs", "seconds"]
     assert (record["text"], record["mode"], record["status"]) == ("Take the cup.", "kinematic", "done")
     assert [step["action"] for step in record["steps"]] == [step["action"] for step in record["plan"]]

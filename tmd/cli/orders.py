@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,12 +24,14 @@ class Orders:
         code: ``OK``, or what the program ends with because there is none.
         status: ``not_grounded`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
+        grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
     """
 
     orders: tuple[Order, ...]
     code: ExitCode = ExitCode.OK
     status: str = ""
     remarks: tuple[str, ...] = ()
+    grounding: Mapping[str, object] | None = None
 
 
 def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learned: Path | None = None) -> Orders:
@@ -37,20 +40,25 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     Raises:
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
     """
+    from tmd.cli.grounding import made_with
     from tmd.cli.remarks import remarks
     from tmd.cli.scene import frequent_verbs, unknown_nouns
-    from tmd.ground import ground
+    from tmd.cli.show_plans import grounded_json
+    from tmd.ground import DEFAULT, MODELS, ground
     from tmd.learned.store import known
 
     knowledge = known(corpus, learned)
     grounded = ground(text, world, knowledge.library, reward=knowledge.reward, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
     told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library)))
+    record = grounded_json(grounded, corpus.folder.name, world.name, unknown)
+    record["made_with"] = made_with(MODELS[DEFAULT].weights, planner)
     if not any(verdict.valid for verdict in grounded.verdicts):
-        return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told)
+        return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
     clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
     steps = grounded.plans[0].steps
-    return Orders(tuple(Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in steps), remarks=told)
+    orders = tuple(Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in steps)
+    return Orders(orders, remarks=told, grounding=record)
 
 
 def orders_of_file(path: Path, world: World) -> Orders:

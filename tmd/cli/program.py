@@ -20,6 +20,7 @@ from tmd.errors import ExitCode
 COMMANDS = (
     "ground",
     "run",
+    "view",
     "scene",
     "new",
     "learn",

@@ -8,6 +8,8 @@ from pathlib import Path
 
 import click
 
+from tmd import __version__
+from tmd.cli.grounding import environment_file
 from tmd.cli.learned import learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.cli.roots import Roots
@@ -140,6 +142,10 @@ def command(
             "fault": fault,
             "planner": chosen,
             "plan": plan_json(orders.orders),
+            "version": __version__,
+            "environment_file": environment_file(environment),
+            "strip": strip.name if strip else None,
+            "grounding": orders.grounding,
         }
         if orders.status:
             if as_json:

@@ -46,6 +46,10 @@ def _plan_json(plan: RankedPlan, verdict: Verdict) -> dict[str, object]:
         "valid": verdict.valid,
         "cost": verdict.cost,
         "why_not_first": plan.why or None,
+        "choices": [
+            {"source": choice.source, "energy": rounded(choice.energy), "factors": _rounded(choice.factors)}
+            for choice in plan.choices
+        ],
     }
 
 

@@ -27,12 +27,13 @@ def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction
     state = world.task.init
     for number, clause in enumerate(clauses):
         instructions = list(served[number]) if number < len(served) else []
-        found.append(_meaning(clause, instructions, world, state))
-        state = _after(instructions, world, state)
+        found.append(meaning(clause, instructions, world, state))
+        state = after(instructions, world, state)
     return found
 
 
-def _meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:
+def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:
+    """What a clause's nouns mean in ``state``, given the instructions that serve it."""
     used = dict.fromkeys(argument for instruction in instructions for argument in instruction.args)
     names = [name for name in clause.objects if name not in PERSONS]
     names += [""] if clause.antecedents.get("") else []
@@ -51,7 +52,8 @@ def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, stat
     return tuple(found)
 
 
-def _after(instructions: Iterable[Instruction], world: World, state: Bits) -> Bits:
+def after(instructions: Iterable[Instruction], world: World, state: Bits) -> Bits:
+    """The state after the instructions, up to the first that the world does not know."""
     for instruction in instructions:
         operator = world.task.by_instruction.get(instruction)
         if operator is None:

@@ -1,0 +1,43 @@
+"""A demonstration as the subject of a page: what a person did for each piece of the text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from tmd.language import parse
+from tmd.language.clause import Clause
+from tmd.language.lexicon import Lexicon
+from tmd.veil.demonstration import Demonstration, Segment
+from tmd.veil.world import World
+from tmd.view.meaning import Meaning, after, meaning
+from tmd.view.subject import PlannedStep, Said, Subject
+
+
+def demonstrated_subject(
+    demonstration: Demonstration, world: World, lexicon: Lexicon, made: Iterable[tuple[str, str]] = ()
+) -> Subject:
+    """A demonstration, with its text parsed and its instructions by segment."""
+    parsed = parse(demonstration.text, lexicon)
+    steps = [
+        PlannedStep(instruction, f"segment {number}", " ".join(demonstration.text[part.start : part.end].split()))
+        for number, part in enumerate(demonstration.segments, start=1)
+        for instruction in part.instructions
+    ]
+    return Subject(
+        f"{demonstration.id}: a demonstration in {demonstration.environment}",
+        world.task.problem,
+        tuple(steps),
+        Said(parsed, tuple(_meanings(parsed.clauses, demonstration.segments, world))),
+        made=(*made, ("task", demonstration.task), ("stated end", " ".join(demonstration.end_state) or "none")),
+    )
+
+
+def _meanings(clauses: Iterable[Clause], segments: Iterable[Segment], world: World) -> Iterable[Meaning]:
+    """What each clause's nouns mean, among what was used for the segment that it stands in."""
+    states = [(world.task.init, Segment(0, 0, ()))]
+    for segment in segments:
+        states.append((states[-1][0], segment))
+        states.append((after(segment.instructions, world, states[-1][0]), Segment(segment.end, segment.end, ())))
+    for clause in clauses:
+        state, segment = next((s for s in reversed(states) if s[1].start <= clause.span.start), states[0])
+        yield meaning(clause, segment.instructions, world, state)

@@ -1,0 +1,163 @@
+"""What ``tmd ground --json`` prints, read back: the clauses, the ranked plans and the refusals."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from tmd.energy.plans import Choice, RankedPlan, Refusal, Step
+from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
+from tmd.pddl.model import Instruction
+
+
+class _Record(BaseModel):
+    """Part of a file. What a later version adds is passed over."""
+
+    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
+
+
+class _Step(_Record):
+    action: str
+    args: tuple[str, ...]
+    clause: int = Field(ge=0)
+    latent: bool
+
+
+class _Choice(_Record):
+    source: str | None
+    factors: dict[str, float]
+
+
+class _Plan(_Record):
+    steps: tuple[_Step, ...]
+    choices: tuple[_Choice, ...]
+    why_not_first: str | None = None
+
+    @model_validator(mode="after")
+    def _steps_are_in_order(self) -> _Plan:
+        served = [step.clause for step in self.steps]
+        if served != sorted(served) or any(clause >= len(self.choices) for clause in served):
+            raise ValueError("the steps do not serve the clauses one after the other")
+        return self
+
+    def ranked(self) -> RankedPlan:
+        steps = [Step(Instruction(s.action, s.args), s.clause, s.latent) for s in self.steps]
+        choices = [
+            Choice(choice.source, tuple(s for s in steps if s.clause == number), choice.factors, {})
+            for number, choice in enumerate(self.choices)
+        ]
+        return RankedPlan(tuple(choices), 0, self.why_not_first or "")
+
+
+class _Clause(_Record):
+    verb: str
+    objects: tuple[str, ...]
+    relations: tuple[tuple[str, str | None, str], ...] = ()
+    text: str
+    span: tuple[int, int]
+    antecedents: dict[str, tuple[str, ...]] = {}
+    together: dict[str, int] = {}
+    quantities: dict[str, str] = {}
+    condition: str | None = None
+    duration: str | None = None
+    purpose: str | None = None
+
+    def clause(self) -> Clause:
+        said = {name: getattr(self, name) for name in ("antecedents", "together", "quantities")}
+        return Clause(
+            self.verb,
+            self.objects,
+            tuple(Relation(*relation) for relation in self.relations),
+            Span(*self.span),
+            self.text,
+            condition=self.condition,
+            duration=self.duration,
+            purpose=self.purpose,
+            **said,
+        )
+
+
+class _Skipped(_Record):
+    text: str
+    span: tuple[int, int]
+    reason: str
+
+
+class _Refusal(_Record):
+    clause: int = Field(ge=0)
+    source: str
+    reason: str
+
+
+class _Whole(_Record):
+    text: str
+    domain: str | None = None
+    environment: str
+    environment_file: str | None = None
+    clauses: tuple[_Clause, ...]
+    skipped: tuple[_Skipped, ...] = ()
+    unseen_verbs: tuple[str, ...] = ()
+    unknown_nouns: tuple[str, ...] = ()
+    plans: tuple[_Plan, ...]
+    refusals: tuple[_Refusal, ...] = ()
+    made_with: dict[str, str | int | None] = {}
+
+    @model_validator(mode="after")
+    def _is_of_one_piece(self) -> _Whole:
+        for start, end in [*(clause.span for clause in self.clauses), *(piece.span for piece in self.skipped)]:
+            if not 0 <= start <= end <= len(self.text):
+                raise ValueError(f"the span [{start}, {end}] lies outside of the text")
+        if any(len(plan.choices) != len(self.clauses) for plan in self.plans):
+            raise ValueError("a plan has not one choice for each clause")
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class GroundingRecord:
+    """A grounded text, as it was printed.
+
+    Attributes:
+        parsed: The clauses.
+        plans: The ranked plans.
+        refusals: Templates that could not be used.
+        unseen: Verbs that no demonstration has.
+        unknown: Nouns that name nothing in the environment.
+        domain: The domain's name.
+        environment: The environment's name.
+        environment_file: Its file as it was given; ``None`` for a bundled one.
+        made_with: What decided the plans.
+    """
+
+    parsed: Parsed
+    plans: tuple[RankedPlan, ...]
+    refusals: tuple[Refusal, ...]
+    unseen: tuple[str, ...]
+    unknown: tuple[str, ...]
+    domain: str | None
+    environment: str
+    environment_file: str | None
+    made_with: Mapping[str, str | int | None]
+
+
+def read_grounding(value: Mapping[str, Any]) -> GroundingRecord:
+    """Read what ``tmd ground --json`` printed.
+
+    Raises:
+        pydantic.ValidationError: It is something else.
+    """
+    whole = _Whole.model_validate(value)
+    skipped = tuple(Skipped(piece.text, Span(*piece.span), piece.reason) for piece in whole.skipped)
+    return GroundingRecord(
+        Parsed(whole.text, tuple(clause.clause() for clause in whole.clauses), skipped),
+        tuple(plan.ranked() for plan in whole.plans),
+        tuple(Refusal(r.clause, r.source, r.reason) for r in whole.refusals),
+        whole.unseen_verbs,
+        whole.unknown_nouns,
+        whole.domain,
+        whole.environment,
+        whole.environment_file,
+        whole.made_with,
+    )

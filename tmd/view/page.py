@@ -1,0 +1,134 @@
+"""The page on a plan: one file that loads nothing, with a few lines of script that it does not need."""
+
+from __future__ import annotations
+
+import re
+from base64 import b64encode
+from dataclasses import dataclass
+from hashlib import sha256
+
+from tmd import __version__
+from tmd.language.clause import Clause
+from tmd.language.notation import print_clause
+from tmd.pddl.validator import Verdict
+from tmd.view.candidates import candidates
+from tmd.view.clauses import lit_sentence
+from tmd.view.markup import data, style, templates
+from tmd.view.pictures import Strip, Tile
+from tmd.view.run_record import Ran, RanStep
+from tmd.view.steps import ShownStep, shown_steps
+from tmd.view.subject import Said, Subject
+
+FEW = 60
+"""A plan with more steps than this has them folded."""
+_UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
+"""What may stand in a text, and not in a page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """A page, and whether what it shows works.
+
+    Attributes:
+        html: The page.
+        verdict: What the validator says of the plan.
+    """
+
+    html: str
+    verdict: Verdict
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What a robot did for a step of the plan, with its picture."""
+
+    step: RanStep
+    picture: str
+
+
+@dataclass(frozen=True, slots=True)
+class _ClauseRow:
+    number: int
+    notation: str
+    meant: tuple[tuple[str, str, str], ...]
+    notes: tuple[str, ...]
+    unseen: bool
+
+
+def render(subject: Subject) -> Page:
+    """Write the page; the same subject gives the same page."""
+    steps, verdict = shown_steps(subject.problem, subject.steps)
+    script = data("page.js")
+    said = subject.said
+    html = (
+        templates()
+        .get_template("page.html.j2")
+        .render(
+            subject=subject,
+            verdict=verdict,
+            steps=steps,
+            folded=len(steps) > FEW,
+            undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
+            sentence="" if said is None else lit_sentence(said.parsed, said.meant, said.unseen),
+            clauses=[] if said is None else _clause_rows(said),
+            candidates=candidates(subject.plans, subject.verdicts, subject.refusals)
+            if _has_candidates(subject)
+            else "",
+            seen=_seen(subject, steps),
+            version=__version__,
+            style=style() + data("page.css"),
+            script=script,
+            digest=b64encode(sha256(script.encode()).digest()).decode(),
+        )
+    )
+    return Page(_UNFIT.sub("\N{REPLACEMENT CHARACTER}", html), verdict)
+
+
+def _has_candidates(subject: Subject) -> bool:
+    return bool(subject.plans or subject.refusals)
+
+
+def _clause_rows(said: Said) -> list[_ClauseRow]:
+    rows = []
+    for number, clause in enumerate(said.parsed.clauses):
+        meant = {} if said.meant is None else said.meant[number]
+        told = tuple((name, _reading(clause, name), ", ".join(objects)) for name, objects in meant.items())
+        rows.append(_ClauseRow(number + 1, print_clause(clause), told, _notes(clause), clause.verb in said.unseen))
+    return rows
+
+
+def _reading(clause: Clause, name: str) -> str:
+    """What a pronoun, or an object that was left out, was taken for."""
+    read = clause.meant(name)
+    return "" if read == (name,) else " + ".join(read)
+
+
+def _notes(clause: Clause) -> tuple[str, ...]:
+    said = (("condition", clause.condition), ("duration", clause.duration), ("purpose", clause.purpose))
+    quantities = [f"{count} {name}" for name, count in clause.quantities.items()]
+    return (*quantities, *(f"{word}: {' '.join(value.split())}" for word, value in said if value))
+
+
+def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
+    """For every step of the plan what the robot did for it."""
+    if subject.ran is None:
+        return {}
+    ran: Ran = subject.ran
+    strip = subject.strip
+    return {
+        step.number: [_Seen(done, _picture(strip, place)) for place, done in ran.of(step.number, len(steps))]
+        for step in steps
+    }
+
+
+def _picture(strip: Strip | None, place: int) -> str:
+    """The style that shows one picture of the sheet, at whatever size; empty where there is none."""
+    if strip is None or place >= len(strip.tiles):
+        return ""
+    tile: Tile = strip.tiles[place]
+    across, down = strip.width - strip.tile_width, strip.height - strip.tile_height
+    size = f"{100 * strip.width / strip.tile_width:.4f}% {100 * strip.height / strip.tile_height:.4f}%"
+    return (
+        f"aspect-ratio:{strip.tile_width}/{strip.tile_height};background-size:{size};"
+        f"background-position:{100 * tile.x / across:.4f}% {100 * tile.y / down:.4f}%"
+    )

@@ -1,0 +1,71 @@
+"""The filmstrip of a run: one sheet, of which a page shows one picture for each instruction."""
+
+from __future__ import annotations
+
+import math
+import struct
+from base64 import b64encode
+from dataclasses import dataclass
+
+_COLUMNS, _GAP = 4, 10
+"""How :func:`tmd.robot.captions.filmstrip` lays a sheet out; a test holds the two together."""
+_SIGNATURE = b"\x89PNG\r\n\x1a\n"
+_HEADER = struct.Struct(">8x4x4sII")
+_LARGEST = 50_000
+"""Pixels along an edge; no sheet is larger."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tile:
+    """Where on the sheet one picture is, in pixels."""
+
+    x: int
+    y: int
+
+
+@dataclass(frozen=True, slots=True)
+class Strip:
+    """A filmstrip.
+
+    Attributes:
+        address: The sheet as a ``data:`` address.
+        width: Of the sheet in pixels.
+        height: Of the sheet.
+        tile_width: Of one picture; 0 where the sheet is not laid out for the number of pictures.
+        tile_height: Of one picture.
+        tiles: The pictures in order.
+    """
+
+    address: str
+    width: int
+    height: int
+    tile_width: int = 0
+    tile_height: int = 0
+    tiles: tuple[Tile, ...] = ()
+
+
+def read_strip(data: bytes, count: int) -> Strip | None:
+    """A sheet of ``count`` pictures.
+
+    Args:
+        data: The PNG file.
+        count: How many instructions were carried out.
+
+    Returns:
+        The strip; without tiles where the sheet cannot be of so many pictures, and ``None`` for what is no PNG.
+    """
+    if len(data) < _HEADER.size or not data.startswith(_SIGNATURE):
+        return None
+    kind, width, height = _HEADER.unpack_from(data)
+    if kind != b"IHDR" or not (0 < width <= _LARGEST and 0 < height <= _LARGEST):
+        return None
+    address = f"data:image/png;base64,{b64encode(data).decode()}"
+    columns = min(_COLUMNS, max(1, math.ceil(math.sqrt(count))))
+    rows = max(1, math.ceil(count / columns))
+    tile, rest = divmod(width - _GAP, columns)
+    tall, left = divmod(height - _GAP, rows)
+    if count < 1 or rest or left or tile <= _GAP or tall <= _GAP:
+        return Strip(address, width, height)
+    places = [divmod(index, columns) for index in range(count)]
+    tiles = tuple(Tile(_GAP + column * tile, _GAP + row * tall) for row, column in places)
+    return Strip(address, width, height, tile - _GAP, tall - _GAP, tiles)

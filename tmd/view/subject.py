@@ -1,0 +1,113 @@
+"""What a page is about: a plan in an environment, and whatever is known of where it comes from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.energy.plans import RankedPlan, Refusal
+from tmd.language.clause import Parsed
+from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.validator import validate
+from tmd.veil.world import World
+from tmd.view.meaning import Meaning, meanings, meanings_in
+from tmd.view.pictures import Strip
+from tmd.view.run_record import Ran
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedStep:
+    """An instruction, and what it is for.
+
+    Attributes:
+        instruction: What to do.
+        origin: ``clause 2``, ``segment 1``; empty where nobody said anything.
+        words: The words of the text that it serves.
+        latent: Whether they left it unsaid.
+    """
+
+    instruction: Instruction
+    origin: str = ""
+    words: str = ""
+    latent: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A text, and what was made of it.
+
+    Attributes:
+        parsed: Its clauses.
+        meant: For every clause what its nouns mean; ``None`` where that is not known.
+        unseen: The verbs that no demonstration has.
+        unknown: The nouns that name nothing in the environment.
+    """
+
+    parsed: Parsed
+    meant: tuple[Meaning, ...] | None = None
+    unseen: tuple[str, ...] = ()
+    unknown: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """A plan to show.
+
+    Attributes:
+        title: What the page is about, in a few words.
+        problem: Where the plan begins, and what its goal is.
+        steps: The plan.
+        said: What was said; ``None`` for a plan without a text.
+        plans: All ranked plans, the one shown first; empty where nothing was ranked.
+        verdicts: For each of them why it does not work, empty for one that does.
+        refusals: Templates that could not be used.
+        ran: What a robot made of it.
+        strip: The pictures of that.
+        made: What decides all this, as names and values.
+    """
+
+    title: str
+    problem: Problem
+    steps: tuple[PlannedStep, ...]
+    said: Said | None = None
+    plans: tuple[RankedPlan, ...] = ()
+    verdicts: tuple[str, ...] = ()
+    refusals: tuple[Refusal, ...] = ()
+    ran: Ran | None = None
+    strip: Strip | None = None
+    made: tuple[tuple[str, str], ...] = ()
+
+
+def grounded_subject(
+    title: str,
+    world: World,
+    parsed: Parsed,
+    plans: Sequence[RankedPlan],
+    refusals: Sequence[Refusal] = (),
+    *,
+    unseen: Iterable[str] = (),
+    unknown: Iterable[str] = (),
+    made: Iterable[tuple[str, str]] = (),
+    ran: Ran | None = None,
+    strip: Strip | None = None,
+) -> Subject:
+    """The best plan of a grounded text; without any plan the text alone."""
+    problem = world.task.problem
+    meant = meanings(parsed, plans[0], world) if plans else meanings_in(parsed.clauses, (), world)
+    words = [" ".join(clause.text.split()) for clause in parsed.clauses]
+    steps = [
+        PlannedStep(step.instruction, f"clause {step.clause + 1}", words[step.clause], step.latent)
+        for step in (plans[0].steps if plans else ())
+    ]
+    return Subject(
+        title,
+        problem,
+        tuple(steps),
+        Said(parsed, tuple(meant), tuple(unseen), tuple(unknown)),
+        tuple(plans),
+        tuple(validate(problem, plan.instructions).reason for plan in plans),
+        tuple(refusals),
+        ran,
+        strip,
+        tuple(made),
+    )
