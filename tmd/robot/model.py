@@ -227,7 +227,7 @@ def _joint(link: Link) -> list[str]:
         lines.append(
             f'<axis xyz="{_words(link.axis)}"/>'
             f'<limit lower="{link.lower:.5f}" upper="{link.upper:.5f}" effort="100" velocity="5"/>'
-            '<dynamics damping="0.05" friction="0"/>'
+            '<dynamics damping="0.0005" friction="0"/>'
         )
     return [*lines, "</joint>"]
 
