@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from math import acos, cos, degrees, hypot, pi, sin
 
@@ -24,6 +24,14 @@ _ABOVE = (0.05, 0.02)
 """Metres above a rim from which a spoon goes down."""
 DEEP = 0.02
 """Metres that a spoon goes below a rim."""
+_WET = 0.005
+"""Metres from which it is in."""
+_INWARDS = 0.01
+"""Metres from where it pours to the middle of its head."""
+_LEANS = (0.9, 0.6, 0.3, 1.2, 0.0)
+"""Radians by which a spoon is dipped with its end down, best first."""
+_GRAZED = 0.003
+"""Metres that it may be in the rim, where there are ways that are not deeper in it."""
 _POURED = (0.6, 0.8, 1.0)
 """How far an open thing is tipped before a niche, as a part of the whole: a half full one keeps what is in it."""
 _ENOUGH = 1.2
@@ -184,34 +192,63 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     Raises:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
-    side = _side(cell, item)
-    how = mouths(cell, item, side)[0]
+    how = _head(cell, item, _side(cell, item))
     focus = Pose(_over(cell, target, _ABOVE[0]))
     chosen = reach_for(cell, target, lambda: dip_options(cell, item, target, how), focus, attempt)
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
-    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
+    follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
     cell.fold()
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
-    if below < -0.01 or beside > _BESIDE:
+    if below < _WET or beside > 0.0:
         raise SkillError(Stage.EFFECT, said)
     return said
 
 
+def _head(cell: Cell, item: str, side: str) -> Mouth:
+    """What is dipped of a thing that is held: the underside of its far end."""
+    mouth = mouths(cell, item, side)[0]
+    low, _ = cell.scene.size(item)
+    x, y, _ = mouth.at
+    short = 1.0 - _INWARDS / max(hypot(x, y), _INWARDS)
+    return replace(mouth, at=(x * short, y * short, low[2]))
+
+
 def dip_options(cell: Cell, item: str, target: str, how: Mouth) -> list[Option]:
-    """Ways to bring the end of what is held below a rim."""
+    """Ways to bring the end of what is held below a rim, without touching the rim where that is possible."""
     side = _side(cell, item)
     grip = cell.in_tool(side, item).inverse()
-    ignore = _hands(cell, item, target)
+    ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
+    inside = [
+        _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -DEEP), 0.0)
+        for lean, number in product(_LEANS, range(_HEADINGS))
+    ]
+    touched = _depths(cell, item, target, inside)
+    most = max(_GRAZED, min(touched))
     options = []
-    for height, number in product(_ABOVE, range(_HEADINGS)):
-        above = _over(cell, target, height)
-        for lean in (0.9, 0.5, 1.3, 0.2, 0.0):
-            inside = _over(cell, target, -DEEP * min(1.0, lean / 0.5))  # the rim is in the way of a level spoon
-            stood = _leaning(Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS), how, lean)
-            poses = tuple(_held_at(stood, how, at, 0.0) * grip for at in (above, inside))
+    for height, (number, there) in product(_ABOVE, enumerate(inside)):
+        if touched[number] <= most:
+            poses = tuple(_moved_up(pose * grip, by) for pose, by in ((there, height + DEEP), (there, 0.0)))
             options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
     return options
+
+
+def _heading(number: int) -> Pose:
+    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+
+
+def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:
+    """How deep a thing would be in another one at some poses, in metres; it stays where it is, to the bit."""
+    body, other = cell.scene.bodies[item], cell.scene.place(target)[0]
+    motion = cell.sim.motion(body)
+    found = []
+    try:
+        for pose in poses:
+            cell.sim.set_pose(body, pose)
+            found.append(max((-each.distance for each in cell.sim.closest(body, other, 0.0)), default=0.0))
+    finally:
+        cell.sim.set_motion(body, motion)
+    return found
 
 
 def _side(cell: Cell, item: str) -> str:

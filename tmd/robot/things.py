@@ -14,9 +14,12 @@ _LOW = TIP + 0.004
 
 
 def utensil(model: Model, look: Look, parts: Parts) -> None:
-    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind."""
+    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
+
+    What dips has a short head and a high handle: the head gets into a jar while the handle stays above the rim.
+    """
     length, width, height = look.size
-    head = min(0.06, length * 0.35)
+    head = min(0.045 if look.kind in ("spoon", "scoop") else 0.06, length * 0.35)
     x = length / 2
     kinds = {"spoon": _spoon, "scoop": _scoop, "fork": _fork, "knife": _knife}
     kinds[look.kind](model, look, -x, -x + head)
