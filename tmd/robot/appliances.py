@@ -172,7 +172,7 @@ def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
     """A coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, height - 0.34
+    y1, stand = right - SIDE, height - 0.38
     model.slab((-x, y0 + 0.02, 0.0), (x - 0.02, y1, stand - 0.03), "cream")
     fronts(model, x - 0.02, (y0 + 0.02, 0.05), (y1, stand - 0.06), 1, "cream", "dark_steel")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")
@@ -181,14 +181,15 @@ def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
     at = front - 0.07  # a spoon must get over a cup that stands there, with a hand that stays outside
     model.slab((back, middle - half, stand), (front, middle + half, plate), look.colour)
     model.cylinder((at, middle, plate), 0.055, 0.002, look.accent, solid=False)
-    model.slab((back, middle - half, plate), (front - 0.22, middle + half, head), look.colour)
-    slot, rim = 0.034, height - 0.03
-    model.slab((back, middle - half, head), (front, middle + half, rim), look.colour)
+    model.slab((back, middle - half, plate), (front - 0.22, middle + half, height), look.colour)
+    # the head is a slim arm: what is tipped into a cup below it comes from its sides
+    slot, arm, rim, end = 0.034, 0.05, height - 0.03, front - 0.02
+    model.slab((front - 0.22, middle - arm, head), (end, middle + arm, rim), look.colour)
     for low, high in (
-        ((at + slot, middle - half), (front, middle + half)),
-        ((back, middle - half), (at - slot, middle + half)),
-        ((at - slot, middle - half), (at + slot, middle - slot)),
-        ((at - slot, middle + slot), (at + slot, middle + half)),
+        ((at + slot, middle - arm), (end, middle + arm)),
+        ((front - 0.22, middle - arm), (at - slot, middle + arm)),
+        ((at - slot, middle - arm), (at + slot, middle - slot)),
+        ((at - slot, middle + slot), (at + slot, middle + arm)),
     ):
         model.slab((*low, rim), (*high, height), look.colour)
     model.slab((at - slot, middle - slot, rim), (at + slot, middle + slot, rim + 0.001), "black", solid=False)
@@ -201,5 +202,5 @@ def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
         model.cylinder((at, middle, head - 0.012), 0.02, 0.024, said.accent, link=part)
         _stream(model, part, (at, middle), plate, head - 0.024, "chocolate")
     for part, said in parts.of("button"):
-        button(model, part, said, (front, middle + 0.07, head + 0.03))
+        button(model, part, said, (end, middle, head + 0.03))
     side_board(model, x, -x, y1, right, stand, "oak")

@@ -73,7 +73,7 @@ def shelf(model: Model, look: Look, parts: Parts) -> None:
 
 def chamber(
     model: Model, low: tuple[float, float, float], high: tuple[float, float, float], colour: str, inside: str,
-    levels: tuple[float, ...], spots: tuple[float, ...] = (0.13, 0.17, 0.21),
+    levels: tuple[float, ...], spots: tuple[float, ...] = (0.09, 0.13, 0.17, 0.21),
 ) -> None:  # fmt: skip
     """A hollow with an open front between two corners (outside measures), with boards at some heights.
 
