@@ -180,19 +180,30 @@ def carton(model: Model, look: Look, parts: Parts) -> None:
         model.box((0.0, side * (y + 0.0005), height * 0.4), (depth * 0.7, 0.001, height * 0.35), look.accent,
                   solid=False)  # fmt: skip
     model.box((x + 0.0005, 0.0, height * 0.4), (0.001, width * 0.7, height * 0.35), look.accent, solid=False)
-    lid(model, look, min(x, y) * 0.9, height)
+    lid(model, look, min(x, y) * 0.9, height, aside=True)
     post_grasps(model, (height * 0.5, height * 0.35), (depth, width), height)
 
 
-def lid(model: Model, look: Look, radius: float, height: float) -> None:
-    """A lid hinged behind, with a tab in front by which it is lifted."""
+def lid(model: Model, look: Look, radius: float, height: float, *, aside: bool = False) -> None:
+    """A lid with a tab by which it is lifted: in front with the hinge behind, or (``aside``) on the left.
+
+    What is opened in a hand has it aside: the hand that holds it, from the front, is not in the way of the other one.
+    """
+
+    def at(out: float, across: float, up: float) -> Vector:
+        return (-across, out, up) if aside else (out, across, up)
+
+    def size(out: float, across: float, up: float) -> Vector:
+        return (across, out, up) if aside else (out, across, up)
+
     model.link(
-        "lid", kind="revolute", origin=(-radius, 0.0, height - 0.012), axis=(0.0, -1.0, 0.0), limits=(0.0, 2.0),
+        "lid", kind="revolute", origin=at(-radius, 0.0, height - 0.012), axis=at(0.0, -1.0, 0.0), limits=(0.0, 2.0),
         friction=0.02, mass=0.01,
     )  # fmt: skip
-    model.cylinder((radius, 0.0, 0.0065), radius, 0.011, look.accent, link="lid")
-    model.box((2 * radius + 0.010, 0.0, 0.0065), (0.026, 0.02, 0.009), look.accent, link="lid")
-    tool = Frame((2 * radius + 0.016, 0.0, 0.0065), INTO, LEFT)  # far enough out for a hand from the side
+    model.cylinder(at(radius, 0.0, 0.0065), radius, 0.011, look.accent, link="lid")
+    model.box(at(2 * radius + 0.010, 0.0, 0.0065), size(0.026, 0.02, 0.009), look.accent, link="lid")
+    # far enough out for a hand from the side
+    tool = Frame(at(2 * radius + 0.016, 0.0, 0.0065), at(-1.0, 0.0, 0.0), at(0.0, 1.0, 0.0))
     model.grips.append(Grip(ROOT, "lid", "lid", tool, 0.04, 0.0, 1.75))
 
 
