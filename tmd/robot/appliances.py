@@ -172,7 +172,7 @@ def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
     """A coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
-    y1, stand = right - SIDE, height - 0.38
+    y1, stand = right - SIDE, height - 0.44
     model.slab((-x, y0 + 0.02, 0.0), (x - 0.02, y1, stand - 0.03), "cream")
     fronts(model, x - 0.02, (y0 + 0.02, 0.05), (y1, stand - 0.06), 1, "cream", "dark_steel")
     model.slab((-x, y0, stand - 0.03), (x, y1, stand), "oak")

@@ -48,7 +48,7 @@ _ALL = (
     _fixture(sink, "sink", (0.6, 1.24, 0.86), "sage", "steel", (("tap", 1), ("tap_handle", 1), ("knob", 1))),
     _fixture(microwave, "microwave", (0.55, 1.04, 1.16), "steel", "dark_steel", (*_DOORS, ("button", 2))),
     _fixture(fridge, "fridge", (0.62, 1.02, 1.5), "white", "steel", (*_DOORS, ("niche", 1), ("button", 1))),
-    _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.1), "red", "steel", (("spout", 1), ("button", 1))),
+    _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.16), "red", "steel", (("spout", 1), ("button", 1))),
     _fixture(bin_, "bin", (0.36, 0.36, 0.66), "dark_grey", "black", (("lid", 1),)),
     _fixture(tv, "tv", (0.5, 1.5, 1.32), "black", "walnut", (("screen", 1), ("speaker", 1), ("button", 5))),
     _fixture(player, "player", (0.48, 0.9, 0.9), "navy", "steel", (("disc_drive", 1), ("button", 3))),
