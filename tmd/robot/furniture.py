@@ -98,7 +98,7 @@ def chamber(
             model.slab((low[0] + WALL, low[1] + WALL, floor - 0.015), (high[0] - 0.01, high[1] - WALL, floor), inside)
         model.region(
             "in", (low[0] + WALL, low[1] + WALL, floor), (high[0], high[1] - WALL, ceiling), INTO,
-            rows(high[0], width - 0.2, spots, middle=middle),
+            rows(high[0], width - 0.3, spots, middle=middle),
         )  # fmt: skip
 
 

@@ -36,7 +36,7 @@ def _part(kind: str, size: _Size, colour: str, accent: str, settings: tuple[str,
 
 _DOORS = (("door", 1), ("latched_door", 1))
 _ALL = (
-    _fixture(counter, "counter", (0.6, 1.5, 0.86), "sage", "granite"),
+    _fixture(counter, "counter", (0.6, 1.75, 0.86), "sage", "granite"),
     _fixture(table, "table", (0.75, 1.25, 0.74), "oak", "walnut"),
     _fixture(shelf, "shelf", (0.42, 1.15, 0.88), "pine", "oak"),
     _fixture(cupboard, "cupboard", (0.46, 0.7, 1.5), "sage", "dark_steel", _DOORS),
@@ -48,7 +48,7 @@ _ALL = (
     _fixture(sink, "sink", (0.6, 1.24, 0.86), "sage", "steel", (("tap", 1), ("tap_handle", 1), ("knob", 1))),
     _fixture(microwave, "microwave", (0.55, 1.04, 1.16), "steel", "dark_steel", (*_DOORS, ("button", 2))),
     _fixture(fridge, "fridge", (0.62, 1.02, 1.5), "white", "steel", (*_DOORS, ("niche", 1), ("button", 1))),
-    _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.16), "red", "steel", (("spout", 1), ("button", 1))),
+    _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.08), "red", "steel", (("spout", 1), ("button", 1))),
     _fixture(bin_, "bin", (0.36, 0.36, 0.66), "dark_grey", "black", (("lid", 1),)),
     _fixture(tv, "tv", (0.5, 1.5, 1.32), "black", "walnut", (("screen", 1), ("speaker", 1), ("button", 5))),
     _fixture(player, "player", (0.48, 0.9, 0.9), "navy", "steel", (("disc_drive", 1), ("button", 3))),

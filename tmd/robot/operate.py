@@ -31,7 +31,7 @@ _PIECES = (0.4, 0.25)
 _STAGES = 4
 _PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
 """How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
-_LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0))
+_LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0), (1.0, 1.0))
 """The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
 _PULLED, _PUSHED = 0, 1
 _SIDES = (
