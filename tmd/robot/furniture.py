@@ -96,9 +96,11 @@ def chamber(
     for floor, ceiling in zip(levels, ceilings, strict=True):
         if floor != levels[0]:
             model.slab((low[0] + WALL, low[1] + WALL, floor - 0.015), (high[0] - 0.01, high[1] - WALL, floor), inside)
+        # a hand gets to what stands clear of the sides: there only what finds no other room
+        clear, every = (rows(high[0], width - margin, spots, middle=middle) for margin in (0.3, 0.2))
         model.region(
             "in", (low[0] + WALL, low[1] + WALL, floor), (high[0], high[1] - WALL, ceiling), INTO,
-            rows(high[0], width - 0.3, spots, middle=middle),
+            [*clear, *(spot for spot in every if spot not in clear)],
         )  # fmt: skip
 
 
