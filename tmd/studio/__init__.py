@@ -15,6 +15,7 @@ module              holds
 ``teaching``        what is known of a domain while demonstrations come
 ``training``        learning everything again, in a process of its own
 ``lock``            one writer at a time, among threads and processes
+``about``           what there is to know of an object
 ``words``           facts and broken preconditions in plain words
 ==================  ==============================================================================
 """

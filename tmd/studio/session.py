@@ -16,6 +16,7 @@ from tmd.language.lexicon import Lexicon
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
+from tmd.studio.about import About, about
 from tmd.studio.alignment import NO_HABITS, Habits, propose
 from tmd.studio.history import History
 from tmd.studio.pieces import Piece, clean, cut
@@ -224,6 +225,14 @@ class Session:
             before, after = self._history.current.states[step - 1 : step + 1]
             names = self.world.task.names
             return Changes(tuple(names(after & ~before)), tuple(names(before & ~after)))
+
+    def about(self, name: str) -> About:
+        """What is so of an object in the state that is looked at.
+
+        Raises:
+            TmdError: There is no such object.
+        """
+        return about(name, self.world, self.state)
 
     def segments(self) -> tuple[Segment, ...]:
         """The pieces of the text with what serves each, as a demonstration has them."""

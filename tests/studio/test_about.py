@@ -1,0 +1,51 @@
+"""What is told of an object is what PDDL says of it, each fact once and in its place."""
+
+from __future__ import annotations
+
+import pytest
+
+from tmd.errors import TmdError
+from tmd.pddl.model import GroundAtom
+from tmd.studio.about import about
+from tmd.studio.session import Session
+from tmd.studio.words import Wording
+from tmd.veil.corpus import Corpus
+from tmd.veil.world import World
+
+
+def test_parts_states_relations_and_edges(kitchen1: World) -> None:
+    words = Wording(kitchen1.task.problem)
+    knob = about("stove1_knob1", kitchen1, kitchen1.task.init)
+    assert (knob.kind, knob.whole, knob.parts) == ("knob", "stove1", ())
+    assert [words.fact(atom) for atom in knob.edges] == ["working stove1_knob1 starts and stops stove1_burner1"]
+    assert knob.states == (GroundAtom("set_to", ("stove1_knob1", "off")),)
+    fridge = about("fridge1", kitchen1, kitchen1.task.init)
+    assert "fridge1_door" in fridge.parts
+    assert GroundAtom("at", ("milk1", "fridge1", "in")) in fridge.relations
+    assert GroundAtom("guards", ("fridge1_door", "fridge1")) in fridge.edges
+    with pytest.raises(TmdError, match="there is no object 'knob'"):
+        about("knob", kitchen1, kitchen1.task.init)
+
+
+def test_every_fact_of_an_object_is_told_once(kitchen1: World) -> None:
+    state = kitchen1.task.decode(kitchen1.task.init)
+    for name in kitchen1.profiles.objects:
+        found = about(name, kitchen1, kitchen1.task.init)
+        told = [*found.states, *found.relations, *found.edges, *found.traits]
+        assert len(set(told)) == len(told)
+        rest = {atom for atom in state if name in atom.args} - set(told)
+        assert {atom.predicate for atom in rest} <= {"part_of", "same_unit"}
+
+
+def test_a_session_tells_of_the_state_that_is_looked_at(kitchen: Corpus, kitchen1: World) -> None:
+    session = Session(kitchen1, "Open the fridge.", kitchen.lexicon)
+    for operator in ("moveto", "open"):
+        target = "fridge1" if operator == "moveto" else "fridge1_door"
+        found = [o for o in kitchen1.task.operators if o.instruction == (operator, (target,))]
+        if not found[0].applicable(session.state):
+            session.do(next(o for o in kitchen1.task.operators if o.instruction == ("find", (target,))).instruction)
+        session.do(found[0].instruction)
+    opened = GroundAtom("opened", ("fridge1_door",))
+    assert opened in session.about("fridge1_door").states
+    session.goto(0)
+    assert opened not in session.about("fridge1_door").states
