@@ -121,7 +121,6 @@ def test_names_and_texts_are_only_text() -> None:
             problem,
             (PlannedStep(step.instruction, HOSTILE, HOSTILE),),
             plans=(plan,),
-            verdicts=(HOSTILE,),
             refusals=(Refusal(0, HOSTILE, HOSTILE),),
             ran=Ran(HOSTILE, HOSTILE, steps=(done,), faults=(HOSTILE,)),
             made=((HOSTILE, HOSTILE),),
@@ -226,7 +225,6 @@ def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:
     html = render(replace(subject, ran=Ran("stopped", "it gave up", 1, 2.0, steps))).html
     first, second = html.index('id="step-1"'), html.index('id="step-2"')
     third, last = html.index('id="step-3"'), html.index('id="candidates"')
-    assert "✓ (found pr2 cup1)" not in Reader(html).text or first < second
     assert first < html.index("confirmed</span> (found pr2 cup1)") < second
     assert second < html.index("the way is barred") < html.index("12 degrees") < third
     assert html.count("robot: ✓ ok") == 2 and html.rindex("robot: ✓ ok") < last

@@ -179,16 +179,19 @@ def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.cli.progress import progress_bar
     from tmd.evaluation.experiment import collect, run
     from tmd.evaluation.report import print_table, write_report
+    from tmd.trial.pages import write_pages
 
     if step == "all":
         with progress_bar(f"{config.task}, {config.data} data") as progress:
             metrics = run(config, progress)
     else:
         metrics = collect(config)
+    write_pages(config)
     report = write_report(config.out)  # now: what the robot does may take minutes, and adds to it
     print_table(metrics)
     if robot != "off" and step != "report":
         _trials(config, robot)
+        write_pages(config, carried_out=True)
         report = write_report(config.out)
     emit(f"report: {report}\n")
 

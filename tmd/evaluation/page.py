@@ -13,6 +13,7 @@ from tmd.evaluation.alignment import Mark
 from tmd.evaluation.confusion import NOTHING
 from tmd.evaluation.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.figures import LABELS, overall_bars, task_bars, tasks_of
+from tmd.evaluation.linked_pages import FOLDER, page_name
 from tmd.evaluation.records import Run
 from tmd.evaluation.standing import ALPHA, differing, reference
 from tmd.evaluation.summary import COLUMNS, EMPTY, METRICS
@@ -29,12 +30,13 @@ _MENTIONED = 3
 """How many instructions are named in a cell."""
 
 
-def render(run: Run, trials: Trials | None = None) -> str:
+def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:
     """The page.
 
     Args:
         run: The run.
         trials: What a robot did with its predictions; ``None`` where nobody asked for it.
+        pages: The pages on single predictions that are there, by file name.
     """
     metrics = run.metrics
     paper, others = paper_table.in_order(metrics.models)
@@ -73,6 +75,7 @@ def render(run: Run, trials: Trials | None = None) -> str:
         veil500=_VEIL500,
         trials=trials,
         films=films(trials),
+        pages=pages,
     )
 
 
@@ -89,6 +92,8 @@ def _environment() -> Environment:
     found.filters["said"] = _said
     found.filters["mentioned"] = _mentioned
     found.globals["title_of"] = paper_table.title
+    found.globals["page_name"] = page_name
+    found.globals["page_folder"] = FOLDER
     return found
 
 

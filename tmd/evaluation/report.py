@@ -23,11 +23,12 @@ def write_report(directory: Path) -> Path:
     Raises:
         TmdError: The directory holds no finished run, a file of it is damaged, or it cannot be written to.
     """
+    from tmd.evaluation.linked_pages import linked_pages
     from tmd.evaluation.page import render
     from tmd.evaluation.records import read_run
     from tmd.evaluation.trials import read_trials
 
-    page = render(read_run(directory), read_trials(directory))
+    page = render(read_run(directory), read_trials(directory), linked_pages(directory))
     path = directory / REPORT
     write_text(path, page)
     return path

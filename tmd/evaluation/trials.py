@@ -26,12 +26,16 @@ class _Record(BaseModel):
 
 
 class TrialStep(_Record):
-    """One instruction: ``outcome`` is ``ok``, ``failed`` or ``mismatch``; ``said`` what was measured."""
+    """One instruction: ``outcome`` is ``ok``, ``failed`` or ``mismatch``; ``said`` what was measured.
+
+    ``confirmed`` are the effects that were seen.
+    """
 
     instruction: str
     repair: bool
     outcome: Literal["ok", "failed", "mismatch"]
     said: str
+    confirmed: list[str] = []
 
 
 class Asked(_Record):

@@ -2,5 +2,6 @@
 
 This room stands above experiments and robot, which do not know each other. It reads the predictions of a finished
 run (:mod:`tmd.trial.choice`), lets the robot carry out one for each environment (:mod:`tmd.trial.perform`), and
-leaves records and films in the run's directory (:mod:`tmd.trial.run`), where the report finds them.
+leaves records and films in the run's directory (:mod:`tmd.trial.run`), where the report finds them. For the same
+reason it is the room that writes a page on each prediction that the report shows (:mod:`tmd.trial.pages`).
 """

@@ -147,8 +147,5 @@ class _Notes:
         """It is over."""
         said = step.failure or "; ".join(map(str, step.mismatches)) or step.evidence
         outcome = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
-        self.steps.append(
-            TrialStep.model_validate(
-                {"instruction": str(step.instruction), "repair": step.repair, "outcome": outcome, "said": said}
-            )
-        )
+        told = {"instruction": str(step.instruction), "repair": step.repair, "outcome": outcome, "said": said}
+        self.steps.append(TrialStep.model_validate({**told, "confirmed": [str(atom) for atom in step.confirmed]}))

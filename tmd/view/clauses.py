@@ -57,7 +57,8 @@ def lit_sentence(
 
 def _clause(number: int, inner: str) -> str:
     shade = "odd" if number % 2 else "even"
-    return f'<span class="tmd-clause {shade}"><span class="tmd-number">{number + 1}</span>{inner}</span>'
+    # a word joiner keeps the number on the line of the word after it
+    return f'<span class="tmd-clause {shade}"><span class="tmd-number">{number + 1}&#8288;</span>{inner}</span>'
 
 
 def _clause_words(

@@ -10,7 +10,7 @@ from hashlib import sha256
 from tmd import __version__
 from tmd.language.clause import Clause
 from tmd.language.notation import print_clause
-from tmd.pddl.validator import Verdict
+from tmd.pddl.validator import Verdict, validate
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.markup import data, style, templates
@@ -71,9 +71,7 @@ def render(subject: Subject) -> Page:
             undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
             sentence="" if said is None else lit_sentence(said.parsed, said.meant, said.unseen),
             clauses=[] if said is None else _clause_rows(said),
-            candidates=candidates(subject.plans, subject.verdicts, subject.refusals)
-            if _has_candidates(subject)
-            else "",
+            candidates=_candidates(subject, verdict),
             seen=_seen(subject, steps),
             version=__version__,
             style=style() + data("page.css"),
@@ -84,8 +82,12 @@ def render(subject: Subject) -> Page:
     return Page(_UNFIT.sub("\N{REPLACEMENT CHARACTER}", html), verdict)
 
 
-def _has_candidates(subject: Subject) -> bool:
-    return bool(subject.plans or subject.refusals)
+def _candidates(subject: Subject, verdict: Verdict) -> str:
+    """The table of all plans; the first is the one that is shown."""
+    if not subject.plans and not subject.refusals:
+        return ""
+    others = [validate(subject.problem, plan.instructions).reason for plan in subject.plans[1:]]
+    return candidates(subject.plans, [verdict.reason, *others], subject.refusals)
 
 
 def _clause_rows(said: Said) -> list[_ClauseRow]:

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from tmd.energy.plans import RankedPlan, Refusal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
-from tmd.pddl.validator import validate
 from tmd.veil.world import World
 from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
@@ -59,7 +58,6 @@ class Subject:
         steps: The plan.
         said: What was said; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
-        verdicts: For each of them why it does not work, empty for one that does.
         refusals: Templates that could not be used.
         ran: What a robot made of it.
         strip: The pictures of that.
@@ -71,7 +69,6 @@ class Subject:
     steps: tuple[PlannedStep, ...]
     said: Said | None = None
     plans: tuple[RankedPlan, ...] = ()
-    verdicts: tuple[str, ...] = ()
     refusals: tuple[Refusal, ...] = ()
     ran: Ran | None = None
     strip: Strip | None = None
@@ -105,7 +102,6 @@ def grounded_subject(
         tuple(steps),
         Said(parsed, tuple(meant), tuple(unseen), tuple(unknown)),
         tuple(plans),
-        tuple(validate(problem, plan.instructions).reason for plan in plans),
         tuple(refusals),
         ran,
         strip,
