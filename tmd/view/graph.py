@@ -86,7 +86,8 @@ def _all_lines(graph: Anatomy, state: State, root: str, changes: Changes) -> dic
 
 
 def _title(graph: Anatomy, vertex: str) -> _Line:
-    return _Line(f"{graph.short(vertex)}: {graph.classes[vertex]}" if vertex in graph.classes else vertex)
+    name, kind = graph.short(vertex), graph.classes.get(vertex)
+    return _Line(name if kind in (None, name) else f"{name}: {kind}")
 
 
 def _fact(aspect: Aspect, state: State, changes: Changes) -> _Line:
