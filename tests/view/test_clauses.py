@@ -44,7 +44,7 @@ WORDS = [
 
 def shown(fragment: str) -> str:
     """The text that a fragment shows, without the labels under it and the numbers of clauses."""
-    number = re.compile(r'<span class="tmd-number">[0-9]+&#8288;</span>')
+    number = re.compile(r'<span class="tmd-number">[0-9]+</span>')
     return Reader(number.sub("", fragment).replace("\r", "&#13;")).without("small")
 
 

@@ -11,7 +11,7 @@ from tmd.energy.plans import RankedPlan
 from tmd.language.clause import Parsed, Span
 from tmd.veil.world import World
 from tmd.view.meaning import meanings
-from tmd.view.phrases import VERB, phrases
+from tmd.view.phrases import OBJECT, VERB, phrases
 
 NOTHING = "nothing here"
 """Stands under words that name nothing in the environment."""
@@ -50,15 +50,17 @@ def lit_sentence(
     pieces = [Span(*pair) for pair in pairwise(sorted(cuts))]
     inner = ""
     for number, group in groupby(pieces, key=lambda piece: _owner(piece, spans)):
-        words = "".join(_piece(parsed.text, piece, lit) for piece in group)
-        inner += words if number is None else _clause(number, words)
+        words = [_piece(parsed.text, piece, lit) for piece in group]
+        inner += "".join(words) if number is None else _clause(number, words)
     return f'<p class="tmd tmd-text">{inner}</p>'
 
 
-def _clause(number: int, inner: str) -> str:
-    shade = "odd" if number % 2 else "even"
-    # a word joiner keeps the number on the line of the word after it
-    return f'<span class="tmd-clause {shade}"><span class="tmd-number">{number + 1}&#8288;</span>{inner}</span>'
+def _clause(number: int, words: Sequence[str]) -> str:
+    """A clause; its number stays on the line of the first word."""
+    first = f'<span class="tmd-number">{number + 1}</span>{words[0]}'
+    if words[0].startswith((f'<span class="tmd-{VERB}', f'<span class="tmd-{OBJECT}')):
+        first = f'<span class="tmd-together">{first}</span>'
+    return f'<span class="tmd-clause {"odd" if number % 2 else "even"}">{first}{"".join(words[1:])}</span>'
 
 
 def _clause_words(
