@@ -13,6 +13,7 @@ from tests.view.reading import Reader
 from tmd.ground import Grounded
 from tmd.language import parse
 from tmd.language.clause import Clause, Parsed, Span
+from tmd.pddl.plan_file import parse_instruction
 from tmd.veil.world import World
 from tmd.view.clauses import NOTHING, lit_choice, lit_sentence
 from tmd.view.meaning import meanings_in
@@ -125,3 +126,13 @@ def test_the_style_touches_nothing_else() -> None:
 
 def test_the_text_of_the_example_is_there(kitchen: World, grounded: Grounded) -> None:
     assert shown(lit_choice(grounded.parsed, grounded.plans[0], kitchen)) == TEXT
+
+
+def test_what_the_plan_has_nothing_to_do_with_stands_in_brackets(kitchen: World) -> None:
+    """WordNet finds milk for *mixture*: a plan without milk does not mean it. A part stands for its whole."""
+    parsed = parse("Fill the cup with water. Stir the mixture. Open the fridge.")
+    plan = ["find(cup1)", "moveto(cup1)", "grasp(cup1)", "moveto(fridge1)", "keep(cup1, fridge1_dispenser, in)"]
+    served = [[parse_instruction(text) for text in (*plan, "press(fridge1_button)")], []]
+    fill, stir, open_it = meanings_in(parsed.clauses, [*served, [parse_instruction("open(fridge1_door)")]], kitchen)
+    assert fill == {"cup": ("cup1",), "water": ("water",)}
+    assert stir == {"mixture": ("(milk1)",)} and open_it == {"fridge": ("fridge1",)}

@@ -12,7 +12,10 @@ from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
 Meaning: TypeAlias = Mapping[str, tuple[str, ...]]
-"""For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing."""
+"""For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing.
+
+In brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
+"""
 
 
 def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
@@ -34,21 +37,31 @@ def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction
 
 def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:
     """What a clause's nouns mean in ``state``, given the instructions that serve it."""
+    instructions = tuple(instructions)
     used = dict.fromkeys(argument for instruction in instructions for argument in instruction.args)
+    used.update(dict.fromkeys(world.profiles.wholes[name] for name in list(used) if name in world.profiles.wholes))
+    used.update(dict.fromkeys(_touched(instructions, world, state)))
     names = [name for name in clause.objects if name not in PERSONS]
     names += [""] if clause.antecedents.get("") else []
     return {name: _grounded(clause.meant(name), used, world, state) for name in names}
 
 
+def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> list[str]:
+    """The constants, substances say, of the facts that the instructions change."""
+    changed = world.task.names(after(instructions, world, state) ^ state)
+    return sorted({argument for atom in changed for argument in atom.args} & world.profiles.constants)
+
+
 def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, state: Bits) -> tuple[str, ...]:
-    """Objects for the nouns; a substance where a noun names no object, or where the plan uses none of those."""
+    """For each noun an object that is used, else a substance that is, else the likeliest object it may mean."""
     found: dict[str, None] = {}
     for noun in nouns:
         objects = world.mentions.meant(Clause("", (noun,)), used, state)
         constants = world.mentions.constants(noun)
-        if constants and not any(name in used for name in objects):
-            objects = tuple(constants[:1])
-        found.update(dict.fromkeys(objects))
+        substance = next((c for c in constants if c in used), None) or (noun if noun in constants else None)
+        if substance is not None and not any(name in used for name in objects):
+            objects = (substance,)
+        found.update(dict.fromkeys(name if name in used else f"({name})" for name in objects))
     return tuple(found)
 
 
