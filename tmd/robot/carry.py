@@ -12,6 +12,10 @@ from tmd.robot.reach import Links, Option, follow, reach
 
 BEFORE = 0.10
 """Metres from which a hand goes straight to what it takes."""
+OUTSIDE = 0.18
+"""The same for what is in a niche or a cupboard."""
+_PASSING = 0.3
+"""Fingers that open more along a direction than this do not pass a thing in it."""
 LIFT = 0.10
 """Metres that a thing is lifted, or drawn out, before the arm moves freely."""
 CLEAR = (0.006, 0.03)
@@ -60,11 +64,30 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
     upright = 1.0 if cell.scene.holds_contents(item) or high[2] > _TALL else -1.0
     ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
     poses = [here * grasp.tool.pose() for grasp in ordered]
+    entry = _sideways(cell, item)
     return [
-        Option(side, (tool * Pose((-BEFORE, 0.0, 0.0)), tool), links, number)
+        Option(side, (start, tool), links, number)
         for number, tool in enumerate(poses)
+        for start in _starts(tool, entry)
         for side in _nearest_first(cell, here)
     ]
+
+
+def _sideways(cell: Cell, item: str) -> Vector | None:
+    """The direction in which the hand enters the niche or the cupboard that an item is in."""
+    place = cell.support(item)
+    entry = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
+    return None if abs(entry[2]) > 0.5 else entry
+
+
+def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
+    """Where a hand begins to go straight to a thing: outside of what that is in if the fingers pass it, or close."""
+    close = tool * Pose((-BEFORE, 0.0, 0.0))
+    if entry is None:
+        return [close]
+    across = sum(a * b for a, b in zip(tool.rotate((0.0, 1.0, 0.0)), entry, strict=True))
+    outside = _moved(tool, tuple(-OUTSIDE * value for value in entry))
+    return [close] if abs(across) > _PASSING else [outside, close]
 
 
 def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> str:

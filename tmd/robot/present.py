@@ -7,7 +7,7 @@ different sides to the front, until the other arm can do what it is to do with i
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from itertools import islice, product
 from math import cos, pi, sin, tau
 
@@ -64,12 +64,15 @@ def reach_for(
         return reach(
             cell, options(), focus, cell.front(name) if front is None else front, attempt, stop=stop, accept=accept
         )
+    home, torso = cell.robot.base(), cell.robot.torso()
     last = SkillError(Stage.STANCE, f"the {side} hand cannot hold {item} out for the other one")
     for _ in islice(_held_out(cell, side, item, options), 2 * attempt, 2 * attempt + _MOST):
         try:
             return reach(cell, options(), focus, None, 0, stop=stop, stay=True)
         except SkillError as error:
             last = error
+    with suppress(SkillError):  # another try begins from here as well, and not from wherever this one ended
+        get_to(cell, home, torso)
     raise last
 
 

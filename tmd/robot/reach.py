@@ -46,6 +46,8 @@ MOST_TRIES = 6
 _SQUEEZED = 0.008
 """Metres that the base keeps from things where it cannot keep more."""
 _COARSE = 4.0
+_SHORT, _LONG = 300, 2000
+"""Samples for a way of the arm: where there are other stances to try, and where there is none."""
 _POSTURES = 8
 """So many postures of one pose are looked at."""
 _SHOULDER_HEIGHT = 0.790675
@@ -132,7 +134,16 @@ def reach(
                 return candidate.option
         if len(failed) + len(closed) >= MOST_TRIES:
             break
+    if last.stage is Stage.PATH and failed:
+        return _insist(cell, failed[0], stop)
     raise last
+
+
+def _insist(cell: Cell, candidate: Candidate, stop: int | None) -> Option:
+    """Look longer for a way from the best stance, once nothing else is left."""
+    get_to(cell, candidate.base, candidate.torso)
+    _take(cell, candidate.option, stop, budget=_LONG)
+    return candidate.option
 
 
 def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
@@ -272,12 +283,12 @@ def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
     return found
 
 
-def _take(cell: Cell, option: Option, stop: int | None) -> None:
+def _take(cell: Cell, option: Option, stop: int | None, budget: int = _SHORT) -> None:
     side = option.side
     rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
     if rows is None:
         raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
-    path = plan_arm(cell.robot, side, rows[0], rng=cell.rng)
+    path = plan_arm(cell.robot, side, rows[0], rng=cell.rng, budget=budget)
     if path is None:
         raise SkillError(Stage.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
     if not cell.robot.move_arm(side, path):
