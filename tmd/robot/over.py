@@ -129,8 +129,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     here = cell.sim.pose(cell.scene.bodies[item])
     tilt = _tilt(here, how)
     beside = _beside(cell, here.apply(how.at), target)
-    follow(cell, side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
-    cell.fold()
+    _go_back(cell, chosen)
     said = (
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
@@ -197,8 +196,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     chosen = reach_for(cell, target, lambda: dip_options(cell, item, target, how), focus, attempt)
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
-    follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
-    cell.fold()
+    _go_back(cell, chosen)
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < _WET or beside > 0.0:
         raise SkillError(Stage.EFFECT, said)
@@ -249,6 +247,21 @@ def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[f
     finally:
         cell.sim.set_motion(body, motion)
     return found
+
+
+def _go_back(cell: Cell, chosen: Option) -> None:
+    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms.
+
+    Raises:
+        SkillError: There is none.
+    """
+    try:
+        follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
+    except SkillError:
+        if not cell.fold():
+            raise
+    else:
+        cell.fold()
 
 
 def _side(cell: Cell, item: str) -> str:
