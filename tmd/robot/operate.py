@@ -84,7 +84,7 @@ def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
         return [(0.0,), *([tuple(now - piece for piece in _PIECES if now > piece)] if door else [])]
     if not door:
         return [_OPEN]
-    return [_OPEN[:2], _OPEN[2:], tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])]
+    return [*((part,) for part in _OPEN), tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])]
 
 
 def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice, pairwise, product
+from itertools import chain, islice, pairwise, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.cell import Cell
@@ -116,7 +116,8 @@ def reach(
     last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
     failed: list[Candidate] = []
     closed: list[Base] = []
-    for candidate in islice(found, 2 * attempt, None):
+    tried_before = list(islice(found, 2 * attempt))
+    for candidate in chain(found, tried_before):
         if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
             continue
         try:
