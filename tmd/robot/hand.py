@@ -27,9 +27,10 @@ class HandChecker:
         robot: The robot; between two calls it is where it was.
         side: The hand.
         ignore: What may be touched: (body, link), link None for all of the body.
+        only: Ask about this link of a body and nothing else.
     """
 
-    def __init__(self, robot: Pr2, side: str, ignore: Ignored = ()) -> None:
+    def __init__(self, robot: Pr2, side: str, ignore: Ignored = (), *, only: tuple[int, int] | None = None) -> None:
         self._robot, self._side, self._ignore = robot, side, frozenset(ignore)
         self._links = [name for name in robot.tree.below(f"{side[0]}_wrist_roll_link") if name in robot.boxes]
         frames = robot.tree.forward(robot.positions(), robot.tree.links, {robot.tree.root: np.eye(4)})
@@ -41,7 +42,7 @@ class HandChecker:
         if self._held is not None:
             self._relative.append(self._held.grip.homogeneous())
             self._boxes.append(box_of(robot.sim, self._held.body))
-        self._obstacles = self._find_obstacles()
+        self._obstacles = self._find_obstacles() if only is None else [only]
 
     def _find_obstacles(self) -> list[tuple[int, int]]:
         taken = {self._robot.body, *(held.body for held in self._robot.helds())}  # they go where the robot goes

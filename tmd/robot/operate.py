@@ -7,6 +7,7 @@ from math import copysign, cos, pi, sin
 
 from tmd.robot.cell import Cell
 from tmd.robot.fittings import TIP
+from tmd.robot.hand import HandChecker
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose, Vector
 from tmd.robot.present import reach_for
@@ -33,6 +34,8 @@ _PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5)
 """How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
 _LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0), (1.0, 1.0))
 """The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
+_STRUCK = 0.004
+"""Metres that a lid may be in a hand on its way."""
 _PULLED, _PUSHED = 0, 1
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
@@ -156,8 +159,25 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
         if handle.kind == "door" and part < cell.way(name):
             pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
             ways += _ways(handle, pushed, goal - start, _PUSHES)
-        options += [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
+        found = [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
+        options += _beside(cell, handle, goal, found) if handle.kind == "lid" else found
     return options
+
+
+def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) -> list[Option]:
+    """The ways along which a lid does not swing into the hand that lifts it."""
+    start = cell.sim.joint_position(handle.body, handle.index)
+    kept = list(options)
+    for side in sorted({option.side for option in options}):
+        checker = HandChecker(cell.robot, side, only=(handle.body, handle.index))
+        for number in range(_WAYPOINTS + 1):
+            cell.sim.set_joint(handle.body, handle.index, start + number / _WAYPOINTS * (goal - start))
+            mine = [option for option in kept if option.side == side]
+            depths = checker.depth([option.poses[1 + number] for option in mine])
+            struck = [option for option, depth in zip(mine, depths, strict=True) if depth > _STRUCK]
+            kept = [option for option in kept if all(option is not other for other in struck)]
+    cell.sim.set_joint(handle.body, handle.index, start)
+    return kept
 
 
 def _end(handle: Handle, part: float) -> float:
