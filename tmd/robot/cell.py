@@ -23,7 +23,10 @@ OPEN_SHARE = 0.6
 _SETTING_SHARE = 0.25
 """A knob is at a setting when it is not farther from it than this share of the way to the next one."""
 
-_BACK = 0.1
+_BACK = (0.1, 0.05, 0.025)
+"""Metres that a hand is drawn back from what it worked, best first."""
+_LONG = 2000
+"""Samples for a way of the arm where there is no other place to tuck it."""
 _STEPS_BACK = (0.12, 0.25, 0.4)
 """Metres that the base goes back where the arms have no room."""
 _NEARBY = 300
@@ -157,14 +160,16 @@ class Cell:
             path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
             if path is not None and self.robot.drive(path) and self.robot.tuck():
                 return True
-        return False
+        return self.robot.tuck(_LONG)
 
     def retire(self, side: str, ignore: Ignored) -> None:
         """Draw a hand back the way it points, and tuck the arms."""
-        back = self.robot.tool(side) * Pose((-_BACK, 0.0, 0.0))
-        path = plan_line(self.robot, side, self.robot.tool(side), back, ignore=ignore)
-        if path is not None:
-            self.robot.move_arm(side, path)
+        here = self.robot.tool(side)
+        for share in _BACK:
+            path = plan_line(self.robot, side, here, here * Pose((-share, 0.0, 0.0)), ignore=ignore)
+            if path is not None:
+                self.robot.move_arm(side, path)
+                break
         self.fold()
 
     @contextmanager

@@ -29,34 +29,40 @@ _FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
 """Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 _YAWS = 8
+TUCK_BUDGET = 300
+"""Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
 
 
-def tuck(robot: Pr2) -> bool:
+def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
     """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
+
+    Args:
+        robot: The robot.
+        budget: Samples for the path of an arm.
 
     Returns:
         Whether both arms arrived.
     """
     waiting = sorted(robot.arms, key=lambda side: robot.held(side) is not None)
     for _ in robot.arms:
-        waiting = [side for side in waiting if not _tuck_arm(robot, side)]
+        waiting = [side for side in waiting if not _tuck_arm(robot, side, budget)]
     return not waiting
 
 
-def _tuck_arm(robot: Pr2, side: str) -> bool:
-    return _fold(robot, side) if robot.held(side) is None else _carry(robot, side)
+def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
+    return _fold(robot, side, budget) if robot.held(side) is None else _carry(robot, side, budget // 3)
 
 
-def _fold(robot: Pr2, side: str) -> bool:
+def _fold(robot: Pr2, side: str, budget: int) -> bool:
     goal = TUCKED[side]
     (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
     if np.max(np.abs(near - goal)) < _THERE:
         return True
-    path = plan_arm(robot, side, goal, rng=robot.rng)
+    path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
     return path is not None and robot.move_arm(side, path)
 
 
-def _carry(robot: Pr2, side: str) -> bool:
+def _carry(robot: Pr2, side: str, budget: int) -> bool:
     """Bring what is held to the front of the robot; the tool turns about the vertical only, if that is possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
@@ -68,7 +74,7 @@ def _carry(robot: Pr2, side: str) -> bool:
             if robot.collides(side=side, arm=goal):
                 continue
             line = plan_line(robot, side, robot.tool(side), tool, arm=robot.arm(side))
-            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=100)
+            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
             if path is not None:
                 return robot.move_arm(side, path)
     return False

@@ -21,7 +21,7 @@ from tmd.robot.follow import Group, hold, jump, run
 from tmd.robot.ik import ArmKinematics
 from tmd.robot.kinematics import Array, Tree
 from tmd.robot.pose import Pose
-from tmd.robot.posture import TUCKED, tuck
+from tmd.robot.posture import TUCK_BUDGET, TUCKED, tuck
 from tmd.robot.pr2_urdf import BASE_JOINTS, FINGERS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.simulator import Simulator
 from tmd.robot.trajectory import unwound
@@ -309,13 +309,16 @@ class Pr2:
         for side, (body, _, grip) in sorted(self._held.items()):
             self.sim.set_pose(body, self.tool(side) * grip)
 
-    def tuck(self) -> bool:
+    def tuck(self, budget: int = TUCK_BUDGET) -> bool:
         """Fold the arms for driving; a hand that holds something brings it to the front as upright as it is held.
+
+        Args:
+            budget: Samples for the path of an arm.
 
         Returns:
             Whether both arms arrived. Paths are planned with the robot's own generator.
         """
-        return tuck(self)
+        return tuck(self, budget)
 
     # the head
 

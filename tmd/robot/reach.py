@@ -258,8 +258,20 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
             raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
         if not cell.robot.drive(path):
             raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
-    if abs(cell.robot.torso() - torso) > 0.005 and not cell.robot.raise_torso(torso):
+    if abs(cell.robot.torso() - torso) > 0.005:
+        _lift(cell, torso)
+
+
+def _lift(cell: Cell, torso: float) -> None:
+    """Move the torso, with tucked arms if they would be in something there."""
+    if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
+        raise SkillError(Stage.PATH, f"something is in the way of the arms with the torso at {torso:.2f} m")
+    if not cell.robot.raise_torso(torso):
         raise SkillError(Stage.EXECUTION, f"the torso did not get to {torso:.2f} m")
+
+
+def _sticks(cell: Cell, torso: float) -> bool:
+    return any(depth > DEEPEST for *_, depth in cell.robot.collides(torso=torso))
 
 
 def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
