@@ -25,6 +25,10 @@ lie across each other, and one in the way of the other.
 """
 _THERE = 0.03
 """Radians: an arm that is this near to its posture need not move."""
+_SHIFTS = (-0.1, 0.1, -0.2, 0.2, -0.3, 0.3)
+_SHIFTED = 6
+_MOST_FOLDED = 2
+"""Where an arm cannot be tucked as usual, one of its first joints is turned by so many radians; so many are tried."""
 _FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
 """Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
@@ -54,12 +58,26 @@ def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
 
 
 def _fold(robot: Pr2, side: str, budget: int) -> bool:
-    goal = TUCKED[side]
-    (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
-    if np.max(np.abs(near - goal)) < _THERE:
-        return True
-    path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
-    return path is not None and robot.move_arm(side, path)
+    for goal in _folded(robot, side):
+        (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
+        if np.max(np.abs(near - goal)) < _THERE:
+            return True
+        path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+        if path is not None:
+            return robot.move_arm(side, path)
+    return False
+
+
+def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
+    """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
+    usual = TUCKED[side]
+    others = [
+        tuple(value + shift * (joint == number) for number, value in enumerate(usual))
+        for shift in _SHIFTS
+        for joint in range(_SHIFTED)
+    ]
+    free, *rest = robot.clear(side, [usual, *others])
+    return [usual] if free else [other for other, clear in zip(others, rest, strict=True) if clear][:_MOST_FOLDED]
 
 
 def _carry(robot: Pr2, side: str, budget: int) -> bool:
