@@ -22,6 +22,7 @@ COMMANDS = (
     "run",
     "view",
     "scene",
+    "studio",
     "new",
     "learn",
     "check",

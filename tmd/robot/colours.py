@@ -22,6 +22,17 @@ SUBSTANCES = {
     "soda": "chocolate", "beer": "orange", "juice": "orange",
 }  # fmt: skip
 
+_OFF_WHITE, _GREY, _DARK = (0.93, 0.92, 0.89, 1.0), (0.45, 0.46, 0.48, 1.0), (0.22, 0.22, 0.24, 1.0)
+_DARK_LINKS = ("finger", "wheel", "laser", "stereo")
+_GREY_LINKS = ("head", "elbow", "forearm_roll", "wrist", "caster", "shoulder_lift", "upper_arm_roll")
+
+
+def robot_colour(link: str) -> tuple[float, float, float, float]:
+    """The colour of a link of the PR2, whose model has signal colours."""
+    dark = any(word in link for word in _DARK_LINKS)
+    grey = any(word in link for word in _GREY_LINKS)
+    return _DARK if dark else _GREY if grey else _OFF_WHITE
+
 
 def rgba(colour: str) -> tuple[float, float, float, float]:
     """A name of the palette or ``#rrggbb`` as red, green, blue, alpha between 0 and 1.

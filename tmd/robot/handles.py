@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from tmd.robot.catalogue import FLOOR, Catalogue
 from tmd.robot.features import Grip
-from tmd.robot.inventory import FLOOR, Inventory
+from tmd.robot.inventory import Inventory
 from tmd.robot.pose import Pose, Vector
 
 
@@ -44,7 +45,7 @@ class Handle:
     settings: Mapping[str, float]
 
 
-def grip_of(things: Inventory, whole: str, part: str) -> Grip | None:
+def grip_of(things: Catalogue, whole: str, part: str) -> Grip | None:
     """Where a part is worked, in the frame of its link; None where nothing is."""
     return next((g for g in things.blueprints[whole].model.grips if g.part == part), None)
 

@@ -32,6 +32,12 @@ class Pose:
         return cls((x, y, z), (0.0, 0.0, sin(yaw / 2), cos(yaw / 2)))
 
     @classmethod
+    def about(cls, axis: Vector, angle: float) -> Pose:
+        """A turn by ``angle`` radians about a unit vector through the origin."""
+        s = sin(angle / 2)
+        return cls((0.0, 0.0, 0.0), (axis[0] * s, axis[1] * s, axis[2] * s, cos(angle / 2)))
+
+    @classmethod
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:
         """The pose of a 4×4 homogeneous matrix."""
         x, y, z = (float(value) for value in matrix[:3, 3])

@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.collision import Box, Checker, Collision, Held, Ignored, link_boxes
+from tmd.robot.colours import robot_colour
 from tmd.robot.follow import Group, hold, jump, run
 from tmd.robot.ik import ArmKinematics
 from tmd.robot.kinematics import Array, Tree
@@ -40,9 +41,6 @@ _EYE = (0.1, 0.0, 0.11)
 """The cameras, in the frame of head_tilt_link."""
 _VIEW = (0.75, 0.6)
 """Half of the angle of view, radians: to the sides, up and down."""
-_OFF_WHITE, _GREY, _DARK = (0.93, 0.92, 0.89, 1.0), (0.45, 0.46, 0.48, 1.0), (0.22, 0.22, 0.24, 1.0)
-_DARK_LINKS = ("finger", "wheel", "laser", "stereo")
-_GREY_LINKS = ("head", "elbow", "forearm_roll", "wrist", "caster", "shoulder_lift", "upper_arm_roll")
 
 
 class Pr2:
@@ -145,9 +143,7 @@ class Pr2:
 
     def _paint(self) -> None:
         for name, index in self.index.items():
-            dark = any(word in name for word in _DARK_LINKS)
-            grey = any(word in name for word in _GREY_LINKS)
-            self.sim.colour(self.body, index, _DARK if dark else _GREY if grey else _OFF_WHITE)
+            self.sim.colour(self.body, index, robot_colour(name))
 
     # where it is
 

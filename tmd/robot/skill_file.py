@@ -106,6 +106,33 @@ class Skills:
         return Task(entry.skill, **roles, seconds=entry.seconds)
 
 
+_USUAL: Mapping[str, Sensor | Confirmation] = {
+    "holding": "held",
+    "at": "support",
+    "opened": "joint",
+    "set_to": "setting",
+    "near": "reach",
+}
+"""What the predicates of these names are about, in a domain that has no ``skills.yaml``."""
+
+
+def visible(folder: DomainFolder) -> Skills:
+    """What can be seen of a domain's states: as ``skills.yaml`` says or, without one, by the usual names.
+
+    Raises:
+        TmdError: There is a file, and it is wrong.
+    """
+    if (folder.path / "skills.yaml").is_file():
+        return load_skills(folder)
+    arities = {predicate.name: len(predicate.parameters) for predicate in folder.domain.predicates}
+    usual = {name: sense for name, sense in _USUAL.items() if arities.get(name) == _ARITY[sense]}
+    seen: dict[str, Sensor] = {name: sense for name, sense in usual.items() if sense != "reach"}
+    confirmed: dict[str, Confirmation] = {name: sense for name, sense in usual.items() if sense == "reach"}
+    signs = tuple(name for name in ("active", "hot") if arities.get(name) == 1)
+    contents = "contains" if arities.get("contains") == 2 else None
+    return Skills({}, seen, confirmed, frozenset(), signs, contents, folder.domain)
+
+
 def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
     """The skills of a domain; ``report`` takes the faults of the file.
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Protocol
 
 from tmd.robot.features import Region
 from tmd.robot.inventory import FLOOR, Inventory
@@ -30,13 +31,49 @@ class Spot:
     pose: Pose
 
 
+class Things(Protocol):
+    """What has to be known of a scene to find free places in it."""
+
+    def items(self) -> list[str]:
+        """All items."""
+        ...
+
+    def whole(self, name: str) -> str:
+        """The object that an object or part belongs to."""
+        ...
+
+    def footprint(self, item: str) -> Footprint:
+        """The item's rectangle on what it stands on."""
+        ...
+
+    def size(self, item: str) -> tuple[Vector, Vector]:
+        """The item's box in its own frame."""
+        ...
+
+    def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
+        """The regions of an object or part, each with the object."""
+        ...
+
+    def frame(self, whole: str, link: str) -> Pose:
+        """Where a link of an object is now."""
+        ...
+
+    def pose_of(self, item: str) -> Pose:
+        """Where an object is now."""
+        ...
+
+    def top_of(self, item: str) -> float:
+        """The height of its highest point now."""
+        ...
+
+
 def free_spots(
-    things: Inventory, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
+    things: Things, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
 ) -> list[Spot]:
     """Free places on, in or next to something, best first; see :meth:`tmd.robot.scene.Scene.support`."""
     own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
     names = [other for other in things.items() if other not in (item, things.whole(name), *held)]
-    others = {other: (things.sim.pose(things.bodies[other]), things.footprint(other)) for other in names}
+    others = {other: (things.pose_of(other), things.footprint(other)) for other in names}
     if name == FLOOR:
         return [Spot(pose) for pose in floor_spots(room, others.values(), own)]
     tall = 0.0 if item is None else things.size(item)[1][2]
@@ -69,13 +106,13 @@ def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list
 
 
 def _heaped(
-    things: Inventory, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
+    things: Things, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
 ) -> list[Pose]:
     """The same spots, on top of what lies there."""
     found = []
     for pose in poses:
         below = [other for other, at in near.items() if not apart(pose, own, *at, 0.0)]
-        top = max((things.sim.extents(things.bodies[other])[1][2] for other in below), default=pose.position[2])
+        top = max((things.top_of(other) for other in below), default=pose.position[2])
         if top + _ON_TOP < rim:
             found.append(Pose((pose.position[0], pose.position[1], top + _ON_TOP), pose.orientation))
     return found

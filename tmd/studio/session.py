@@ -138,6 +138,11 @@ class Session:
             return self._history.current.states[self._cursor]
 
     @property
+    def states(self) -> tuple[Bits, ...]:
+        """The states before the first step and after each, as bits of the environment's task."""
+        return self._history.current.states
+
+    @property
     def can_undo(self) -> bool:
         """Whether there is something to take back."""
         return self._history.can_undo

@@ -51,13 +51,21 @@ class Corpus:
             TmdError: There is none, or it is wrong.
         """
         if name not in self._worlds:
-            if name not in self._files:
-                raise TmdError(
-                    f"there is no environment '{name}' in {self.directory / 'environments'}",
-                    hint=nearest(name, self.environments()),
-                )
-            self._worlds[name] = make_world(name, self._problem(self._files[name]), self.lexicon)
+            self._worlds[name] = make_world(name, self._problem(self.file(name)), self.lexicon)
         return self._worlds[name]
+
+    def file(self, name: str) -> Path:
+        """The file of an environment.
+
+        Raises:
+            TmdError: There is none.
+        """
+        if name not in self._files:
+            raise TmdError(
+                f"there is no environment '{name}' in {self.directory / 'environments'}",
+                hint=nearest(name, self.environments()),
+            )
+        return self._files[name]
 
     @cached_property
     def _files(self) -> dict[str, Path]:

@@ -1,0 +1,109 @@
+"""Pictures of states without a simulator: they agree with the states, and begin as the simulated scene does."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+
+from tmd.pddl.model import Instruction, State
+from tmd.robot.pose import Pose
+from tmd.robot.skill_file import visible
+from tmd.robot.still import INVISIBLE, Picture, Still, moved
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder
+
+ROOT = Path(__file__).parents[2]
+SEEN = [(domain, path.stem) for domain in ("kitchen", "living_room", "02_table", "04_tea")
+        for path in sorted((ROOT / "problems" / domain / "environments").glob("*.yaml"))]  # fmt: skip
+
+
+def corpus(domain: str) -> Corpus:
+    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
+
+
+def frames(
+    domain: str, environment: str, most: int = 2
+) -> list[list[tuple[Instruction | None, State, Picture, Still]]]:
+    """What some demonstrations go through: the instruction, the state after it, and how that looks."""
+    known = corpus(domain)
+    world = known.world(environment)
+    still = Still(load_environment(known.file(environment)), known.folder, visible(known.folder))
+    shown = [d for d in known.demonstrations() if d.environment == environment][:most]
+    found = []
+    for demonstration in shown:
+        bits = world.task.init
+        picture = still.first(world.task.decode(bits))
+        rows: list[tuple[Instruction | None, State, Picture, Still]] = [(None, world.task.decode(bits), picture, still)]
+        for instruction in demonstration.instructions:
+            bits = world.task.by_instruction[instruction].apply(bits)
+            picture = still.draw(world.task.decode(bits), picture)
+            rows.append((instruction, world.task.decode(bits), picture, still))
+        found.append(rows)
+    return found
+
+
+@pytest.mark.parametrize(("domain", "environment"), SEEN)
+def test_things_are_where_the_state_says(domain: str, environment: str) -> None:
+    for rows in frames(domain, environment):
+        for _, state, picture, still in rows:
+            at = {a.args[0]: a.args[1:] for a in state if a.predicate == "at" and still.is_item(a.args[0])}
+            held = {a.args[1] for a in state if a.predicate == "holding"}
+            for item, place in at.items():
+                assert picture.rests[item].at == place
+            for item in held:
+                assert picture.poses[item].distance(picture.robot) < 1.6
+            assert set(picture.poses) == set(still.blueprints)
+
+
+@pytest.mark.parametrize("environment", ["kitchen1", "kitchen4"])
+def test_what_no_instruction_touches_stays(environment: str) -> None:
+    for rows in frames("kitchen", environment):
+        for (_, _, before, _), (instruction, _, after, still) in pairwise(rows):
+            assert instruction is not None
+            moved_things = {name for name in after.poses if after.poses[name] != before.poses[name]}
+            named = {still.whole(a) for a in instruction.args if a in still.names()}
+            carried = {n for n, rest in after.rests.items() if rest.at[1] == "held" or rest.whole in moved_things}
+            assert moved_things <= named | carried
+
+
+def test_a_door_opens_and_a_cup_fills() -> None:
+    seen = [frame for rows in frames("kitchen", "kitchen1", 12) for frame in rows]
+    opened = [f for f in seen if f[0] is not None and f[0].name == "open"]
+    assert opened
+    for instruction, _, picture, still in opened:
+        assert instruction is not None
+        whole, part = still.where(instruction.args[0])
+        links = [link for (owner, link), position in picture.joints.items() if owner == whole and position]
+        assert links, part
+    assert any(c != INVISIBLE for _, _, p, _ in seen for (_, link), c in p.colours.items() if link == "content")
+
+
+def test_the_robot_stands_before_what_it_went_to() -> None:
+    for rows in frames("kitchen", "kitchen3", 3):
+        for instruction, _, picture, still in rows:
+            if instruction is not None and instruction.name == "moveto" and instruction.args[0] in still.blueprints:
+                x, y, _ = picture.poses[instruction.args[0]].position
+                assert Pose((x, y, 0.0)).distance(picture.robot) < 1.6
+
+
+def test_a_scene_begins_as_the_simulated_one() -> None:
+    pytest.importorskip("pybullet", reason="needs the extra robot")
+    from tmd.robot.scene import Scene
+    from tmd.robot.simulator import Simulator
+
+    known = corpus("kitchen")
+    environment = load_environment(known.file("kitchen2"))
+    picture = Still(environment, known.folder, visible(known.folder)).first(known.world("kitchen2").task.problem.init)
+    with Simulator() as sim:
+        placed = Scene(sim, environment, known.folder, settle=0).placed
+    assert list(placed) == list(picture.poses)
+    assert all(placed[name].distance(picture.poses[name]) < 1e-9 for name in placed)
+
+
+def test_joints() -> None:
+    assert moved("prismatic", (0.0, 1.0, 0.0), 0.2).position == (0.0, 0.2, 0.0)
+    x, y, _ = moved("revolute", (0.0, 0.0, 1.0), 1.5707963267948966).apply((1.0, 0.0, 0.0))
+    assert (round(x, 9), round(y, 9)) == (0.0, 1.0)

@@ -1,0 +1,201 @@
+"""What visitors do, in a real browser: say, step, point, show, save, learn, correct."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .conftest import Served
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator, Page
+
+WAIT = 60_000
+RAMEN = "Fill the pot with water and boil it. Add the ramen to the pot and wait. Put the ramen in the bowl."
+UNKNOWN = "Sterilize the kettle."
+BOIL = (
+    ("kettle1", "find(kettle1)"), ("kettle1", "moveto(kettle1)"), ("kettle1", "grasp(kettle1)"),
+    ("sink1", "moveto(sink1)"), ("sink1", "keep(kettle1, sink1, in)"), ("sink1", "turn(sink1_handle, high)"),
+    ("sink1", "turn(sink1_handle, off)"), ("kettle1", "grasp(kettle1)"), ("stove1", "moveto(stove1)"),
+    ("stove1", "keep(kettle1, stove1_burner1, on)"), ("stove1", "turn(stove1_knob1, high)"), ("stove1", "wait()"),
+)  # fmt: skip
+"""Boiling water in a kettle: the object that is pointed at, and what is done."""
+
+
+@contextmanager
+def visiting(browser: Browser, served: Served, width: int = 640, height: int = 640) -> Iterator[Page]:
+    context = browser.new_context(viewport={"width": width, "height": height})
+    page = context.new_page()
+    page.set_default_timeout(WAIT)
+    page.goto(served.url)
+    page.get_by_text("Welcome").wait_for()
+    yield page
+    context.close()
+
+
+def tab(page: Page, name: str) -> None:
+    page.get_by_role("tab", name=name).click()
+
+
+def entry(page: Page, label: str) -> Locator:
+    """The input beside a label."""
+    found = page.locator(f"xpath=//*[normalize-space(text())='{label}']/following::*[self::input or self::textarea][1]")
+    return found.locator("visible=true").first
+
+
+def choose(page: Page, label: str, option: str) -> None:
+    entry(page, label).click()
+    page.get_by_role("option", name=option, exact=True).locator("visible=true").click()
+
+
+def press(page: Page, name: str) -> None:
+    page.get_by_role("button", name=name, exact=True).locator("visible=true").first.click()
+
+
+def told(page: Page, words: str) -> None:
+    page.locator("[role=status]").filter(has_text=words).first.wait_for()
+
+
+def say(page: Page, text: str) -> None:
+    page.locator("textarea:visible").first.fill(text)
+    page.wait_for_timeout(300)  # the page sends what was typed a moment later
+    press(page, "Plan it")
+
+
+def shown(page: Page) -> list[str]:
+    """The steps that are listed."""
+    lists = page.locator("ol:visible")
+    return [] if not lists.count() else lists.first.locator("> li").all_inner_texts()
+
+
+def test_a_sentence_becomes_a_plan_and_is_stepped_through(
+    kitchen_studio: Served, browser: Browser, screens: Path
+) -> None:
+    with visiting(browser, kitchen_studio) as page:
+        page.screenshot(path=screens / "01-welcome.png")
+        say(page, RAMEN)
+        told(page, "plans in")
+        steps = shown(page)
+        assert len(steps) > 8 and any(step.startswith(("find(pot1)", "find(kettle1)")) for step in steps)
+        assert page.locator(".tmd-verb").count() >= 3
+        for _ in range(5):
+            press(page, "▶")
+        page.locator("[aria-current=step]").filter(has_text=steps[4].split("\n")[0].split(")")[0]).wait_for()
+        page.screenshot(path=screens / "02-step.png")
+        page.keyboard.press("Escape")
+        page.get_by_text("Energies by factor").click()
+        page.get_by_text("chosen").first.wait_for()
+        page.screenshot(path=screens / "03-energies.png")
+        press(page, "▶|")
+        page.locator("ol:visible > li").last.locator("[aria-current=step]").wait_for()
+
+
+def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    corpus = Path(kitchen_studio.arguments[1]) / "kitchen" / "boiling" / "demonstrations.jsonl"
+    with visiting(browser, kitchen_studio) as page:
+        say(page, UNKNOWN)
+        told(page, "No plan")
+        page.screenshot(path=screens / "04-nobody-has-shown-it.png")
+        tab(page, "Demonstrate")
+        page.locator("textarea:visible").first.fill(UNKNOWN)
+        page.wait_for_timeout(300)
+        press(page, "Begin")
+        told(page, "Point at an object")
+        pointed = ""
+        for number, (name, instruction) in enumerate(BOIL, start=1):
+            if name != pointed:
+                choose(page, "With", name)
+                pointed = name
+            press(page, instruction)
+            page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
+            if number == 6:
+                page.get_by_text("Not possible now, and why").click()
+                page.get_by_text("✗").first.wait_for()
+                page.screenshot(path=screens / "05-what-can-be-done-and-what-not.png")
+                page.get_by_text("Not possible now, and why").click()
+        page.screenshot(path=screens / "06-boiled.png")
+        press(page, "Undo")
+        page.locator(f"ol:visible > li:nth-child({len(BOIL) - 1}) [aria-current=step]").wait_for()
+        press(page, "Redo")
+        page.locator(f"ol:visible > li:nth-child({len(BOIL)}) [aria-current=step]").wait_for()
+        entry(page, "Task name").fill("boiling")
+        page.wait_for_timeout(300)
+        press(page, "Save (S)")
+        told(page, "Saved as boiling-kitchen1-01")
+        page.screenshot(path=screens / "07-saved.png")
+        (line,) = corpus.read_text().splitlines()
+        assert [i for s in json.loads(line)["segments"] for i in s["instructions"]] == [i for _, i in BOIL]
+        assert not {"who", "when"} & set(json.loads(line))
+        tab(page, "Say")
+        press(page, "Plan it")
+        told(page, "plans in")
+        assert any("turn(stove1_knob" in step for step in shown(page))
+        page.screenshot(path=screens / "08-learned.png")
+        tab(page, "Demonstrate")
+        press(page, "Learn everything anew")
+        told(page, "Everything was learned anew")
+        tab(page, "Say")
+        press(page, "Plan it")
+        told(page, "plans in")
+        assert any("turn(stove1_knob" in step for step in shown(page))
+
+
+def test_an_object_is_pointed_at(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    with visiting(browser, kitchen_studio) as page:
+        tab(page, "Object")
+        choose(page, "Object", "stove1")
+        page.locator("svg", has_text="stove1").first.wait_for()
+        page.get_by_text("(controls stove1_knob1 stove1_burner1)").first.wait_for()
+        page.screenshot(path=screens / "09-object.png")
+
+
+def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    corpus = Path(kitchen_studio.arguments[1]) / "kitchen" / "shown" / "demonstrations.jsonl"
+    with visiting(browser, kitchen_studio) as page:
+        say(page, "Boil some water in the pot.")
+        told(page, "plans in")
+        before = [step.split("\n")[0] for step in shown(page)]
+        press(page, "Correct this plan")
+        tab(page, "Correct")
+        press(page, "Delete")
+        page.get_by_text("does not apply").wait_for()
+        page.screenshot(path=screens / "10-broken.png")
+        press(page, "Let the planner put in what is missing")
+        page.get_by_text("Every step applies.").wait_for()
+        choose(page, "Insert with", "cup1")
+        choose(page, "Instruction", "find(cup1)")
+        press(page, "Insert before this step")
+        page.locator("ol:visible > li").filter(has_text="find(cup1)").wait_for()
+        press(page, "Done: look at it, and save it")
+        tab(page, "Demonstrate")
+        press(page, "Save (S)")
+        told(page, "Saved as shown-kitchen1-01")
+        record = json.loads(corpus.read_text().splitlines()[-1])
+        assert [step.split(")")[0] for step in record["proposed"]] == [step.split(")")[0] for step in before]
+        assert "find(cup1)" in [i for s in record["segments"] for i in s["instructions"]]
+
+
+def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
+    with visiting(browser, kitchen_studio, 400, 820) as page:
+        page.screenshot(path=screens / "11-narrow.png")
+        for text, answer in (
+            ("", "the text is empty"),
+            ("word " * 1_001, "words"),
+            ("x" * 30_000, "characters"),
+            ("<img src=x onerror='document.title=1'> \x07 Fill the pot.", ""),
+        ):
+            say(page, text)
+            if answer:
+                told(page, answer)
+        page.locator("[role=status]").filter(has_text="plan").first.wait_for()
+        assert page.title() != "1" and page.locator("img[src=x]").count() == 0
+        tab(page, "Demonstrate")
+        entry(page, "Task text").fill("Fill the pot.")
+        page.wait_for_timeout(300)
+        press(page, "Begin")
+        press(page, "Save (S)")
+        told(page, "nothing was demonstrated yet")
+        page.screenshot(path=screens / "12-narrow-fault.png")

@@ -1,0 +1,41 @@
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tmd.pddl.model import GroundAtom
+from tmd.studio.offers import Offers
+from tmd.studio.page import changed, fragment, notice, object_facts, refused, step_list
+from tmd.veil.world import World
+
+
+@given(st.text())
+def test_what_people_type_is_text(typed: str) -> None:
+    said = typed + "<script>alert(1)</script><b>"
+    for html in (
+        notice(said, said),
+        notice(said, fault=True),
+        step_list([(said, said, True)], 1),
+        "".join(changed([GroundAtom("p", (said,))], [])),
+    ):
+        assert "<script" not in html
+        assert "<b>" not in html
+
+
+def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:
+    html = step_list([("find(pot1)", "clause 1", False), ("moveto(pot1)", "clause 1", True)], 1, ["<i>news</i>"])
+    first, _, second = html.partition("moveto")
+    assert 'aria-current="step"' in first and "▸" in first and "news" in first
+    assert "aria-current" not in second
+
+
+def test_an_object_is_shown_with_its_parts(kitchen1: World) -> None:
+    html = object_facts(kitchen1, "stove1", kitchen1.task.decode(kitchen1.task.init))
+    assert "<h4>stove1</h4>" in html and "<h4>stove1_knob1</h4>" in html
+
+
+def test_what_cannot_be_done_is_listed_with_what_it_lacks(kitchen1: World) -> None:
+    offers = Offers(kitchen1)
+    html = refused(offers.of("kettle1", kitchen1.task.init))
+    assert "grasp(kettle1)" in html and "✗" in html
+    assert fragment("x").count("<style>") == 1

@@ -1,0 +1,105 @@
+"""The HTML that the studio's panels show; whatever people typed is escaped.
+
+Colours are those of Okabe and Ito, which colour-blind people tell apart; nothing is told by colour alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from html import escape
+
+from tmd.pddl.model import GroundAtom
+from tmd.studio.offers import Group
+from tmd.veil.world import World
+
+MOST = 60
+"""So many instructions that do not apply are listed."""
+
+STYLE = """<style>
+.tmd{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}
+.tmd ol{margin:.2rem 0;padding-left:1.9rem}.tmd ul{margin:.2rem 0;padding-left:1.2rem}
+.tmd .now{background:#56b4e9;color:#000;border-radius:.2rem;padding:0 .25rem;font-weight:600}
+.tmd .latent{font-style:italic}.tmd .broken{text-decoration:underline wavy #d55e00}
+.tmd .tag{font-size:.72rem;border:1px solid currentColor;border-radius:.6rem;padding:0 .35rem;margin-left:.35rem;
+white-space:nowrap}
+.tmd .plus{color:#00664b;font-weight:600}.tmd .minus{color:#a34700;font-weight:600}
+.tmd h4{margin:.5rem 0 .15rem;font-size:.85rem}.tmd p{margin:.25rem 0}.tmd .quiet{opacity:.75}
+.tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
+.tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
+.tmd svg{max-width:100%;height:auto}.tmd table{border-collapse:collapse}.tmd td,.tmd th{padding:.05rem .35rem}
+</style>"""
+
+
+def fragment(content: str) -> str:
+    """Content with the studio's style."""
+    return f'{STYLE}<div class="tmd" data-theme="light">{content}</div>'
+
+
+def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str:
+    """A message to the visitor, read out by screen readers."""
+    kind, word = ("fault", "Not done: ") if fault else ("notice", "")
+    more = f" <span class='quiet'>{escape(hint)}</span>" if hint else ""
+    return fragment(f'<div class="{kind}" role="status" aria-live="polite">{word}{escape(message)}{more}</div>')
+
+
+def step_list(
+    lines: Iterable[tuple[str, str, bool]],
+    current: int,
+    gains: Sequence[str] = (),
+    faults: Mapping[int, Sequence[str]] | None = None,
+) -> str:
+    """Numbered steps.
+
+    Args:
+        lines: The instruction, what it is for, whether the person left it unsaid.
+        current: The step that was taken last, from 1; 0 is the beginning.
+        gains: What it changed, as HTML; shown below it.
+        faults: What is wrong with steps, by number.
+    """
+    rows = []
+    for number, (instruction, purpose, latent) in enumerate(lines, start=1):
+        name = escape(instruction)
+        if latent:
+            name = f'<span class="latent">{name}</span>'
+        if number == current:
+            name = f'<span class="now" aria-current="step">▸ {name}</span>'
+        wrong = (faults or {}).get(number, ())
+        if wrong:
+            name = f'<span class="broken">{name}</span>'
+        notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
+        below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
+        rows.append(f'<li>{name}<span class="tag">{escape(purpose)}</span>{below}</li>')
+    return fragment(f"<ol>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+
+
+def changed(added: Iterable[GroundAtom], removed: Iterable[GroundAtom]) -> list[str]:
+    """Facts that came and went, as HTML with a sign and a colour."""
+    plus = [f'<span class="plus">+ {escape(str(atom))}</span>' for atom in added]
+    return plus + [f'<span class="minus">− {escape(str(atom))}</span>' for atom in removed]
+
+
+def object_facts(world: World, name: str, facts: Iterable[GroundAtom]) -> str:
+    """The facts of an object and its parts in words, by subject."""
+    parts = dict.fromkeys([name, *(part for _, part in world.profiles.parts.get(name, ()))])
+    own: dict[str, list[str]] = {part: [] for part in parts}
+    for atom in sorted(facts):
+        for part in parts:
+            if part in atom.args:
+                own[part].append(escape(str(atom)))
+    blocks = []
+    for part, lines in own.items():
+        items = "".join(f"<li>{line}</li>" for line in lines)
+        blocks.append(f"<h4>{escape(part)}</h4>" + (f"<ul>{items}</ul>" if items else "<p class='quiet'>nothing</p>"))
+    return "".join(blocks)
+
+
+def refused(groups: Iterable[Group]) -> str:
+    """Instructions that do not apply, each with what it lacks."""
+    lines = [
+        f'<li class="quiet">{escape(str(offer.instruction))}<br><small>✗ {escape(offer.why)}</small></li>'
+        for group in groups
+        for offer in group.offers
+        if not offer.applies
+    ]
+    more = f"<p>… and {len(lines) - MOST} more.</p>" if len(lines) > MOST else ""
+    return f"<ul>{''.join(lines[:MOST])}</ul>{more}" if lines else "<p>Nothing is out of reach.</p>"

@@ -1,0 +1,119 @@
+"""The web server of the studio: one browser after the other becomes a visitor."""
+
+from __future__ import annotations
+
+import errno
+import logging
+import socket
+import time
+import warnings
+from collections.abc import Callable
+from contextlib import redirect_stdout
+from io import StringIO
+from threading import Event, Lock, Thread
+from typing import TYPE_CHECKING
+
+from tmd.errors import TmdError
+from tmd.studio.studio import Studio
+from tmd.studio.visitor import KEY, Visitor
+
+if TYPE_CHECKING:
+    from viser import ClientHandle, ViserServer
+
+LOCAL = "127.0.0.1"
+_PATIENCE = 5.0
+"""Seconds that a browser may take to say who it is."""
+
+
+class Server:
+    """Serves a studio.
+
+    Args:
+        studio: What is shown.
+        host: The address to listen at.
+        port: The port; 0 takes a free one.
+
+    Attributes:
+        port: The port.
+        url: Where it is reached from this machine.
+
+    Raises:
+        TmdError: The port is in use, or may not be listened at.
+    """
+
+    def __init__(self, studio: Studio, host: str, port: int) -> None:
+        import viser
+
+        port = free_port(host, port)
+        logging.getLogger("websockets").setLevel(logging.CRITICAL)
+        warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
+        self._studio = studio
+        self._lock = Lock()
+        self._visitors: dict[int, Visitor] = {}
+        with redirect_stdout(StringIO()):  # it greets in its own way
+            self._viser: ViserServer = viser.ViserServer(host=host, port=port, label="tmd studio", verbose=False)
+        self.port = port
+        self.url = f"http://{LOCAL if host in ('0.0.0.0', '::') else host}:{port}"
+        Thread(target=studio.warm, daemon=True).start()
+        self._viser.on_client_connect(self._arrive)
+        self._viser.on_client_disconnect(self._leave)
+
+    def _arrive(self, client: ClientHandle) -> None:
+        visitor = Visitor(self._studio, client, self._identity(client))
+        with self._lock:
+            self._visitors[client.client_id] = visitor
+
+    def _identity(self, client: ClientHandle) -> str:
+        """Who a browser is: a random name that it keeps, so that what was not saved is offered again on return."""
+        try:
+            known = client.local_storage.get_item(KEY, timeout=_PATIENCE)
+        except (RuntimeError, TimeoutError):
+            known = None
+        drafts = self._studio.drafts
+        if known:
+            try:
+                return drafts.enter(known)
+            except TmdError:
+                return drafts.enter()  # a second window of the same browser, or a name that somebody made up
+        identity = drafts.enter()
+        client.local_storage.set_item(KEY, identity)
+        return identity
+
+    def _leave(self, client: ClientHandle) -> None:
+        with self._lock:
+            visitor = self._visitors.pop(client.client_id, None)
+        if visitor is not None:
+            visitor.leave()
+            self._studio.drafts.leave(visitor.identity)
+
+    def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
+        """Serve until ``ended`` is set, or until the user stops it."""
+        wait = ended or Event()
+        while not wait.is_set():
+            tick()
+            time.sleep(0.2)
+
+    def close(self) -> None:
+        """Stop serving, and what is learned meanwhile."""
+        self._studio.teacher.close()
+        self._viser.stop()
+
+
+def free_port(host: str, port: int) -> int:
+    """The port, if it can be listened at; a free one for 0.
+
+    Raises:
+        TmdError: It cannot.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    with socket.socket(family, socket.SOCK_STREAM) as probe:
+        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            probe.bind((host, port))
+        except OSError as error:
+            if error.errno == errno.EADDRINUSE:
+                message, hint = f"port {port} is in use", "another studio may run already; name another: --port 8081"
+            else:
+                message, hint = f"{host}:{port} cannot be listened at: {error.strerror or error}", "see --host, --port"
+            raise TmdError(message, hint=hint) from error
+        return int(probe.getsockname()[1])

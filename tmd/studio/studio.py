@@ -1,0 +1,155 @@
+"""What all visitors of a studio share: the domain, its environments made ready, the robot's figure, and the teacher."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from datetime import datetime
+from functools import cache
+from pathlib import Path
+from threading import RLock
+
+from tmd.errors import MissingToolError, TmdError
+from tmd.pddl.syntax import nearest
+from tmd.studio.archive import Archive
+from tmd.studio.drafts import Drafts, place
+from tmd.studio.figure import Figure
+from tmd.studio.offers import Offers
+from tmd.studio.pieces import clean
+from tmd.studio.session import Session
+from tmd.studio.setting import Setting, open_setting
+from tmd.studio.tasks import task_texts
+from tmd.studio.teaching import Teacher
+from tmd.veil.corpus import Corpus
+from tmd.veil.demonstration import Demonstration
+from tmd.veil.world import make_world
+from tmd.world.compile import compile_problem
+from tmd.world.environment import load_environment
+
+
+class Studio:
+    """A domain, opened for visitors; its methods may be called from any thread.
+
+    Args:
+        corpus: The domain, with its demonstrations.
+        teacher: What was learned of it.
+        start: The environment that visitors come to first.
+        extra: An environment file that is not among those of the domain.
+
+    Attributes:
+        corpus: As above.
+        teacher: As above.
+        archive: Where demonstrations are saved.
+        drafts: What was not saved yet.
+        start: As above.
+
+    Raises:
+        TmdError: There is no such environment, or it is wrong.
+    """
+
+    def __init__(self, corpus: Corpus, teacher: Teacher, start: str | None = None, extra: Path | None = None) -> None:
+        self.corpus = corpus
+        self.teacher = teacher
+        self.archive = Archive(corpus)
+        self.drafts = Drafts(place(corpus))
+        self._texts = task_texts(corpus)
+        self._lock = RLock()
+        self._settings: dict[str, Setting] = {}
+        self._offers: dict[str, Offers] = {}
+        self._extra: dict[str, Path] = {}
+        if extra is not None:
+            start = load_environment(extra).name
+            self._extra[start] = extra
+        names = self.environments()
+        if not names:
+            raise TmdError(f"there are no environments in {corpus.directory / 'environments'}")
+        if start is not None and start not in names:
+            raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
+        self.start = start or names[0]
+
+    def environments(self) -> list[str]:
+        """The names of the environments, sorted."""
+        return sorted({*self.corpus.environments(), *self._extra})
+
+    def setting(self, name: str) -> Setting:
+        """An environment, made ready once.
+
+        Raises:
+            TmdError: There is none, or it is wrong.
+        """
+        with self._lock:
+            if name not in self._settings:
+                self._settings[name] = self._open(name)
+            return self._settings[name]
+
+    def _open(self, name: str) -> Setting:
+        path = self._extra.get(name)
+        if path is None:
+            return open_setting(self.corpus, self.corpus.world(name), self.corpus.file(name))
+        problem = compile_problem(load_environment(path), self.corpus.folder)
+        return open_setting(self.corpus, make_world(name, problem, self.corpus.lexicon), path)
+
+    def offers(self, name: str) -> Offers:
+        """What may be done in an environment."""
+        with self._lock:
+            if name not in self._offers:
+                self._offers[name] = Offers(self.setting(name).world)
+            return self._offers[name]
+
+    def figure(self) -> Figure | None:
+        """The robot; ``None`` where its model is not installed."""
+        with self._lock:
+            return _figure()
+
+    def session(self, setting: Setting, text: str) -> Session:
+        """A demonstration of a text, at its beginning.
+
+        Raises:
+            TmdError: The text is empty or too long, or what is shown here cannot be saved.
+        """
+        self.archive.refuse(setting.world)
+        return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
+
+    def save(self, session: Session, task: str, who: str, *, when: bool) -> Demonstration:
+        """Save a demonstration, and learn from it: the next text is grounded with it.
+
+        Args:
+            session: The demonstration.
+            task: What it is an example of.
+            who: Who showed it; empty where that is not told.
+            when: Whether the time is told.
+
+        Raises:
+            TmdError: It cannot be saved; nothing is written.
+        """
+        time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
+        saved = self.archive.save(session, task, who=who or None, when=time)
+        self.teacher.learn_one(saved)
+        return saved
+
+    def examples(self, name: str) -> list[str]:
+        """Texts that can be tried in an environment."""
+        return [known.text for known in self._texts if known.environment == name]
+
+    def warm(self) -> None:
+        """Ground a text, so that what is compiled and looked up once is there when the first visitor asks."""
+        texts = self.examples(self.start)
+        with suppress(TmdError):
+            self.figure()
+            if texts:
+                self.teacher.ground(texts[0], self.setting(self.start).world, top=1)
+
+    def checked_text(self, text: str) -> str:
+        """The text without control characters.
+
+        Raises:
+            TmdError: There is nothing in it, or it is too long.
+        """
+        return clean(text)
+
+
+@cache
+def _figure() -> Figure | None:
+    try:
+        return Figure()
+    except MissingToolError:
+        return None

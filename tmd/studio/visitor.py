@@ -1,0 +1,248 @@
+"""One browser at the studio: what it looks at, and the panels it has."""
+
+from __future__ import annotations
+
+import sys
+import threading
+import traceback
+from collections.abc import Callable
+from functools import wraps
+from typing import TYPE_CHECKING, Any
+
+from tmd.energy.plans import RankedPlan
+from tmd.errors import TmdError
+from tmd.studio.correct_panel import CorrectPanel
+from tmd.studio.demonstrate_panel import DemonstratePanel
+from tmd.studio.object_panel import ObjectPanel
+from tmd.studio.page import notice
+from tmd.studio.performance import perform
+from tmd.studio.reel import Reel
+from tmd.studio.say_panel import SayPanel
+from tmd.studio.scenery import Scenery
+from tmd.studio.setting import Setting
+from tmd.studio.widgets import put
+
+if TYPE_CHECKING:
+    from viser import ClientHandle
+
+    from tmd.studio.studio import Studio
+
+WIDTH = 430
+"""Pixels of a panel beside the 3D view."""
+ROOM, EYES = "the whole room", "with the robot's eyes"
+KEY = "tmd-visitor"
+"""Under this name a browser keeps which visitor it is."""
+
+
+class Visitor:
+    """One connected browser.
+
+    Args:
+        studio: What all visitors share.
+        client: The browser's side.
+        identity: Who it is: drafts are kept by this.
+
+    Attributes:
+        studio: As above.
+        client: As above.
+        identity: As above.
+        reel: The states that are looked at.
+        cursor: After how many steps the state is that is seen.
+        selected: The object that was pointed at.
+    """
+
+    def __init__(self, studio: Studio, client: ClientHandle, identity: str) -> None:
+        self.studio = studio
+        self.client = client
+        self.identity = identity
+        self.cursor = 0
+        self.selected: str | None = None
+        self._lock = threading.RLock()
+        self._scenery: Scenery | None = None
+        self._first_person = False
+        self._playing: threading.Event | None = None
+        gui = client.gui
+        gui.set_panel_label("tmd studio")
+        gui.configure_theme(show_logo=False, show_share_button=False)
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(WIDTH)
+        self.setting: Setting = studio.setting(studio.start)
+        self.reel = Reel(self.setting)
+        self._message = gui.add_html(notice("Welcome. Say what is to be done, or show it."))
+        self._where = gui.add_dropdown("Environment", studio.environments(), initial_value=studio.start)
+        self._where.on_update(self.guarded(self._go))
+        view = gui.add_dropdown("View (V)", (ROOM, EYES))
+        view.on_update(self.guarded(lambda: self.first_person(view.value == EYES)))
+        self._view = view
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Say"):
+            self.say = SayPanel(self)
+        with tabs.add_tab("Demonstrate"):
+            self.demonstrate = DemonstratePanel(self)
+        with tabs.add_tab("Correct"):
+            self.correct = CorrectPanel(self)
+        with tabs.add_tab("Object"):
+            self.object = ObjectPanel(self)
+        self._commands()
+        self._build()
+
+    # what is looked at
+
+    def _go(self) -> None:
+        if self._where.value != self.setting.name:
+            self.enter(self._where.value)
+
+    def enter(self, name: str) -> None:
+        """Go to another environment."""
+        with self._lock:
+            self.stop()
+            self.setting = self.studio.setting(name)
+            self.reel = Reel(self.setting)
+            self.cursor, self.selected = 0, None
+            if self._where.value != name:
+                put(self._where, name)
+            self._build()
+            self.say.entered()
+            self.demonstrate.entered()
+            self.correct.entered()
+            self.object.entered()
+
+    def _build(self) -> None:
+        self.client.scene.reset()
+        look = self.setting.look
+        self._scenery = None
+        if look is None:
+            self.tell(self.setting.blind)
+            return
+        with self.client.atomic():
+            self._scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
+        self._camera()
+        if self.studio.figure() is None:
+            self.tell("The PR2 is not shown: its model is not installed.", "pip install 'tmd[robot]'")
+
+    def watch(self, reel: Reel, step: int) -> None:
+        """Look at a state of some states."""
+        with self._lock:
+            self.reel, self.cursor = reel, step
+            picture = reel.picture(step)
+            if picture is not None and self._scenery is not None:
+                self._scenery.draw(picture)
+                if self._first_person:
+                    self._camera()
+            self.object.refresh()
+
+    def select(self, name: str | None) -> None:
+        """Point at an object."""
+        with self._lock:
+            self.selected = name
+            if self._scenery is not None:
+                self._scenery.mark(self._whole(name) if name else None)
+            self.object.refresh()
+            self.demonstrate.offers()
+
+    def _whole(self, name: str) -> str:
+        look = self.setting.look
+        return name if look is None else look.still.whole(name)
+
+    def _pointed(self, name: str) -> None:
+        self.guarded(lambda: self.select(name))(None)
+
+    @property
+    def scenery(self) -> Scenery | None:
+        """The 3D view; ``None`` where there is nothing to see."""
+        return self._scenery
+
+    # the camera
+
+    def _camera(self) -> None:
+        picture = self.reel.picture(self.cursor)
+        if self._scenery is None or picture is None:
+            return
+        eye, target = self._scenery.eyes(picture) if self._first_person else self._scenery.overview()
+        camera = self.client.camera
+        with self.client.atomic():
+            camera.up_direction = (0.0, 0.0, 1.0)
+            camera.position = eye
+            camera.look_at = target
+
+    def first_person(self, on: bool) -> None:
+        """See with the robot's eyes, or the whole room."""
+        if on != self._first_person:
+            self._first_person = on
+            put(self._view, EYES if on else ROOM)
+            self._camera()
+
+    # playing
+
+    def play(self, frames: Callable[[threading.Event], None]) -> None:
+        """Run something that shows one thing after the other, in the background, until :meth:`stop`."""
+        self.stop()
+        ended = self._playing = threading.Event()
+        threading.Thread(target=self.guarded(lambda: frames(ended)), args=(None,), daemon=True).start()
+
+    def is_playing(self) -> bool:
+        """Whether something is being played."""
+        return self._playing is not None and not self._playing.is_set()
+
+    def stop(self) -> None:
+        """Stop playing."""
+        if self._playing is not None:
+            self._playing.set()
+
+    def execute(self, plan: RankedPlan) -> None:
+        """Let the simulated robot carry a plan out, in the background; :meth:`stop` ends it."""
+        scenery, figure = self._scenery, self.studio.figure()
+        if scenery is None or figure is None:
+            raise TmdError("there is nothing to see of the robot here", hint="pip install 'tmd[robot]'")
+
+        def frames(ended: threading.Event) -> None:
+            self.tell("The simulation is being set up …")
+            folder = self.studio.corpus.folder
+            self.tell(perform(self.setting, folder, plan, scenery, figure, ended, self.tell))
+            ended.set()
+
+        self.play(frames)
+
+    def leave(self) -> None:
+        """The browser is gone."""
+        self.stop()
+
+    # messages
+
+    def tell(self, message: str, hint: str | None = None, *, fault: bool = False) -> None:
+        """Say something to the visitor."""
+        self._message.content = notice(message, hint, fault=fault)
+
+    def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
+        """A callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
+
+        @wraps(act)
+        def called(_: object) -> None:
+            try:
+                act()
+            except TmdError as error:
+                self.tell(error.message, error.hint, fault=True)
+            except Exception:
+                traceback.print_exc(file=sys.stderr)
+                self.tell("that is a fault of tmd itself; what was saved is safe.", "See the terminal.", fault=True)
+
+        return called
+
+    def holding(self) -> threading.RLock:
+        """The visitor's lock: one thing at a time happens to what it looks at."""
+        return self._lock
+
+    # keys
+
+    def _commands(self) -> None:
+        gui = self.client.gui
+        for label, key, act in (
+            ("Next step", "arrowright", lambda: self.say.move(1)),
+            ("Previous step", "arrowleft", lambda: self.say.move(-1)),
+            ("Play or pause", "space", self.say.toggle),
+            ("See with the robot's eyes, or the whole room", "V", lambda: self.first_person(not self._first_person)),
+            ("Undo", "U", self.demonstrate.undo),
+            ("Redo", "R", self.demonstrate.redo),
+            ("Save the demonstration", "S", self.demonstrate.save),
+        ):
+            gui.add_command(label, hotkey=key).on_trigger(self.guarded(act))  # type: ignore[arg-type]
