@@ -1,8 +1,8 @@
 """A scene without a simulator: where everything stands, and how it looks, when a symbolic state holds.
 
 The shapes, the places and the colours are those of the simulated scene (:mod:`tmd.robot.scene`). The predicates are
-read as ``skills.yaml`` says: what the sensor *support* sees is where an item stands, what *joint* sees is a door, and so
-on. A picture is made from the one before it, so that what did not change stays where it was.
+read as ``skills.yaml`` says: what the sensor *support* sees is where an item stands, what *joint* sees is a door, and
+so on. A picture is made from the one before it, so that what did not change stays where it was.
 """
 
 from __future__ import annotations

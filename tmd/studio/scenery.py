@@ -140,7 +140,7 @@ class Scenery:
         high = tuple(v + 0.01 for v in model.high)
         path = f"/objects/{name}/selected"
         self._marks = [
-            self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0),
+            self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0, thickness_units="screen"),
             self._scene.add_label(f"{path}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
 

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+_VALUE = "value"
+"""Set by its name: the inputs' own types say that a program cannot set it."""
 
 
-def put(handle: Any, value: object) -> None:
-    """Let an input have a value. Its callbacks are called as if the visitor had changed it, unless it has it already.
-
-    The inputs' own types say that this cannot be done.
-    """
-    if handle.value != value:
-        handle.value = value
+def put(handle: object, value: object) -> None:
+    """Let an input have a value. Its callbacks are called as if the visitor had changed it, unless it has it."""
+    if getattr(handle, _VALUE) != value:
+        setattr(handle, _VALUE, value)
