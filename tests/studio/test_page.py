@@ -4,6 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.pddl.model import GroundAtom
+from tmd.studio.about import about
 from tmd.studio.offers import Offers
 from tmd.studio.page import changed, fragment, notice, object_facts, refused, step_list
 from tmd.veil.world import World
@@ -29,9 +30,12 @@ def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:
     assert "aria-current" not in second
 
 
-def test_an_object_is_shown_with_its_parts(kitchen1: World) -> None:
-    html = object_facts(kitchen1, "stove1", kitchen1.task.decode(kitchen1.task.init))
-    assert "<h4>stove1</h4>" in html and "<h4>stove1_knob1</h4>" in html
+def test_an_object_is_told_in_words(kitchen1: World) -> None:
+    wording = Offers(kitchen1).wording
+    whole = object_facts(about("stove1", kitchen1, kitchen1.task.init), wording.fact)
+    knob = object_facts(about("stove1_knob1", kitchen1, kitchen1.task.init), wording.fact)
+    assert "<h4>stove1: stove</h4>" in whole and "stove1_knob1" in whole
+    assert "of stove1</h4>" in knob and "stove1_burner1" in knob.partition("What controls what")[2]
 
 
 def test_what_cannot_be_done_is_listed_with_what_it_lacks(kitchen1: World) -> None:

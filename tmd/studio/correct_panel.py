@@ -9,7 +9,7 @@ from tmd.pddl.model import Instruction
 from tmd.studio.correction import Correction
 from tmd.studio.page import fragment, step_list
 from tmd.studio.session import Step
-from tmd.studio.widgets import put
+from tmd.studio.widgets import chosen, put
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -83,7 +83,7 @@ class CorrectPanel:
 
     def _edit(self) -> None:
         correction, at = self._going(), self._number
-        edit = self._edits.value
+        edit = chosen(self._edits)
         with self._visitor.holding():
             if edit == "Delete":
                 correction.delete(at)
@@ -96,7 +96,7 @@ class CorrectPanel:
             self._refresh()
 
     def _swap(self) -> None:
-        correction, old, new = self._going(), self._old.value, self._new.value
+        correction, old, new = self._going(), chosen(self._old), chosen(self._new)
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
         with self._visitor.holding():
@@ -106,7 +106,7 @@ class CorrectPanel:
 
     def _instructions(self) -> None:
         """What can be inserted, whether it applies there or not: the planner may make it possible."""
-        name = self._with.value
+        name = chosen(self._with)
         groups = self._visitor.studio.offers(self._visitor.setting.name)
         state = self._visitor.setting.world.task.init
         found = [] if name == NOTHING else groups.of(name, state, parts=True)

@@ -12,7 +12,7 @@ from tmd.studio.offers import Group
 from tmd.studio.page import changed, fragment, refused, step_list
 from tmd.studio.reel import Reel
 from tmd.studio.session import Session
-from tmd.studio.widgets import put
+from tmd.studio.widgets import chosen, put
 
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
@@ -76,7 +76,7 @@ class DemonstratePanel:
         return self._visitor.studio.examples(self._visitor.setting.name)
 
     def _take_example(self) -> None:
-        if self._examples.value != OWN:
+        if chosen(self._examples) != OWN:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
@@ -186,7 +186,7 @@ class DemonstratePanel:
             self.refresh()
 
     def _changed(self) -> None:
-        {"Undo": self.undo, "Redo": self.redo}[self._edit.value]()
+        {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
 
     def _goto(self) -> None:
         with self._visitor.holding():
@@ -198,9 +198,9 @@ class DemonstratePanel:
     def _mark(self) -> None:
         with self._visitor.holding():
             session = self._going()
-            chosen = list(self._clause.options).index(self._clause.value)
-            if session.cursor and session.steps[session.cursor - 1].clause != chosen:
-                session.mark(session.cursor, chosen)
+            clause = list(self._clause.options).index(chosen(self._clause))
+            if session.cursor and session.steps[session.cursor - 1].clause != clause:
+                session.mark(session.cursor, clause)
                 self.refresh()
 
     # showing
@@ -232,7 +232,7 @@ class DemonstratePanel:
         self.offers()
 
     def _point(self) -> None:
-        name = None if self._object.value == NONE else self._object.value
+        name = None if self._object.value == NONE else chosen(self._object)
         if name != self._visitor.selected:
             self._visitor.select(name)
 
@@ -268,7 +268,7 @@ class DemonstratePanel:
         if by_name:
             choice = gui.add_dropdown(f"More {group.action}", tuple(by_name))
             button = gui.add_button(f"Do that {group.action}")
-            button.on_click(guarded(lambda: self.do(by_name[choice.value])))
+            button.on_click(guarded(lambda: self.do(by_name[chosen(choice)])))
             self._offered += [choice, button]
 
     def _retrain(self) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from tmd.studio.about import about
 from tmd.studio.page import changed, fragment, object_facts
-from tmd.studio.widgets import put
+from tmd.studio.widgets import chosen, put
 from tmd.view.graph import Changes, object_graph
 from tmd.view.markup import style
 
@@ -34,7 +35,7 @@ class ObjectPanel:
         return self._visitor.setting.names()
 
     def _chosen(self) -> None:
-        name = None if self._which.value == NOTHING else self._which.value
+        name = None if self._which.value == NOTHING else chosen(self._which)
         if name != self._visitor.selected:
             self._visitor.select(name)
 
@@ -61,5 +62,7 @@ class ObjectPanel:
         lines = "".join(f"<li>{line}</li>" for line in gains)
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
         graph = object_graph(world, now, name, Changes(now - before, before - now))
-        facts = object_facts(world, name, now)
+        said = visitor.studio.offers(visitor.setting.name).wording.fact
+        names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
+        facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)
         self._facts.content = fragment(f"<style>{style()}</style>{news}{graph}{facts}")

@@ -5,12 +5,12 @@ Colours are those of Okabe and Ito, which colour-blind people tell apart; nothin
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 
 from tmd.pddl.model import GroundAtom
+from tmd.studio.about import About
 from tmd.studio.offers import Group
-from tmd.veil.world import World
 
 MOST = 60
 """So many instructions that do not apply are listed."""
@@ -78,19 +78,26 @@ def changed(added: Iterable[GroundAtom], removed: Iterable[GroundAtom]) -> list[
     return plus + [f'<span class="minus">− {escape(str(atom))}</span>' for atom in removed]
 
 
-def object_facts(world: World, name: str, facts: Iterable[GroundAtom]) -> str:
-    """The facts of an object and its parts in words, by subject."""
-    parts = dict.fromkeys([name, *(part for _, part in world.profiles.parts.get(name, ()))])
-    own: dict[str, list[str]] = {part: [] for part in parts}
-    for atom in sorted(facts):
-        for part in parts:
-            if part in atom.args:
-                own[part].append(escape(str(atom)))
-    blocks = []
-    for part, lines in own.items():
-        items = "".join(f"<li>{line}</li>" for line in lines)
-        blocks.append(f"<h4>{escape(part)}</h4>" + (f"<ul>{items}</ul>" if items else "<p class='quiet'>nothing</p>"))
-    return "".join(blocks)
+def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
+    """An object in words: what it is, what is so of it, what it is to others, what controls what.
+
+    Args:
+        known: What there is to know of it.
+        said: A fact in words.
+    """
+    of = f" of {escape(known.whole)}" if known.whole else ""
+    parts = f"<p>Parts: {escape(', '.join(known.parts))}</p>" if known.parts else ""
+    blocks = [
+        f"<h4>{title}</h4><ul>{''.join(f'<li>{escape(said(atom))}</li>' for atom in atoms)}</ul>"
+        for title, atoms in (
+            ("States", known.states),
+            ("Relations", known.relations),
+            ("What controls what", known.edges),
+            ("Always so", known.traits),
+        )
+        if atoms
+    ]
+    return f"<h4>{escape(known.name)}: {escape(known.kind or 'object')}{of}</h4>{parts}{''.join(blocks)}"
 
 
 def refused(groups: Iterable[Group]) -> str:

@@ -11,7 +11,7 @@ from tmd.ground import Grounded
 from tmd.studio.correction import steps_of
 from tmd.studio.page import changed, fragment, step_list
 from tmd.studio.reel import Reel
-from tmd.studio.widgets import put
+from tmd.studio.widgets import chosen, put
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.markup import style
@@ -66,7 +66,7 @@ class SayPanel:
         return self._visitor.studio.examples(self._visitor.setting.name)
 
     def _take_example(self) -> None:
-        if self._examples.value != OWN:
+        if chosen(self._examples) != OWN:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
@@ -129,7 +129,7 @@ class SayPanel:
         self._choose(0)
 
     def _number(self) -> int:
-        return list(self._which.options).index(self._which.value)
+        return list(self._which.options).index(chosen(self._which))
 
     def _choose(self, number: int) -> None:
         if self._grounded is None or number >= len(self._grounded.plans):
@@ -175,7 +175,7 @@ class SayPanel:
 
     def _pressed(self) -> None:
         act = dict(zip(_BUTTONS, (self._first, self._back, self.toggle, self._on, self._end), strict=True))
-        act[self._buttons.value]()
+        act[chosen(self._buttons)]()
 
     def _first(self) -> None:
         self.goto(0)
@@ -206,7 +206,7 @@ class SayPanel:
         while not ended.is_set() and self._step < self._last():
             self._step += 1
             self._look()
-            due = max(due + 1 / self._speed.value, time.monotonic())
+            due = max(due + 1 / min(max(self._speed.value, 1), 10), time.monotonic())
             ended.wait(due - time.monotonic())
 
     # what next

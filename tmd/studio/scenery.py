@@ -141,7 +141,7 @@ class Scenery:
         path = f"/objects/{name}/selected"
         self._marks = [
             self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0, thickness_units="screen"),
-            self._scene.add_label(f"{path}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
+            self._scene.add_label(f"/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
 
     def eyes(self, picture: Picture) -> tuple[Vector, Vector]:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from viser import ClientHandle, ViserServer
 
 LOCAL = "127.0.0.1"
+_TRIES = 8
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 
@@ -34,6 +35,7 @@ class Server:
         port: The port; 0 takes a free one.
 
     Attributes:
+        studio: As above.
         port: The port.
         url: Where it is reached from this machine.
 
@@ -45,9 +47,10 @@ class Server:
         import viser
 
         port = free_port(host, port)
-        logging.getLogger("websockets").setLevel(logging.CRITICAL)
+        for name in ("websockets", "asyncio"):  # who sends nonsense is not answered, and nobody need know
+            logging.getLogger(name).setLevel(logging.CRITICAL)
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-        self._studio = studio
+        self.studio = studio
         self._lock = Lock()
         self._visitors: dict[int, Visitor] = {}
         with redirect_stdout(StringIO()):  # it greets in its own way
@@ -59,7 +62,7 @@ class Server:
         self._viser.on_client_disconnect(self._leave)
 
     def _arrive(self, client: ClientHandle) -> None:
-        visitor = Visitor(self._studio, client, self._identity(client))
+        visitor = Visitor(self.studio, client, self._identity(client))
         with self._lock:
             self._visitors[client.client_id] = visitor
 
@@ -69,12 +72,14 @@ class Server:
             known = client.local_storage.get_item(KEY, timeout=_PATIENCE)
         except (RuntimeError, TimeoutError):
             known = None
-        drafts = self._studio.drafts
-        if known:
+        drafts = self.studio.drafts
+        for _ in range(_TRIES if known else 0):
             try:
                 return drafts.enter(known)
             except TmdError:
-                return drafts.enter()  # a second window of the same browser, or a name that somebody made up
+                time.sleep(0.2)  # the page was loaded again, and who was here has not left yet
+        if known:
+            return drafts.enter()  # a second window of the same browser, or a name that somebody made up
         identity = drafts.enter()
         client.local_storage.set_item(KEY, identity)
         return identity
@@ -84,7 +89,7 @@ class Server:
             visitor = self._visitors.pop(client.client_id, None)
         if visitor is not None:
             visitor.leave()
-            self._studio.drafts.leave(visitor.identity)
+            self.studio.drafts.leave(visitor.identity)
 
     def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""
@@ -95,8 +100,9 @@ class Server:
 
     def close(self) -> None:
         """Stop serving, and what is learned meanwhile."""
-        self._studio.teacher.close()
-        self._viser.stop()
+        self.studio.teacher.close()
+        with redirect_stdout(StringIO()):
+            self._viser.stop()
 
 
 def free_port(host: str, port: int) -> int:

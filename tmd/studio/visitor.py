@@ -61,7 +61,12 @@ class Visitor:
         self._scenery: Scenery | None = None
         self._first_person = False
         self._playing: threading.Event | None = None
-        gui = client.gui
+        with self._lock:  # who is quick waits until everything is there
+            self._furnish()
+
+    def _furnish(self) -> None:
+        """Make the panels and the view."""
+        studio, gui = self.studio, self.client.gui
         gui.set_panel_label("tmd studio")
         gui.configure_theme(show_logo=False, show_share_button=False)
         gui.main_panel.dock_right()
@@ -133,16 +138,14 @@ class Visitor:
 
     def select(self, name: str | None) -> None:
         """Point at an object."""
+        if name is not None and name not in self.setting.names():
+            raise TmdError(f"there is no object '{name}' here")
         with self._lock:
             self.selected = name
             if self._scenery is not None:
-                self._scenery.mark(self._whole(name) if name else None)
+                self._scenery.mark(name)
             self.object.refresh()
             self.demonstrate.offers()
-
-    def _whole(self, name: str) -> str:
-        look = self.setting.look
-        return name if look is None else look.still.whole(name)
 
     def _pointed(self, name: str) -> None:
         self.guarded(lambda: self.select(name))(None)
@@ -218,6 +221,8 @@ class Visitor:
 
         @wraps(act)
         def called(_: object) -> None:
+            with self._lock:
+                pass
             try:
                 act()
             except TmdError as error:

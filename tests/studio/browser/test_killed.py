@@ -1,0 +1,63 @@
+"""A server that is killed while somebody demonstrates."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from .conftest import Served
+from .test_browser import choose, entry, press, tab, told, visiting
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+STEPS = (("cup1", "moveto(cup1)"), ("cup1", "grasp(cup1)"), ("shelf1", "moveto(shelf1)"))
+LAST = ("shelf1", "keep(cup1, shelf1, on)")
+
+
+def begin(page: Page, text: str) -> None:
+    tab(page, "Demonstrate")
+    page.locator("textarea:visible").first.fill(text)
+    page.wait_for_timeout(300)
+    press(page, "Begin")
+    told(page, "Point at an object")
+
+
+def do(page: Page, name: str, instruction: str, number: int) -> None:
+    if entry(page, "With").input_value() != name:
+        choose(page, "With", name)
+    press(page, instruction)
+    page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
+
+
+def corpus(served: Served, task: str) -> list[dict[str, object]]:
+    path = Path(served.arguments[1]) / "02_table" / task / "demonstrations.jsonl"
+    return [json.loads(line) for line in path.read_text().splitlines()]
+
+
+def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
+    with visiting(browser, table_studio, 360, 420) as page:
+        begin(page, "Put the cup on the shelf.")
+        do(page, *STEPS[0], 1)
+        press(page, "Save (S)")
+        told(page, "Saved as shown-corner1-01")
+        page.locator("textarea:visible").first.fill("Take the cup to the shelf.")
+        page.wait_for_timeout(300)
+        press(page, "Begin")
+        for number, step in enumerate(STEPS, start=1):
+            do(page, *step, number)
+        table_studio.kill()
+        assert len(corpus(table_studio, "shown")) == 1
+        port = table_studio.url.rpartition(":")[2]
+        table_studio.arguments[table_studio.arguments.index("--port") + 1] = port
+        table_studio.start()
+        page.reload()
+        page.get_by_text("Welcome").wait_for()
+        tab(page, "Demonstrate")
+        press(page, "Go on with what was not saved")
+        told(page, "3 steps")
+        do(page, *LAST, 4)
+        press(page, "Save (S)")
+        told(page, "Saved as shown-corner1-02")
+    assert len(corpus(table_studio, "shown")) == 2

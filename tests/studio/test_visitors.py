@@ -1,0 +1,151 @@
+"""Many visitors at once, and what is sent that no page would send; without a browser, so that it is quick."""
+
+from __future__ import annotations
+
+import json
+import random
+import socket
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from threading import Event
+
+import pytest
+
+pytest.importorskip("viser", reason="needs the extra studio")
+
+from tmd.errors import TmdError
+from tmd.studio.server import Server, free_port
+from tmd.studio.studio import Studio
+from tmd.studio.teaching import Teacher
+from tmd.veil.corpus import Corpus
+
+from .wire import Wire
+
+VISITORS = 10
+TEXT = "Put the cup on the shelf"
+STEPS = ("moveto(cup1)", "grasp(cup1)", "moveto(shelf1)", "keep(cup1, shelf1, on)")
+OBJECTS = ("cup1", "cup1", "shelf1", "shelf1")
+
+
+@pytest.fixture
+def server(table: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Server]:
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    served = Server(Studio(table, Teacher(table), "corner1"), "127.0.0.1", 0)
+    yield served
+    served.close()
+
+
+def corpus(server: Server, task: str = "shown") -> list[dict[str, object]]:
+    file = server.studio.corpus.directory / task / "demonstrations.jsonl"
+    return [json.loads(line) for line in file.read_text().splitlines()]
+
+
+def begin(visitor: Wire, text: str) -> None:
+    visitor.put("Task text", text)
+    visitor.press("Begin")
+    visitor.told("Point at an object")
+
+
+def do(visitor: Wire, name: str, instruction: str) -> None:
+    if visitor.elements[visitor.find("With")]["value"] != name:
+        visitor.put("With", name)
+    visitor.press(instruction)
+    visitor.shows(f"▸ {instruction}")
+
+
+def test_ten_visitors_at_once(server: Server) -> None:
+    def demonstrate(number: int) -> int:
+        count = 2 + number % 3
+        with Wire(server.url) as visitor:
+            begin(visitor, f"{TEXT}, visitor {number}.")
+            for name, instruction in list(zip(OBJECTS, STEPS, strict=True))[:count]:
+                do(visitor, name, instruction)
+            visitor.press("Save (S)")
+            visitor.told("Saved as shown-corner1-")
+        return count
+
+    with ThreadPoolExecutor(VISITORS) as pool:
+        counts = list(pool.map(demonstrate, range(VISITORS)))
+    records = corpus(server)
+    assert len(records) == VISITORS == len({record["id"] for record in records})
+    by_text = {str(record["text"]): record for record in records}
+    for number, count in enumerate(counts):
+        segments = by_text[f"{TEXT}, visitor {number}."]["segments"]
+        assert isinstance(segments, list)
+        assert tuple(i for segment in segments for i in segment["instructions"]) == STEPS[:count]
+
+
+def test_what_was_not_saved_is_offered_on_return(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        identity = visitor.identity
+    with Wire(server.url, identity) as again:
+        again.press("Go on with what was not saved")
+        again.told("1 steps")
+        do(again, "cup1", STEPS[1])
+        again.press("Throw away")
+        again.told("Thrown away")
+    with Wire(server.url, identity) as third:
+        third.told("Welcome")
+        assert not third.elements[third.find("Go on with what was not saved")]["visible"]
+
+
+def test_a_corpus_that_cannot_be_written_to(server: Server) -> None:
+    (server.studio.corpus.directory / "blocked").write_text("a file where a directory should be")
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        for task, answer in (("blocked", "cannot be"), ("../../etc", "cannot be called"), ("taken", "Saved as taken-")):
+            visitor.put("Task name", task)
+            visitor.press("Save (S)")
+            visitor.told(answer)
+    assert len(corpus(server, "taken")) == 1
+
+
+def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[str]) -> None:
+    rng = random.Random(0)
+    with Wire(server.url) as visitor:
+        visitor.told("Welcome")
+        begin(visitor, f"{TEXT}.")
+        for label, value in (
+            ("With", "no such object"), ("With", 7), ("With", None), ("Text", 5), ("Text", "x" * 100_000),
+            ("Text", "\x00\ud7ff\u202e"), ("After step", 10**9), ("After step", "one"), ("It serves", "17"),
+            ("Environment", "../../etc"), ("Environment", []), ("Task name", {"a": 1}), ("Steps a second", -1),
+        ):  # fmt: skip
+            visitor.put(label, value)
+        for label in (
+            "Plan it",
+            "Begin anew",
+            "Save (S)",
+            "Throw away",
+            "Insert before this step",
+            "Correct this plan",
+        ):
+            visitor.press(label)
+        visitor.send({"type": "GuiUpdateMessage", "uuid": "none", "updates": {"value": 1}})
+    for data in (b"", b"\xff" * 40, rng.randbytes(2_000), b"\x81\xa4type\xa4None"):
+        with Wire(server.url) as rude:
+            rude.garbage(data)
+    with Wire(server.url) as polite:
+        begin(polite, f"{TEXT}.")
+        do(polite, "cup1", STEPS[0])
+        assert "Traceback" not in polite.said()
+    assert "tmd/studio" not in capfd.readouterr().err
+
+
+def test_a_port_in_use() -> None:
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        with pytest.raises(TmdError, match="in use"):
+            free_port("127.0.0.1", taken.getsockname()[1])
+    with pytest.raises(TmdError, match="cannot be listened at"):
+        free_port("192.0.2.1", 0)
+
+
+def test_serving_ends(server: Server) -> None:
+    ended = Event()
+    ended.set()
+    server.serve(ended)
