@@ -34,6 +34,7 @@ FLOORS = {
 HEAVY = {
     "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
     "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
+    "viser", "trimesh",
 }  # fmt: skip
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

@@ -37,8 +37,10 @@ def command(
     objects; show how a thing is done, and save it beside the domain's demonstrations. Ctrl-C ends it.
     """
     from tmd.cli.stopping import stoppable
-    from tmd.studio.server import Server
+    from tmd.studio.server import Server, free_port, need_viser
 
+    need_viser()
+    free_port(host, port)  # before anything that takes time
     studio = open_studio(roots, domain_name, environment, learned)
     server = Server(studio, host, port)
     try:

@@ -9,11 +9,13 @@ import time
 import warnings
 from collections.abc import Callable
 from contextlib import redirect_stdout
+from importlib import import_module
 from io import StringIO
 from threading import Event, Lock, Thread
+from types import ModuleType
 from typing import TYPE_CHECKING
 
-from tmd.errors import TmdError
+from tmd.errors import MissingToolError, TmdError
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 
@@ -44,8 +46,7 @@ class Server:
     """
 
     def __init__(self, studio: Studio, host: str, port: int) -> None:
-        import viser
-
+        viser = need_viser()
         port = free_port(host, port)
         for name in ("websockets", "asyncio"):  # who sends nonsense is not answered, and nobody need know
             logging.getLogger(name).setLevel(logging.CRITICAL)
@@ -103,6 +104,18 @@ class Server:
         self.studio.teacher.close()
         with redirect_stdout(StringIO()):
             self._viser.stop()
+
+
+def need_viser() -> ModuleType:
+    """The package that puts the scene and the panels into browsers.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    try:
+        return import_module("viser")
+    except ImportError as error:
+        raise MissingToolError("the studio needs the package viser", hint="pip install 'tmd[studio]'") from error
 
 
 def free_port(host: str, port: int) -> int:

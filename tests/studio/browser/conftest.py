@@ -19,7 +19,9 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 ROOT = Path(__file__).parents[3]
-CHROMIUM = next((path for name in ("chromium", "chromium-browser") if (path := shutil.which(name))), None)
+CHROMIUM = next(
+    (path for name in ("chromium", "chromium-browser", "google-chrome") if (path := shutil.which(name))), None
+)
 FLAGS = [
     "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
     "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
@@ -60,7 +62,7 @@ class Served:
 def browser() -> Iterator[Browser]:
     api: Any = pytest.importorskip("playwright.sync_api", reason="needs playwright")
     if CHROMIUM is None:
-        pytest.skip("needs Debian's chromium")
+        pytest.skip("needs a browser: chromium")
     with api.sync_playwright() as playwright:
         opened = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
         yield opened
@@ -78,7 +80,9 @@ def screens() -> Path:
 def serve(directory: Path, domain: str, *more: str, learned: Path | None = None) -> Served:
     """A studio of a domain whose problems are copied, so that they may be written to."""
     shutil.copytree(ROOT / "problems" / domain, directory / "problems" / domain)
-    saved = ["--learned", str(learned)] if learned else []
+    saved = ["--learned", str(directory / "learned")] if learned else []
+    if learned:  # a studio that learns anew writes there
+        shutil.copytree(learned / domain, directory / "learned" / domain)
     environ = {**os.environ, "TMD_STUDIO_STATE": str(directory / "drafts"), "OMP_NUM_THREADS": "1"}
     arguments = ["--problems", str(directory / "problems"), "studio", "--domain", domain, "--port", "0", *saved, *more]
     return Served(arguments, environ)
