@@ -17,5 +17,17 @@ module              holds
 ``lock``            one writer at a time, among threads and processes
 ``about``           what there is to know of an object
 ``words``           facts and broken preconditions in plain words
+``studio``          what all visitors share: the domain, its environments made ready, the teacher
+``setting``         an environment made ready: its world, and what there is to see of it
+``reel``            the states that are stepped through, and how each looks
+``meshes``          from URDF to meshes for the browser
+``figure``          the PR2 as a figure
+``scenery``         the 3D view of one visitor
+``performance``     the simulated robot carries a plan out, and a visitor watches
+``visitor``         one browser: its view, its panels, its keys
+``*_panel``         say, demonstrate, correct, object
+``page``            the HTML of the panels
+``widgets``         small things about inputs
+``server``          the web server
 ==================  ==============================================================================
 """
