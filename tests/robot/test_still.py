@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmd.pddl.model import Instruction, State
+from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.pose import Pose
 from tmd.robot.skill_file import visible
 from tmd.robot.still import INVISIBLE, Picture, Still, moved
@@ -16,7 +17,7 @@ from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]
-SEEN = [(domain, path.stem) for domain in ("kitchen", "living_room", "02_table", "04_tea")
+SEEN = [(domain, path.stem) for domain in ("kitchen", "living_room", "02_table", "03_drawer", "04_tea", "lab_bench")
         for path in sorted((ROOT / "problems" / domain / "environments").glob("*.yaml"))]  # fmt: skip
 
 
@@ -79,6 +80,21 @@ def test_a_door_opens_and_a_cup_fills() -> None:
         links = [link for (owner, link), position in picture.joints.items() if owner == whole and position]
         assert links, part
     assert any(c != INVISIBLE for _, _, p, _ in seen for (_, link), c in p.colours.items() if link == "content")
+
+
+def test_what_lies_in_a_drawer_slides_out_with_it() -> None:
+    known = corpus("03_drawer")
+    world = known.world("study2")
+    still = Still(load_environment(known.file("study2")), known.folder, visible(known.folder))
+    first = still.first(world.task.decode(world.task.init))
+    state = world.task.init
+    for line in ("moveto(cabinet1)", "open(cabinet1_top_drawer)"):
+        state = world.task.by_instruction[parse_instruction(line)].apply(state)
+    after = still.draw(world.task.decode(state), first)
+    assert first.joints["cabinet1", "bottom_drawer"] > 0.2 and first.joints["cabinet1", "top_drawer"] == 0
+    assert after.joints["cabinet1", "top_drawer"] > 0.2
+    assert after.poses["key1"].distance(first.poses["key1"]) > 0.2
+    assert after.poses["pen1"] == first.poses["pen1"]
 
 
 def test_the_robot_stands_before_what_it_went_to() -> None:

@@ -41,6 +41,28 @@ def hotplate(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
+def heater(model: Model, look: Look, parts: Parts) -> None:
+    """A plate on a stand that heats what stands on it; its knob is in front."""
+    depth, width, height = look.size
+    x, y, stand = depth / 2, width / 2, height - 0.1
+    for sign in (-y + 0.03, y - 0.03):
+        for end in (-x + 0.03, x - 0.03):
+            model.box((end, sign, (stand - 0.03) / 2), (0.04, 0.04, stand - 0.03), "walnut")
+    model.slab((-x, -y, stand - 0.03), (x, y, stand), "oak")
+    front, half, back = x - 0.03, y - 0.06, -x + 0.05
+    model.slab((back, -half, stand), (front, half, height - 0.008), look.colour)
+    model.slab((back + 0.02, -half + 0.02, height - 0.008), (front - 0.02, half - 0.02, height - 0.004), look.accent)
+    for part, said in parts.of("burner"):
+        model.link(part, part=part)
+        model.slab((back + 0.06, -half + 0.06, height - 0.004), (front - 0.06, half - 0.06, height), said.colour,
+                   link=part)  # fmt: skip
+        model.lamp(part, "active", part, "glow", said.colour)
+    spots = [(a, b, yaw) for a, b, _ in rows(front, 2 * half - 0.2, (0.15, 0.3)) for yaw in (0.0, 1.05)]
+    model.region("on", (back, -half, height), (front, half, height + ROOM), DOWN, spots, overhang=math.inf)
+    for part, said in parts.of("knob"):
+        knob(model, part, said, (front, half - 0.1, (stand + height) / 2))
+
+
 def _hob(model: Model, parts: Parts, front: float, sides: tuple[float, float], top: float, knobs: float) -> None:
     """Burners on a top and knobs before it."""
     burners, middle, width = parts.of("burner"), (sides[0] + sides[1]) / 2, sides[1] - sides[0]

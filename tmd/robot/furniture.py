@@ -133,22 +133,77 @@ def drawer(model: Model, look: Look, parts: Parts) -> None:
         model.slab((x, -y + 0.01, level), (x + 0.012, y - 0.01, level + (low - 0.08) / 2 - 0.01), look.colour,
                    solid=False)  # fmt: skip
         model.box((x + 0.025, 0.0, level + (low - 0.08) / 4), (0.02, 0.16, 0.014), look.accent, solid=False)
-    inner = depth - DOOR - 0.03
-    model.link("tray", kind="prismatic", axis=(1.0, 0.0, 0.0), limits=(0.0, inner - 0.02), friction=5.0, mass=2.0)
+    _tray(model, ROOT, "tray", (x, y), (low, high), depth - DOOR - 0.03, look)
+
+
+def desk(model: Model, look: Look, parts: Parts) -> None:
+    """A desk on four legs, with a drawer under its top."""
+    depth, width, height = look.size
+    x, y, top, under = depth / 2, width / 2, height - 0.035, height - 0.2
+    half = min(0.34, y - 0.1)
+    model.slab((-x, -y, top), (x, y, height), look.colour)
+    for side in (-1.0, 1.0):
+        for end in (-1.0, 1.0):
+            model.box((end * (x - 0.06), side * (y - 0.06), top / 2), (0.05, 0.05, top), look.accent)
+    drawers = parts.of("sliding_drawer")
+    model.slab((-x + 0.035, -half, under), (-x + 0.055, half, top), look.colour)
+    for sign in (-1, 1):
+        model.box((-DOOR / 2, sign * (half + 0.01), (under + top) / 2), (depth - 0.11, 0.02, top - under), look.colour)
+    for part, said in drawers:
+        _tray(model, part, part, (x - 0.06, half), (under, top), depth - 0.16, said)
+    surface(model, x, width, height, depth)
+
+
+def chest(model: Model, look: Look, parts: Parts) -> None:
+    """A chest of drawers: things stand on it, and its drawers are parts; the first is the uppermost."""
+    depth, width, height = look.size
+    x, y, drawers = depth / 2 - DOOR, width / 2, parts.of("sliding_drawer")
+    high = height - 0.03
+    low = high - 0.19 * len(drawers)
+    model.slab((-depth / 2, -y, 0.0), (x, y, low), look.colour)
+    model.slab((-depth / 2, -y, high), (x + DOOR, y, height), look.colour)
+    if drawers:
+        model.slab((-depth / 2, -y + 0.02, low), (-depth / 2 + 0.02, y - 0.02, high), look.colour)
+        for side in (-1, 1):
+            model.box((-DOOR / 2, side * (y - 0.01), (low + high) / 2), (depth - DOOR, 0.02, high - low), look.colour)
+    fronts(model, x, (-y, 0.05), (y, low - 0.02), 2, look.colour, look.accent)
+    for index, (part, said) in enumerate(drawers):
+        roof = high - 0.19 * index
+        _tray(model, part, part, (x, y), (roof - 0.19, roof), depth - DOOR - 0.03, said)
+    surface(model, x + DOOR, width, height, depth)
+
+
+def _tray(
+    model: Model, part: str, link: str, front: tuple[float, float], between: tuple[float, float], inner: float,
+    look: Look,
+) -> None:  # fmt: skip
+    """A drawer that slides out of a body.
+
+    Args:
+        model: Of the whole.
+        part: What it is.
+        link: Its link.
+        front: x of the body's front, and half of the front's width.
+        between: The heights that it is between.
+        inner: How deep it is.
+        look: Its colours.
+    """
+    (x, y), (low, high) = front, between
+    model.link(link, part=part, kind="prismatic", axis=(1.0, 0.0, 0.0), limits=(0.0, inner - 0.02), friction=5.0,
+               mass=2.0)  # fmt: skip
     wall, floor, rim = y - 0.028, low + 0.02, low + 0.10
-    model.slab((x - inner, -wall, floor - 0.012), (x, wall, floor), "pine", link="tray")
-    model.slab((x, -y + 0.01, low + 0.004), (x + DOOR, y - 0.01, high - 0.004), look.colour, link="tray")
-    model.slab((x - inner, -wall, floor), (x - inner + 0.012, wall, rim), "pine", link="tray")
+    model.slab((x - inner, -wall, floor - 0.012), (x, wall, floor), "pine", link=link)
+    model.slab((x, -y + 0.01, low + 0.004), (x + DOOR, y - 0.01, high - 0.004), look.colour, link=link)
+    model.slab((x - inner, -wall, floor), (x - inner + 0.012, wall, rim), "pine", link=link)
     for sign in (-1, 1):
         model.box((x - inner / 2, sign * (wall - 0.006), (floor + rim) / 2), (inner, 0.012, rim - floor), "pine",
-                  link="tray")  # fmt: skip
+                  link=link)  # fmt: skip
     spots = rows(x, 2 * wall - 0.2, (0.15, 0.29))
-    model.region("in", (x - inner, -wall, floor), (x, wall, high), DOWN, spots, link="tray")
-    face = x + DOOR
-    middle = (low + high) / 2
-    bar_handle(model, "tray", (face + STAND_OFF, 0.0, middle), 0.2, look.accent, upright=False, face=face)
+    model.region("in", (x - inner, -wall, floor), (x, wall, high), DOWN, spots, part=part, link=link)
+    face, middle = x + DOOR, (low + high) / 2
+    bar_handle(model, link, (face + STAND_OFF, 0.0, middle), 0.2, look.accent, upright=False, face=face)
     tool = Frame((face + STAND_OFF, 0.0, middle), INTO, UP)
-    model.grips.append(Grip(ROOT, "drawer", "tray", tool, BAR + 0.04, 0.0, inner - 0.04))
+    model.grips.append(Grip(part, "drawer", link, tool, BAR + 0.04, 0.0, inner - 0.04))
 
 
 def basket(model: Model, look: Look, parts: Parts) -> None:

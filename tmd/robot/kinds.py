@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from tmd.robot.appliances import coffee_maker, cooker, fridge, hotplate, microwave, sink
-from tmd.robot.furniture import basket, counter, cupboard, drawer, seat, shelf, table
+from tmd.robot.appliances import coffee_maker, cooker, fridge, heater, hotplate, microwave, sink
+from tmd.robot.furniture import basket, chest, counter, cupboard, desk, drawer, seat, shelf, table
 from tmd.robot.look import Builder, Kind, Look
 from tmd.robot.parlour import bin_, ceiling_lamp, lamp, player, tv, window
 from tmd.robot.things import block, egg, remote, sack, strapped, tin, utensil
@@ -41,15 +41,18 @@ _ALL = (
     _fixture(shelf, "shelf", (0.42, 1.15, 0.88), "pine", "oak"),
     _fixture(cupboard, "cupboard", (0.46, 0.7, 1.5), "sage", "dark_steel", _DOORS),
     _fixture(drawer, "drawer", (0.52, 0.66, 0.9), "pine", "dark_steel"),
+    _fixture(desk, "desk", (0.65, 1.3, 0.76), "oak", "dark_steel", (("sliding_drawer", 1),)),
+    _fixture(chest, "chest", (0.52, 0.8, 0.95), "pine", "dark_steel", (("sliding_drawer", 3),)),
     _fixture(basket, "basket", (0.45, 0.6, 0.5), "sand", "oak"),
     _fixture(seat, "seat", (0.85, 1.9, 0.42), "teal", "light_blue"),
     _fixture(cooker, "cooker", (0.6, 1.2, 0.86), "white", "steel", (("burner", 4), ("knob", 4))),
     _fixture(hotplate, "hotplate", (0.55, 1.04, 0.86), "red", "steel", (("burner", 2), ("knob", 2))),
+    _fixture(heater, "heater", (0.55, 0.7, 0.86), "white", "dark_grey", (("burner", 1), ("knob", 1))),
     _fixture(sink, "sink", (0.6, 1.24, 0.86), "sage", "steel", (("tap", 1), ("tap_handle", 1), ("knob", 1))),
     _fixture(microwave, "microwave", (0.55, 1.04, 1.16), "steel", "dark_steel", (*_DOORS, ("button", 2))),
     _fixture(fridge, "fridge", (0.62, 1.02, 1.5), "white", "steel", (*_DOORS, ("niche", 1), ("button", 1))),
     _fixture(coffee_maker, "coffee_maker", (0.5, 0.8, 1.08), "red", "steel", (("spout", 1), ("button", 1))),
-    _fixture(bin_, "bin", (0.36, 0.36, 0.66), "dark_grey", "black", (("lid", 1),)),
+    _fixture(bin_, "bin", (0.36, 0.36, 0.66), "dark_grey", "black", (("lid", 1), ("button", 1))),
     _fixture(tv, "tv", (0.5, 1.5, 1.32), "black", "walnut", (("screen", 1), ("speaker", 1), ("button", 5))),
     _fixture(player, "player", (0.48, 0.9, 0.9), "navy", "steel", (("disc_drive", 1), ("button", 3))),
     _fixture(lamp, "lamp", (0.42, 0.76, 1.15), "walnut", "dark_steel", (("button", 1), ("knob", 1))),
@@ -84,6 +87,7 @@ _ALL = (
     _part("plain_part", (0.05, 0.05, 0.05), "grey", "grey"),
     _part("door", (0.02, 0.5, 0.5), "sage", "dark_steel"),
     _part("latched_door", (0.02, 0.5, 0.5), "steel", "dark_steel"),
+    _part("sliding_drawer", (0.5, 0.66, 0.19), "pine", "dark_steel"),
     _part("lid", (0.36, 0.36, 0.02), "grey", "steel"),
     _part("curtain", (0.02, 0.5, 0.6), "raspberry", "steel"),
     _part("screen", (0.01, 0.9, 0.5), "dark_grey", "black"),

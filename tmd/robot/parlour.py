@@ -138,7 +138,7 @@ def window(model: Model, look: Look, parts: Parts) -> None:
 
 
 def bin_(model: Model, look: Look, parts: Parts) -> None:
-    """A bin, with or without a lid that is lifted by its rim."""
+    """A bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
     depth, width, height = look.size
     basket(model, look, Parts({}))
     for part, said in parts.of("lid"):
@@ -154,3 +154,5 @@ def bin_(model: Model, look: Look, parts: Parts) -> None:
             model.box((depth + STAND_OFF / 2, side * 0.062, 0.0075), (STAND_OFF, BAR, 0.015), said.accent, link=part)
         tool = Frame((bar, 0.0, 0.0075), INTO, UP)
         model.grips.append(Grip(part, "lid", part, tool, BAR + 0.04, 0.0, math.radians(100)))
+    for part, said in parts.of("button"):
+        button(model, part, said, (depth / 2, width / 2 - 0.1, height - 0.08))
