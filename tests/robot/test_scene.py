@@ -183,6 +183,21 @@ def test_doors_and_drawers_open_towards_the_robot(scene: Scene) -> None:
         scene.sim.set_joint(handle.body, handle.joint, was)
 
 
+@pytest.mark.parametrize("kitchen", ["kitchen1"], indirect=True)
+@pytest.mark.parametrize("speed", [1.0, 5.0, -5.0])
+def test_a_lid_that_is_let_go_of_in_motion_does_not_throw_its_jar_about(kitchen: Scene, speed: float) -> None:
+    lids = [name for name in kitchen.items() if (handle := kitchen.handle(name)) and handle.kind == "lid"]
+    assert len(lids) >= 3
+    for name in lids:
+        handle = kitchen.handle(name)
+        assert handle is not None
+        before = kitchen.sim.pose(handle.body)
+        kitchen.sim.set_joints(handle.body, [handle.index], [0.8], [speed])
+        kitchen.sim.step(120)
+        assert kitchen.sim.pose(handle.body).distance(before) < 0.005
+        assert abs(kitchen.sim.joint_states(handle.body, [handle.index])[1][0]) < 0.01
+
+
 @pytest.mark.parametrize("kitchen", ["kitchen3"], indirect=True)
 def test_an_unlatched_door_springs_open_and_can_be_calmed(kitchen: Scene) -> None:
     kitchen.spring_open("microwave1_door")

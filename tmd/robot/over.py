@@ -31,7 +31,7 @@ _INWARDS = 0.01
 _LEANS = (0.9, 0.6, 0.3, 1.2, 0.0)
 """Radians by which a spoon is dipped with its end down, best first."""
 _GRAZED = 0.003
-"""Metres that it may be in the rim, where there are ways that are not deeper in it."""
+"""Metres that it may be in the rim."""
 _POURED = (0.6, 0.8, 1.0)
 """How far an open thing is tipped before a niche, as a part of the whole: a half full one keeps what is in it."""
 _ENOUGH = 1.2
@@ -193,7 +193,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     """
     how = _head(cell, item, _side(cell, item))
     focus = Pose(_over(cell, target, _ABOVE[0]))
-    chosen = reach_for(cell, target, lambda: dip_options(cell, item, target, how), focus, attempt)
+    chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
     _go_back(cell, chosen)
@@ -212,20 +212,19 @@ def _head(cell: Cell, item: str, side: str) -> Mouth:
     return replace(mouth, at=(x * short, y * short, low[2]))
 
 
-def dip_options(cell: Cell, item: str, target: str, how: Mouth) -> list[Option]:
-    """Ways to bring the end of what is held below a rim, without touching the rim where that is possible."""
+def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
+    """Ways to bring the end of what is held below a rim and not through it."""
     side = _side(cell, item)
-    grip = cell.in_tool(side, item).inverse()
+    how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
     ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
     inside = [
         _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -DEEP), 0.0)
         for lean, number in product(_LEANS, range(_HEADINGS))
     ]
     touched = _depths(cell, item, target, inside)
-    most = max(_GRAZED, min(touched))
     options = []
     for height, (number, there) in product(_ABOVE, enumerate(inside)):
-        if touched[number] <= most:
+        if touched[number] <= _GRAZED:
             poses = tuple(_moved_up(pose * grip, by) for pose, by in ((there, height + DEEP), (there, 0.0)))
             options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
     return options

@@ -1,0 +1,106 @@
+"""Ways that skills offer: none of them goes through what it is about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from itertools import pairwise
+
+import pytest
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+
+from tmd.robot.cell import Cell
+from tmd.robot.hand import HandChecker
+from tmd.robot.operate import swing_options
+from tmd.robot.over import dip_options
+from tmd.robot.pose import Pose
+from tmd.robot.reach import with_room
+from tmd.robot.stage import Stage
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import find_domain, find_root
+
+
+@pytest.fixture(scope="module")
+def cell() -> Iterator[Cell]:
+    corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
+    environment = load_environment(corpus.directory / "environments" / "kitchen3.yaml")
+    with Stage(environment, corpus.folder, corpus.world("kitchen3").task.problem, kinematic=True) as stage:
+        yield stage.cell
+
+
+@contextmanager
+def held(cell: Cell, side: str, item: str) -> Iterator[None]:
+    """As if a hand had taken an item, by its first grasp."""
+    motion = cell.sim.motion(cell.scene.bodies[item])
+    grip = cell.scene.grasps(item)[0].tool.pose().inverse()
+    cell.sim.set_pose(cell.scene.bodies[item], cell.robot.tool(side) * grip)
+    cell.robot.hold(side, cell.scene.bodies[item])
+    cell.in_hand[side] = item
+    yield
+    cell.robot.let_go(side)
+    del cell.in_hand[side]
+    cell.sim.set_motion(cell.scene.bodies[item], motion)
+
+
+@contextmanager
+def without_lid(cell: Cell, target: str) -> Iterator[None]:
+    """As if it were open."""
+    handle = cell.scene.handle(target)
+    if handle is not None:
+        cell.sim.set_joint(handle.body, handle.index, handle.open)
+    yield
+    if handle is not None:
+        cell.sim.set_joint(handle.body, handle.index, handle.closed)
+
+
+@pytest.mark.parametrize("item", ["spoon1", "ice_cream_scoop1"])
+@pytest.mark.parametrize("target", ["vanilla_tub1", "sugar_bowl1"])
+def test_a_spoon_is_dipped_below_the_rim_and_not_through_it(cell: Cell, item: str, target: str) -> None:
+    body, jar = cell.scene.bodies[item], cell.scene.bodies[target]
+    with held(cell, "left", item), without_lid(cell, target):
+        grip = cell.in_tool("left", item)
+        options = dip_options(cell, item, target)
+        assert with_room(cell, options)
+        for option in options:
+            for tool in option.poses[-2:]:
+                cell.sim.set_pose(body, tool * grip)
+                assert all(contact.distance > -0.004 for contact in cell.sim.closest(body, jar, 0.0))
+            assert cell.sim.extents(body)[0][2] < cell.top(target)
+            cell.sim.set_pose(body, cell.robot.tool("left") * grip)
+
+
+@pytest.mark.parametrize("item", ["vanilla_tub1", "milk1"])
+@pytest.mark.parametrize("opened", [True, False])
+def test_a_lid_does_not_swing_into_the_hand_that_moves_it(cell: Cell, item: str, opened: bool) -> None:
+    handle = cell.scene.handle(item)
+    assert handle is not None
+    start, end = (handle.closed, handle.open) if opened else (handle.open, handle.closed)
+    cell.sim.set_joint(handle.body, handle.index, start)
+    options = swing_options(cell, item, (1.0 if opened else 0.0,))
+    assert {option.side for option in options} == {"left", "right"}
+    lid = handle.body, handle.index
+    for option in options:
+        steps = len(option.poses) - 2
+        for number, tool in enumerate(option.poses[1:]):
+            cell.sim.set_joint(*lid, start + number / steps * (end - start))
+            assert HandChecker(cell.robot, option.side, only=lid).depth([tool])[0] < 0.005
+        assert all(one.distance(other) < 0.06 for one, other in pairwise(option.poses[1:]))
+        cell.sim.set_joint(*lid, start)
+    cell.sim.set_joint(*lid, handle.closed)
+
+
+def test_a_hand_can_be_asked_about_one_thing_only(cell: Cell) -> None:
+    body = cell.scene.bodies["vanilla_tub1"]
+    inside = Pose(cell.centre("vanilla_tub1"))
+    everything = HandChecker(cell.robot, "right")
+    only = HandChecker(cell.robot, "right", only=(cell.scene.bodies["milk1"], -1))
+    assert everything.depth([inside])[0] > 0.0
+    assert only.depth([inside])[0] == 0.0
+    assert HandChecker(cell.robot, "right", only=(body, -1)).depth([inside])[0] > 0.0
+
+
+def test_nothing_is_dipped_through_a_lid(cell: Cell) -> None:
+    with held(cell, "left", "spoon1"):
+        assert dip_options(cell, "spoon1", "vanilla_tub1") == []
