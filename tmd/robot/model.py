@@ -219,7 +219,7 @@ class Model:
 
 
 def _joint(link: Link) -> list[str]:
-    # pybullet applies damping explicitly: more than about a joint's inertia times its 240 steps a second throws it about
+    # pybullet applies damping explicitly: more than a joint's inertia times 240 steps a second throws it about
     lines = [
         f'<joint name="{link.name}" type="{link.kind}">',
         f'<parent link="{link.parent or "root"}"/><child link="{link.name}"/><origin xyz="{_words(link.origin)}"/>',
