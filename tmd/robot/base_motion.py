@@ -148,9 +148,12 @@ class _Lattice:
         """Corners from start to goal, (n, 3), or None."""
         if (path := self.straight()) is not None:
             return path
+        entries = {cell for cell in self._entries() if self._free(cell) and self._line(self._start, self.pose(cell))}
+        if not entries:  # wedged in: no search from the goal would get there
+            return None
         # the search looks at points only; what lies between them is looked at once a way is found
         for _ in range(_ATTEMPTS):
-            cells = self._astar(budget)
+            cells = self._astar(entries, budget)
             if cells is None:
                 return None
             bad = [pair for pair in pairwise(cells) if not self._line(self.pose(pair[0]), self.pose(pair[1]))]
@@ -159,9 +162,8 @@ class _Lattice:
             self._blocked.update(bad, [(b, a) for a, b in bad])
         return None
 
-    def _astar(self, budget: int) -> list[Cell] | None:
+    def _astar(self, entries: set[Cell], budget: int) -> list[Cell] | None:
         """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
-        entries = set(self._entries())
         best: dict[Cell, float] = {(0, 0, 0): 0.0}
         before: dict[Cell, Cell] = {}
         closed: set[Cell] = set()
@@ -172,7 +174,7 @@ class _Lattice:
             if cell in closed:
                 continue
             closed.add(cell)
-            if cell in entries and self._line(self._start, self.pose(cell)):
+            if cell in entries:
                 path = [cell]
                 while cell in before:
                     cell = before[cell]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from math import pi, tau
 from typing import TYPE_CHECKING
 
@@ -54,7 +54,9 @@ def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
 
 
 def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
-    return _fold(robot, side, budget) if robot.held(side) is None else _carry(robot, side, budget // 3)
+    if robot.held(side) is not None:
+        return _in_front(robot, side) or _carry(robot, side, budget // 3)
+    return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
 
 
 def _fold(robot: Pr2, side: str, budget: int) -> bool:
@@ -81,11 +83,9 @@ def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
 
 
 def _carry(robot: Pr2, side: str, budget: int) -> bool:
-    """Bring what is held to the front of the robot; the tool turns about the vertical only, if that is possible."""
+    """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
-    if _in_front(now.position, side):
-        return True
     for place in _tool_places(now, side):
         tool = base * place
         for goal in robot.solve(side, tool)[:2]:
@@ -98,8 +98,10 @@ def _carry(robot: Pr2, side: str, budget: int) -> bool:
     return False
 
 
-def _in_front(place: Sequence[float], side: str) -> bool:
-    x, y, z = place
+def _in_front(robot: Pr2, side: str) -> bool:
+    """Whether a hand is in front of the robot, where it may be for driving."""
+    base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
+    x, y, z = (base.inverse() * robot.tool(side)).position
     inside = (x, -y if side == "right" else y, z)
     return all(low <= value <= high for value, (low, high) in zip(inside, _FRONT, strict=True))
 
