@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 from math import pi
 
@@ -16,6 +17,8 @@ OUTSIDE = 0.18
 """The same for what is in a niche or a cupboard."""
 _PASSING = 0.3
 """Fingers that open more along a direction than this do not pass a thing in it."""
+_ALONG = 0.85
+"""The cosine of the angle within which a hand points the way that it goes in."""
 LIFT = 0.10
 """Metres that a thing is lifted, or drawn out, before the arm moves freely."""
 CLEAR = (0.006, 0.03)
@@ -103,7 +106,13 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     if not options:
         raise SkillError(Stage.PRECONDITION, f"there is no room for {item} {relation} {target}")
     focus = options[0].poses[-1] * cell.in_tool(side, item)
-    reach(cell, options, focus, cell.front(target), attempt)
+    taken_again = _to_be_taken_again(cell, item, options, cell.scene.entry(target, relation))
+    try:
+        reach(cell, taken_again or options, focus, cell.front(target), attempt)
+    except SkillError as error:
+        if error.stage is not Stage.STANCE or not taken_again:
+            raise
+        reach(cell, options, focus, cell.front(target), attempt)
     _release(cell, side, item)
     _leave(cell, side, None, _links(cell, item))
     cell.fold()
@@ -126,6 +135,19 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
         tool = stood * grip
         found.append(Option(side, (_moved(tool, back), tool), links, number))
     return found
+
+
+def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: Vector) -> list[Option]:
+    """Of ways to put a thing into a niche or a cupboard, those after which a grasp points the way the hand goes in."""
+    if abs(entry[2]) > 0.5:
+        return []
+    grasps = [grasp.tool.pose().rotate((1.0, 0.0, 0.0)) for grasp in cell.scene.grasps(item)]
+
+    def along(option: Option) -> float:
+        stood = option.poses[-1] * cell.in_tool(option.side, item)
+        return max(sum(a * b for a, b in zip(stood.rotate(each), entry, strict=True)) for each in grasps)
+
+    return [option for option in options if along(option) > _ALONG]
 
 
 def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
