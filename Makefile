@@ -17,7 +17,7 @@ BIN := $(VENV)/bin
 STAMP := $(VENV)/.made-from-pyproject.toml
 
 .DEFAULT_GOAL := help
-.PHONY: help setup experiment demo test check style format lint types docs examples bench clean
+.PHONY: help setup experiment demo studio test check style format lint types docs examples bench clean
 
 help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -25,6 +25,7 @@ help: ## List the targets.
 	@echo "  make experiment takes TASK=ramen|all DATA=bundled|veil500 VEIL500=DIR MODELS=A,B JOBS=N SEED=N OUT=DIR"
 	@echo "  STEP=all|robot|report, ROBOT=kinematic|physics|off, and ARGS='…' for any other option of tmd experiment"
 	@echo "  make demo takes KITCHEN=kitchen4 SEED=N, and ARGS='--kinematic' or any other option of tmd run"
+	@echo "  make studio takes KITCHEN=kitchen4, and ARGS='--port 8081' or any other option of tmd studio"
 	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
 
 setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
@@ -49,6 +50,9 @@ demo: setup ## Let a simulated PR2 make the affogato of the paper, and film it.
 	@$(BIN)/tmd run --environment '$(KITCHEN)' --text '$(AFFOGATO)' --seed '$(or $(SEED),0)' \
 		--video runs/demo/affogato.mp4 --strip runs/demo/affogato.png --log runs/demo/affogato.jsonl $(ARGS); \
 	code=$$?; echo "film: runs/demo/affogato.mp4, one picture for each instruction: runs/demo/affogato.png"; exit $$code
+
+studio: setup ## Open the studio: a page in the browser to watch, correct and demonstrate.
+	@$(BIN)/tmd studio --environment '$(KITCHEN)' $(ARGS)
 
 test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
 	@$(BIN)/python -m pytest -n auto
