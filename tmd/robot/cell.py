@@ -32,8 +32,8 @@ _STEPS_BACK = (0.12, 0.25, 0.4)
 _NEARBY = 300
 _SWEEP, _SWEEP_MARGIN = 7, 0.03
 """So many angles of a door are looked at, and so many metres it must stay away."""
-_LIGHTLY = 4.0
-"""Newtons that a lid is lifted with, so that what it is on stays where it is."""
+_LIGHTLY = 1.0
+"""Newtons that the lid of a thing is lifted with, so that what it is on neither slides nor tips over."""
 _PINS = 0.015
 """Metres from the middle of a knob to the two points that the fingers hold it at."""
 
@@ -182,7 +182,8 @@ class Cell:
         palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
         apart = (-_PINS, _PINS) if handle.kind == "knob" else (0.0,)
         points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
-        force = _LIGHTLY if handle.kind == "lid" else WELD_FORCE
+        loose = handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
+        force = _LIGHTLY if loose else WELD_FORCE
         pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point, force) for point in points]
         try:
             yield

@@ -85,9 +85,8 @@ def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
     now, door = cell.way(name), _handle(cell, name).kind == "door"
     if not opened:
         return [(0.0,), *([tuple(now - piece for piece in _PIECES if now > piece)] if door else [])]
-    if not door:
-        return [_OPEN]
-    return [*((part,) for part in _OPEN), tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])]
+    wide: list[tuple[float, ...]] = [(part,) for part in _OPEN]
+    return [*wide, tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])] if door else wide
 
 
 def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:

@@ -198,7 +198,7 @@ def lid(model: Model, look: Look, radius: float, height: float, *, aside: bool =
 
     model.link(
         "lid", kind="revolute", origin=at(-radius, 0.0, height - 0.012), axis=at(0.0, -1.0, 0.0), limits=(0.0, 2.0),
-        friction=0.05, mass=0.01,
+        friction=0.03, mass=0.01,
     )  # fmt: skip
     model.cylinder(at(radius, 0.0, 0.0065), radius, 0.011, look.accent, link="lid")
     model.box(at(2 * radius + 0.010, 0.0, 0.0065), size(0.026, 0.02, 0.009), look.accent, link="lid")
