@@ -32,7 +32,8 @@ STRIDES = np.array([0.04, 0.04, 0.08])
 """How far the base may move between two checks."""
 CLEARANCE = 0.02
 """Metres that the way keeps from things, where its start and its goal do."""
-DEEPEST = 0.01
+DEEPEST = 0.03
+"""Metres: the robot may be this deep in something where it starts (a door that springs open leans on it)."""
 _OUTWARDS = (0.0, 0.12, -0.12, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3)
 _AWAY = (0.6, 0.4, 0.25)
 _MOST_WAYS_OUT = 3

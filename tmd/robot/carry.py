@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
 from math import pi
 
 from tmd.robot.cell import Cell
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose, Vector
-from tmd.robot.reach import Links, Option, follow, reach
+from tmd.robot.reach import Links, Option, follow, reach, with_room
 
 BEFORE = 0.10
 """Metres from which a hand goes straight to what it takes."""
@@ -17,6 +18,8 @@ OUTSIDE = 0.18
 """The same for what is in a niche or a cupboard."""
 _PASSING = 0.3
 """Fingers that open more along a direction than this do not pass a thing in it."""
+_AWAY = 0.06
+"""Metres that a hand should get straight away from what it has put down."""
 _ALONG = 0.85
 """The cosine of the angle within which a hand points the way that it goes in."""
 LIFT = 0.10
@@ -106,13 +109,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     if not options:
         raise SkillError(Stage.PRECONDITION, f"there is no room for {item} {relation} {target}")
     focus = options[0].poses[-1] * cell.in_tool(side, item)
-    taken_again = _to_be_taken_again(cell, item, options, cell.scene.entry(target, relation))
-    try:
-        reach(cell, taken_again or options, focus, cell.front(target), attempt)
-    except SkillError as error:
-        if error.stage is not Stage.STANCE or not taken_again:
-            raise
-        reach(cell, options, focus, cell.front(target), attempt)
+    _reach_best(cell, item, options, focus, target, relation, attempt)
     _release(cell, side, item)
     _leave(cell, side, None, _links(cell, item))
     cell.fold()
@@ -121,6 +118,27 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
         where = f"{now[1]} {now[0]}" if now else "nowhere"
         raise SkillError(Stage.EFFECT, f"{item} was put down, and is {where}")
     return f"{item} is {relation} {target}"
+
+
+def _reach_best(
+    cell: Cell, item: str, options: Sequence[Option], focus: Pose, target: str, relation: str, attempt: int
+) -> None:
+    """Bring a thing to where it is let go of: best is where the empty hand gets away, and gets at it again.
+
+    Raises:
+        SkillError: As :func:`tmd.robot.reach.reach`.
+    """
+    fitting = with_room(cell, options)
+    again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
+    away = [replace(option, poses=(*option.poses, option.poses[-1] * Pose((-_AWAY, 0.0, 0.0)))) for option in again]
+    for chosen in (away, again, fitting):
+        try:
+            reach(cell, chosen, focus, cell.front(target), attempt, stop=2)
+        except SkillError as error:
+            if error.stage is not Stage.STANCE or chosen is fitting:
+                raise
+        else:
+            return
 
 
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:

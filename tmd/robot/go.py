@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import product
 from math import atan2, cos, degrees, sin
 
 from tmd.robot.carry import pick_options
@@ -16,6 +17,8 @@ from tmd.robot.simulator import STEPS_PER_SECOND
 _MOST_STANCES = 8
 _BACKWARDS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
 """Metres that a robot steps back."""
+_ASIDE = (0.0, 0.6, -0.6, 1.2, -1.2)
+"""Radians off straight back."""
 _MOST_LOOKOUTS = 8
 _BRIEFLY = 2000
 """What looking for a place from which a thing can be taken may cost: it may be taken from another one later."""
@@ -137,8 +140,8 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
 def step_back(cell: Cell, door: str) -> None:
     """Make room for a door that is about to open, as little as is needed, if there is any behind the robot."""
     x, y, theta = cell.robot.base()
-    for away in _BACKWARDS:
-        base = (x - away * cos(theta), y - away * sin(theta), theta)
+    for away, turn in dict.fromkeys((away, turn if away else 0.0) for away, turn in product(_BACKWARDS, _ASIDE)):
+        base = (x - away * cos(theta + turn), y - away * sin(theta + turn), theta)
         if (away and cell.robot.collides(base=base)) or cell.sweeps(door, base):
             continue
         try:

@@ -51,6 +51,8 @@ _SHORT, _LONG = 300, 2000
 _POSTURES = 8
 """So many postures of one pose are looked at."""
 _SHOULDER_HEIGHT = 0.790675
+_RISE = 0.04
+"""Metres that the torso moves between two checks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,6 +253,8 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
     here = cell.robot.base()
     if hypot(base[0] - here[0], base[1] - here[1]) > 0.01 or abs(_wrapped(base[2] - here[2])) > 0.01:
         cell.fold()
+        if abs(cell.robot.torso() - torso) > 0.005 and not _sticks(cell, torso):
+            _lift(cell, torso)  # there it may be below a shelf
         path = plan_base(cell.robot, base, rng=cell.rng)
         if path is None:  # between furniture there may be less room
             path = plan_base(cell.robot, base, rng=cell.rng, clearance=_SQUEEZED)
@@ -271,7 +275,11 @@ def _lift(cell: Cell, torso: float) -> None:
 
 
 def _sticks(cell: Cell, torso: float) -> bool:
-    return any(depth > DEEPEST for *_, depth in cell.robot.collides(torso=torso))
+    """Whether the arms, or what they hold, would be in something on the way of the torso."""
+    here = cell.robot.torso()
+    steps = ceil(abs(torso - here) / _RISE)
+    heights = [here + (torso - here) * step / steps for step in range(1, steps + 1)]
+    return any(depth > DEEPEST for height in heights for *_, depth in cell.robot.collides(torso=height))
 
 
 def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
