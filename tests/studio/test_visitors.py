@@ -61,7 +61,7 @@ def test_ten_visitors_at_once(server: Server) -> None:
             begin(visitor, f"{TEXT}, visitor {number}.")
             for name, instruction in list(zip(OBJECTS, STEPS, strict=True))[:count]:
                 do(visitor, name, instruction)
-            visitor.press("Save (S)")
+            visitor.press("Save (K)")
             visitor.told("Saved as shown-corner1-")
         return count
 
@@ -99,9 +99,27 @@ def test_a_corpus_that_cannot_be_written_to(server: Server) -> None:
         do(visitor, "cup1", STEPS[0])
         for task, answer in (("blocked", "cannot be"), ("../../etc", "cannot be called"), ("taken", "Saved as taken-")):
             visitor.put("Task name", task)
-            visitor.press("Save (S)")
+            visitor.press("Save (K)")
             visitor.told(answer)
     assert len(corpus(server, "taken")) == 1
+
+
+def test_an_environment_that_is_not_in_the_corpus(
+    table: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    file = tmp_path / "mine.yaml"
+    file.write_text(table.file("corner1").read_text().replace("name: corner1", "name: mine"))
+    served = Server(Studio(table, Teacher(table), extra=file), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            visitor.put("Task text", f"{TEXT}.")
+            visitor.press("Begin")
+            visitor.told("nothing that is shown in it can be saved")
+            visitor.press("Save (K)")
+            visitor.told("no demonstration is under way")
+    finally:
+        served.close()
 
 
 def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[str]) -> None:
@@ -118,7 +136,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
         for label in (
             "Plan it",
             "Begin anew",
-            "Save (S)",
+            "Save (K)",
             "Throw away",
             "Insert before this step",
             "Correct this plan",

@@ -15,6 +15,7 @@ module              holds
 ``teaching``        what is known of a domain while demonstrations come
 ``training``        learning everything again, in a process of its own
 ``lock``            one writer at a time, among threads and processes
+``energies``        ranked plans side by side, in a narrow panel
 ``about``           what there is to know of an object
 ``words``           facts and broken preconditions in plain words
 ``studio``          what all visitors share: the domain, its environments made ready, the teacher

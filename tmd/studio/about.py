@@ -53,6 +53,7 @@ def about(name: str, world: World, state: Bits) -> About:
     profiles, static = world.profiles, world.task.static
     states, relations = _divided(name, world.task.names(state), world)
     traits, edges = _divided(name, static, world)
+    traits = tuple(trait for trait in traits if not _empty(trait, world))
     return About(
         name,
         world.mentions.kinds.get(name, ""),
@@ -63,6 +64,14 @@ def about(name: str, world: World, state: Bits) -> About:
         tuple(e for e in edges if e.predicate != PART_OF and e._replace(args=e.args[::-1]) not in static),
         traits,
     )
+
+
+def _empty(trait: GroundAtom, world: World) -> bool:
+    """Whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
+    if len(trait.args) < 2 or len(set(trait.args)) > 1:
+        return False
+    alike = (trait._replace(args=(name,) * len(trait.args)) for name in world.profiles.objects)
+    return all(atom in world.task.static for atom in alike)
 
 
 def _divided(

@@ -68,7 +68,7 @@ class CorrectPanel:
         self._new.options = self._with.options = (NOTHING, *names)
         self._all.visible = True
         self._refresh()
-        visitor.tell("The plan is under Correct.")
+        visitor.tell("The plan is under Correct.", aloud=True)
 
     def _going(self) -> Correction:
         if self._correction is None:

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 OWN = "(own words)"
 NONE = "(no object)"
+NUMBERED = 9
+"""So many of the instructions that apply have a hot key: 1 to 9."""
 _LOOK = 1.0
 """Seconds between two looks at learning that is under way."""
 _FEW = 4
@@ -39,6 +41,7 @@ class DemonstratePanel:
         self._session: Session | None = None
         self._reel = Reel(visitor.setting)
         self._offered: list[Any] = []
+        self._numbered: list[Instruction] = []
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Tasks", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
@@ -67,7 +70,7 @@ class DemonstratePanel:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
             self._who = gui.add_text("Who (optional)", "")
             self._when = gui.add_checkbox("Save the time as well", False)
-            gui.add_button("Save (S)", color="green").on_click(guarded(self.save))
+            gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
             gui.add_button("Throw away").on_click(guarded(self.discard))
         gui.add_button("Learn everything anew").on_click(guarded(self._retrain))
         self._look_for_draft()
@@ -99,7 +102,7 @@ class DemonstratePanel:
         """Go on with a plan that was corrected."""
         put(self._text, session.text)
         self._open(session)
-        self._visitor.tell("The corrected plan is under Demonstrate: save it there.")
+        self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
 
     def _open(self, session: Session) -> None:
         visitor = self._visitor
@@ -115,6 +118,7 @@ class DemonstratePanel:
 
     def _close(self) -> None:
         self._session = None
+        self._numbered = []
         for handle in (self._edit, self._do, self._keep, self._which, self._clause):
             handle.visible = False
         self._begin.label = "Begin"
@@ -129,7 +133,7 @@ class DemonstratePanel:
             saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value)
             visitor.studio.drafts.discard(visitor.identity)
             self._close()
-        visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.")
+        visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.", aloud=True)
 
     def discard(self) -> None:
         """Throw the demonstration away."""
@@ -138,7 +142,7 @@ class DemonstratePanel:
             self._going()
             visitor.studio.drafts.discard(visitor.identity)
             self._close()
-        visitor.tell("Thrown away.")
+        visitor.tell("Thrown away.", aloud=True)
 
     def _going(self) -> Session:
         if self._session is None:
@@ -170,6 +174,14 @@ class DemonstratePanel:
         with self._visitor.holding():
             self._going().do(instruction)
             self.refresh()
+
+    def do_numbered(self, number: int) -> None:
+        """Carry out the instruction whose button has this number, from 1."""
+        with self._visitor.holding():
+            self._going()
+            if number > len(self._numbered):
+                raise TmdError(f"there is no instruction {number}", hint="point at an object first")
+            self.do(self._numbered[number - 1])
 
     def undo(self) -> None:
         """Take the last change back."""
@@ -249,7 +261,7 @@ class DemonstratePanel:
             groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
             for handle in self._offered:
                 handle.remove()
-            self._offered = []
+            self._offered, self._numbered = [], []
             with visitor.client.atomic(), self._buttons:
                 for group in groups:
                     self._offer(group)
@@ -261,7 +273,10 @@ class DemonstratePanel:
         whole = self._visitor.selected
         possible.sort(key=lambda instruction: (whole not in instruction.args, instruction))
         for instruction in possible[:_FEW]:
-            button = gui.add_button(str(instruction))
+            self._numbered.append(instruction)
+            number = len(self._numbered)
+            icon = f"square-number-{number}" if number <= NUMBERED else None
+            button = gui.add_button(str(instruction), icon=icon)  # type: ignore[arg-type]  # icons are told by name
             button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
             self._offered.append(button)
         by_name = {str(instruction): instruction for instruction in possible[_FEW:]}
@@ -274,10 +289,11 @@ class DemonstratePanel:
     def _retrain(self) -> None:
         visitor = self._visitor
         training = visitor.studio.teacher.retrain()
+        visitor.tell("Learning from all demonstrations. Go on meanwhile.", aloud=True)
 
         def follow() -> None:
             while not training.wait(_LOOK):
                 visitor.tell(f"Learning from all demonstrations: {training.share:.0%}. Go on meanwhile.")
-            visitor.tell("Everything was learned anew; the next text uses it.")
+            visitor.tell("Everything was learned anew; the next text uses it.", aloud=True)
 
         Thread(target=visitor.guarded(follow), args=(None,), daemon=True).start()

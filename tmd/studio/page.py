@@ -16,7 +16,7 @@ MOST = 60
 """So many instructions that do not apply are listed."""
 
 STYLE = """<style>
-.tmd{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}
+.tmd-panel{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}
 .tmd ol{margin:.2rem 0;padding-left:1.9rem}.tmd ul{margin:.2rem 0;padding-left:1.2rem}
 .tmd .now{background:#56b4e9;color:#000;border-radius:.2rem;padding:0 .25rem;font-weight:600}
 .tmd .latent{font-style:italic}.tmd .broken{text-decoration:underline wavy #d55e00}
@@ -27,12 +27,17 @@ white-space:nowrap}
 .tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
 .tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
 .tmd svg{max-width:100%;height:auto}.tmd table{border-collapse:collapse}.tmd td,.tmd th{padding:.05rem .35rem}
+.tmd .numbers td,.tmd .numbers thead th{text-align:right;font-variant-numeric:tabular-nums}
+.tmd .numbers tbody th{text-align:left;font-weight:400}.tmd .numbers tr{border-bottom:1px solid #bbb}
+@media (max-width:36em){.mantine-Paper-root[style*="20em"],.mantine-Paper-root[style*="20em"] div[style*="20em"]
+{width:100vw!important}}
+.tmd summary{cursor:pointer;margin-top:.4rem}
 </style>"""
 
 
 def fragment(content: str) -> str:
     """Content with the studio's style."""
-    return f'{STYLE}<div class="tmd" data-theme="light">{content}</div>'
+    return f'{STYLE}<div class="tmd tmd-panel" data-theme="light">{content}</div>'
 
 
 def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str:

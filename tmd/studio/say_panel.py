@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 from tmd.errors import TmdError
 from tmd.ground import Grounded
 from tmd.studio.correction import steps_of
+from tmd.studio.energies import energies
 from tmd.studio.page import changed, fragment, step_list
 from tmd.studio.reel import Reel
 from tmd.studio.widgets import chosen, put
-from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.markup import style
 
@@ -51,7 +51,7 @@ class SayPanel:
         self._buttons.on_click(guarded(self._pressed))
         self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
         self._steps = gui.add_html("")
-        self._more = gui.add_folder("Energies by factor, and why the others lost", expand_by_default=False)
+        self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
         self._more.visible = False
         with self._more:
             self._energies = gui.add_html("")
@@ -116,7 +116,7 @@ class SayPanel:
             handle.visible = found
         self._more.visible = found or bool(grounded.refusals)
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        self._energies.content = _styled(candidates(grounded.plans, lines, grounded.refusals))
+        self._energies.content = fragment(energies(grounded.plans, lines, grounded.refusals))
         if not found:
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=grounded.unseen))
             self._steps.content = ""

@@ -29,6 +29,12 @@ ORANGE = (230, 159, 0)
 """Of what is selected; told from the others by its lines and its label as well."""
 _EYE = 1.35
 """Metres: the height of the robot's eyes."""
+_ELEVATION = 0.66
+"""Radians: how far the view of the whole room looks down."""
+_FILL = 0.94
+"""How much of the view the room takes."""
+_LEAST, _MOST = 2.0, 60.0
+"""Metres: the distances that the room may be seen from."""
 _ROOT = "root"
 """The root link of an object's URDF."""
 
@@ -149,10 +155,41 @@ class Scenery:
         robot = picture.robot
         return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 0.85))
 
-    def overview(self) -> tuple[Vector, Vector]:
-        """A place from where the whole room is seen, and its middle."""
-        low = self._look.still.room.low
-        return (low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)
+    def overview(self, fov: float, aspect: float, covered: float = 0.0) -> tuple[Vector, Vector]:
+        """The nearest place, from the open side of the room, from where everything is seen; and what to look at.
+
+        Args:
+            fov: Radians that are seen from the lower to the upper edge of the view.
+            aspect: The view's width divided by its height.
+            covered: How much of the view, from below, something else is in front of.
+        """
+        points = np.concatenate([self._corners(name) for name in self._frames])
+        middle = (points.min(axis=0) + points.max(axis=0)) / 2
+        forward = np.array((np.cos(_ELEVATION), 0.0, -np.sin(_ELEVATION)))
+        up = np.array((np.sin(_ELEVATION), 0.0, np.cos(_ELEVATION)))
+        across, high, deep = np.abs((points - middle)[:, 1]), (points - middle) @ up, (points - middle) @ forward
+        distance, shift = _MOST, 0.0
+        for distance in np.geomspace(_LEAST, _MOST, 200):
+            half = (deep + distance) * np.tan(fov / 2)  # metres from the middle of the view to its edge, at each point
+            if half.min() <= 0 or (across > _FILL * half * aspect).any():
+                continue
+            least, most = (high - _FILL * half).max(), (high - (2 * covered - _FILL) * half).min()
+            if least <= most:
+                shift = (least + most) / 2
+                break
+        eye = middle - distance * forward + shift * up
+        return _vector(eye), _vector(eye + distance * forward)
+
+    def _corners(self, name: str) -> NDArray[np.float64]:
+        """The corners of an object's box in the world."""
+        model, pose = self._look.still.blueprints[name].model, self._look.first.poses[name]
+        box = [(model.low[i], model.high[i]) for i in range(3)]
+        return np.array([pose.apply((x, y, z)) for x in box[0] for y in box[1] for z in box[2]])
+
+
+def _vector(values: NDArray[np.float64]) -> Vector:
+    x, y, z = values.tolist()
+    return x, y, z
 
 
 def _edges(low: tuple[float, ...], high: tuple[float, ...]) -> NDArray[np.float64]:

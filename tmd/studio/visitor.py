@@ -6,13 +6,16 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable
-from functools import wraps
+from functools import partial, wraps
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from tmd.energy.plans import RankedPlan
 from tmd.errors import TmdError
+from tmd.robot.pose import Vector
 from tmd.studio.correct_panel import CorrectPanel
-from tmd.studio.demonstrate_panel import DemonstratePanel
+from tmd.studio.demonstrate_panel import NUMBERED, DemonstratePanel
 from tmd.studio.object_panel import ObjectPanel
 from tmd.studio.page import notice
 from tmd.studio.performance import perform
@@ -23,13 +26,21 @@ from tmd.studio.setting import Setting
 from tmd.studio.widgets import put
 
 if TYPE_CHECKING:
-    from viser import ClientHandle
+    from viser import ClientHandle, NotificationHandle
 
     from tmd.studio.studio import Studio
 
-WIDTH = 430
-"""Pixels of a panel beside the 3D view."""
+WIDTH, LEAST_WIDTH = 430, 330
+"""Pixels of the panel beside the 3D view: two fifths of the window, between these."""
+NARROW = 576
+"""Pixels: in a window of this width or less viser puts the panel before the lower part of the view."""
+SHEET = 0.6
+"""How much of the view it covers there."""
 ROOM, EYES = "the whole room", "with the robot's eyes"
+BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
+"""Of messages and of faults, as on the page."""
+ALOUD = 8.0
+"""Seconds that a message over the view stays."""
 KEY = "tmd-visitor"
 """Under this name a browser keeps which visitor it is."""
 
@@ -60,7 +71,10 @@ class Visitor:
         self._lock = threading.RLock()
         self._scenery: Scenery | None = None
         self._first_person = False
+        self._aimed: tuple[float, Vector] = (0.0, (0.0, 0.0, 0.0))
         self._playing: threading.Event | None = None
+        self._voice = threading.Lock()
+        self._aloud: NotificationHandle | None = None
         with self._lock:  # who is quick waits until everything is there
             self._furnish()
 
@@ -70,10 +84,13 @@ class Visitor:
         gui.set_panel_label("tmd studio")
         gui.configure_theme(show_logo=False, show_share_button=False)
         gui.main_panel.dock_right()
-        gui.main_panel.set_width(WIDTH)
+        gui.main_panel.set_width(min(WIDTH, max(LEAST_WIDTH, self.client.camera.image_width * 2 // 5)))
         self.setting: Setting = studio.setting(studio.start)
         self.reel = Reel(self.setting)
-        self._message = gui.add_html(notice("Welcome. Say what is to be done, or show it."))
+        self._message = gui.add_html(
+            notice("Welcome. Say what is to be done, or show it.", "Ctrl-K lists commands and their keys.")
+        )
+        self._blind = gui.add_html("")
         self._where = gui.add_dropdown("Environment", studio.environments(), initial_value=studio.start)
         self._where.on_update(self.guarded(self._go))
         view = gui.add_dropdown("View (V)", (ROOM, EYES))
@@ -90,6 +107,7 @@ class Visitor:
             self.object = ObjectPanel(self)
         self._commands()
         self._build()
+        self.client.camera.on_update(self.guarded(self._resized))
 
     # what is looked at
 
@@ -116,8 +134,10 @@ class Visitor:
         self.client.scene.reset()
         look = self.setting.look
         self._scenery = None
+        self._view.visible = look is not None
+        self._blind.content = "" if look is not None else notice(self.setting.blind)
         if look is None:
-            self.tell(self.setting.blind)
+            self.client.scene.add_label("/blind", "no picture of this environment")
             return
         with self.client.atomic():
             self._scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
@@ -161,12 +181,25 @@ class Visitor:
         picture = self.reel.picture(self.cursor)
         if self._scenery is None or picture is None:
             return
-        eye, target = self._scenery.eyes(picture) if self._first_person else self._scenery.overview()
         camera = self.client.camera
+        if self._first_person:
+            eye, target = self._scenery.eyes(picture)
+        else:
+            covered = SHEET if camera.image_width <= NARROW else 0.0
+            eye, target = self._scenery.overview(camera.fov, camera.aspect, covered)
+        self._aimed = camera.aspect, eye
         with self.client.atomic():
             camera.up_direction = (0.0, 0.0, 1.0)
             camera.position = eye
             camera.look_at = target
+
+    def _resized(self) -> None:
+        """The view has another form: look at the whole room again, unless the visitor looks at something else."""
+        camera = self.client.camera
+        with self._lock:
+            aspect, eye = self._aimed
+            if not self._first_person and aspect != camera.aspect and np.allclose(camera.position, eye, atol=0.01):
+                self._camera()
 
     def first_person(self, on: bool) -> None:
         """See with the robot's eyes, or the whole room."""
@@ -195,13 +228,15 @@ class Visitor:
     def execute(self, plan: RankedPlan) -> None:
         """Let the simulated robot carry a plan out, in the background; :meth:`stop` ends it."""
         scenery, figure = self._scenery, self.studio.figure()
-        if scenery is None or figure is None:
-            raise TmdError("there is nothing to see of the robot here", hint="pip install 'tmd[robot]'")
+        if scenery is None:
+            raise TmdError(f"the robot cannot do it here. {self.setting.blind}")
+        if figure is None:
+            raise TmdError("the PR2's model is not installed", hint="pip install 'tmd[robot]'")
 
         def frames(ended: threading.Event) -> None:
-            self.tell("The simulation is being set up …")
+            self.tell("The simulation is being set up …", aloud=True)
             folder = self.studio.corpus.folder
-            self.tell(perform(self.setting, folder, plan, scenery, figure, ended, self.tell))
+            self.tell(perform(self.setting, folder, plan, scenery, figure, ended, self.tell), aloud=True)
             ended.set()
 
         self.play(frames)
@@ -212,9 +247,24 @@ class Visitor:
 
     # messages
 
-    def tell(self, message: str, hint: str | None = None, *, fault: bool = False) -> None:
-        """Say something to the visitor."""
+    def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
+        """Say something to the visitor, at the top of the panel.
+
+        Args:
+            message: What.
+            hint: What can be done about it.
+            fault: Something was not done.
+            aloud: Say it over the view as well, for a while: the panel may be scrolled down. Faults always are.
+        """
         self._message.content = notice(message, hint, fault=fault)
+        if not (fault or aloud):
+            return
+        title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
+        said = " ".join(filter(None, (message, hint)))
+        with self._voice:
+            if self._aloud is not None:
+                self._aloud.remove()
+            self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
         """A callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
@@ -240,14 +290,19 @@ class Visitor:
     # keys
 
     def _commands(self) -> None:
+        """Hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses what has the focus."""
         gui = self.client.gui
         for label, key, act in (
-            ("Next step", "arrowright", lambda: self.say.move(1)),
-            ("Previous step", "arrowleft", lambda: self.say.move(-1)),
-            ("Play or pause", "space", self.say.toggle),
+            ("Next step", "N", lambda: self.say.move(1)),
+            ("Step back", "B", lambda: self.say.move(-1)),
+            ("Play or pause", "P", self.say.toggle),
             ("See with the robot's eyes, or the whole room", "V", lambda: self.first_person(not self._first_person)),
             ("Undo", "U", self.demonstrate.undo),
             ("Redo", "R", self.demonstrate.redo),
-            ("Save the demonstration", "S", self.demonstrate.save),
+            ("Keep the demonstration: save it", "K", self.demonstrate.save),
+            *(
+                (f"Demonstrate: do what is numbered {n}", str(n), partial(self.demonstrate.do_numbered, n))
+                for n in range(1, NUMBERED + 1)
+            ),
         ):
             gui.add_command(label, hotkey=key).on_trigger(self.guarded(act))  # type: ignore[arg-type]

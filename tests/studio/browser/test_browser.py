@@ -86,8 +86,8 @@ def test_a_sentence_becomes_a_plan_and_is_stepped_through(
         page.locator("[aria-current=step]").filter(has_text=steps[4].split("\n")[0].split(")")[0]).wait_for()
         page.screenshot(path=screens / "02-step.png")
         page.keyboard.press("Escape")
-        page.get_by_text("Energies by factor").click()
-        page.get_by_text("chosen").first.wait_for()
+        page.get_by_text("Energies, and why").click()
+        page.get_by_role("heading", name="Why the others lost").wait_for()
         page.screenshot(path=screens / "03-energies.png")
         press(page, "▶|")
         page.locator("ol:visible > li").last.locator("[aria-current=step]").wait_for()
@@ -123,7 +123,7 @@ def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser:
         page.locator(f"ol:visible > li:nth-child({len(BOIL)}) [aria-current=step]").wait_for()
         entry(page, "Task name").fill("boiling")
         page.wait_for_timeout(300)
-        press(page, "Save (S)")
+        press(page, "Save (K)")
         told(page, "Saved as boiling-kitchen1-01")
         page.screenshot(path=screens / "07-saved.png")
         (line,) = corpus.read_text().splitlines()
@@ -171,11 +171,70 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         page.locator("ol:visible > li").filter(has_text="find(cup1)").wait_for()
         press(page, "Done: look at it, and save it")
         tab(page, "Demonstrate")
-        press(page, "Save (S)")
+        press(page, "Save (K)")
         told(page, "Saved as shown-kitchen1-01")
         record = json.loads(corpus.read_text().splitlines()[-1])
         assert [step.split(")")[0] for step in record["proposed"]] == [step.split(")")[0] for step in before]
         assert "find(cup1)" in [i for s in record["segments"] for i in s["instructions"]]
+
+
+def reach(page: Page, tag: str, words: str, key: str = "Tab") -> None:
+    """Press a key until what has the focus begins with some words."""
+    told = "(e => [e.tagName, e.innerText || e.value || ''])(document.activeElement)"
+    for _ in range(120):
+        page.keyboard.press(key)
+        name, said = page.evaluate(told)
+        if name == tag and said.startswith(words):
+            return
+    raise AssertionError(f"{words} is not reached")
+
+
+def test_by_keys_alone(table_studio: Served, browser: Browser, screens: Path) -> None:
+    with visiting(browser, table_studio) as page:
+        keys = page.keyboard
+        reach(page, "INPUT", "corner1")
+        keys.press("ArrowDown")
+        page.get_by_role("option", name="corner2", exact=True).wait_for()
+        keys.press("ArrowDown")
+        keys.press("Enter")
+        page.wait_for_timeout(1_000)
+        reach(page, "TEXTAREA", "")
+        keys.type("Put the cup on the first table.")
+        page.wait_for_timeout(300)
+        reach(page, "BUTTON", "Plan it")
+        keys.press("Enter")
+        told(page, "plans in")
+        for key, number in (("n", 1), ("n", 2), ("b", 1)):
+            keys.press(key)
+            page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
+        reach(page, "DIV", "Demonstrate", "Shift+Tab")
+        keys.press("Enter")
+        page.get_by_text("Task text").locator("visible=true").wait_for()
+        reach(page, "TEXTAREA", "")
+        keys.type("Take the cup.")
+        page.wait_for_timeout(300)
+        reach(page, "BUTTON", "Begin")
+        keys.press("Enter")
+        told(page, "Point at an object")
+        reach(page, "INPUT", "(no object)")
+        keys.press("ArrowDown")
+        keys.press("Control+a")
+        keys.type("cup1")
+        page.get_by_role("option", name="cup1", exact=True).locator("visible=true").wait_for()
+        keys.press("ArrowDown")
+        keys.press("Enter")
+        page.get_by_role("button", name="moveto(cup1)", exact=True).wait_for()
+        reach(page, "BUTTON", "moveto(cup1)")  # a hot key of a letter or digit means something else in an input
+        keys.press("Enter")
+        page.locator("ol:visible > li:nth-child(1) [aria-current=step]").wait_for()
+        keys.press("u")
+        page.get_by_text("No steps yet.").wait_for()
+        keys.press("1")
+        page.locator("ol:visible > li:nth-child(1) [aria-current=step]").wait_for()
+        keys.press("k")
+        told(page, "Saved as shown-corner2-01")
+        page.get_by_role("alert").filter(has_text="Saved as shown-corner2-01").wait_for()
+        page.screenshot(path=screens / "13-by-keys.png")
 
 
 def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, screens: Path) -> None:
@@ -196,6 +255,6 @@ def test_what_visitors_type_is_text(kitchen_studio: Served, browser: Browser, sc
         entry(page, "Task text").fill("Fill the pot.")
         page.wait_for_timeout(300)
         press(page, "Begin")
-        press(page, "Save (S)")
+        press(page, "Save (K)")
         told(page, "nothing was demonstrated yet")
         page.screenshot(path=screens / "12-narrow-fault.png")

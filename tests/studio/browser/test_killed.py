@@ -40,7 +40,7 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
     with visiting(browser, table_studio, 360, 420) as page:
         begin(page, "Put the cup on the shelf.")
         do(page, *STEPS[0], 1)
-        press(page, "Save (S)")
+        press(page, "Save (K)")
         told(page, "Saved as shown-corner1-01")
         page.locator("textarea:visible").first.fill("Take the cup to the shelf.")
         page.wait_for_timeout(300)
@@ -58,6 +58,6 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
         press(page, "Go on with what was not saved")
         told(page, "3 steps")
         do(page, *LAST, 4)
-        press(page, "Save (S)")
+        press(page, "Save (K)")
         told(page, "Saved as shown-corner1-02")
     assert len(corpus(table_studio, "shown")) == 2
