@@ -92,6 +92,24 @@ def test_what_was_not_saved_is_offered_on_return(server: Server) -> None:
         assert not third.elements[third.find("Go on with what was not saved")]["visible"]
 
 
+def test_a_second_window_of_a_browser_finds_its_own_again(server: Server) -> None:
+    with Wire(server.url) as one:
+        begin(one, f"{TEXT}.")
+        do(one, "cup1", STEPS[0])
+        with Wire(server.url, one.identity) as two:
+            begin(two, "Take the cup.")
+            do(two, "cup1", STEPS[0])
+            do(two, "cup1", STEPS[1])
+            browser = two.identity
+        assert browser != one.identity
+        with Wire(server.url, browser) as again:
+            again.press("Go on with what was not saved")
+            again.told("2 steps")
+    with Wire(server.url, f"no such name,{browser},{'x' * 100_000}") as last:
+        last.press("Go on with what was not saved")
+        last.told("not saved")
+
+
 def test_a_corpus_that_cannot_be_written_to(server: Server) -> None:
     (server.studio.corpus.directory / "blocked").write_text("a file where a directory should be")
     with Wire(server.url) as visitor:

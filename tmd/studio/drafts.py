@@ -161,6 +161,10 @@ class Drafts:
             with suppress(OSError):
                 self._file(visitor).unlink(missing_ok=True)
 
+    def kept(self, visitor: str) -> bool:
+        """Whether something is kept by that name; nothing is by one that nobody can have."""
+        return bool(_VISITOR.fullmatch(visitor)) and self._file(visitor).exists()
+
     def of(self, visitor: str) -> Draft | None:
         """The draft of somebody who entered, if there is one; a damaged one is set aside.
 

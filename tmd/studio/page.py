@@ -43,7 +43,7 @@ def fragment(content: str) -> str:
 def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str:
     """A message to the visitor, read out by screen readers."""
     kind, word = ("fault", "Not done: ") if fault else ("notice", "")
-    more = f" <span class='quiet'>{escape(hint)}</span>" if hint else ""
+    more = f"<br><span class='quiet'>{escape(hint)}</span>" if hint else ""
     return fragment(f'<div class="{kind}" role="status" aria-live="polite">{word}{escape(message)}{more}</div>')
 
 

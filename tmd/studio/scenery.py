@@ -153,7 +153,7 @@ class Scenery:
     def eyes(self, picture: Picture) -> tuple[Vector, Vector]:
         """Where the robot's camera is, and what it looks at."""
         robot = picture.robot
-        return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 0.85))
+        return robot.apply((0.2, 0.0, _EYE)), robot.apply((0.9, 0.0, 1.0))
 
     def overview(self, fov: float, aspect: float, covered: float = 0.0) -> tuple[Vector, Vector]:
         """The nearest place, from the open side of the room, from where everything is seen; and what to look at.

@@ -8,7 +8,7 @@ import socket
 import time
 import warnings
 from collections.abc import Callable
-from contextlib import redirect_stdout
+from contextlib import redirect_stdout, suppress
 from importlib import import_module
 from io import StringIO
 from threading import Event, Lock, Thread
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 
 LOCAL = "127.0.0.1"
 _TRIES = 8
+_WINDOWS = 8
+"""So many windows of one browser are told from one another when they come back."""
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 
@@ -68,21 +70,26 @@ class Server:
             self._visitors[client.client_id] = visitor
 
     def _identity(self, client: ClientHandle) -> str:
-        """Who a browser is: a random name that it keeps, so that what was not saved is offered again on return."""
+        """Who a browser is: random names that it keeps, one a window, so that what was not saved is offered again.
+
+        A window takes a name of the browser that no other window has now, rather one with something that was not saved.
+        """
         try:
-            known = client.local_storage.get_item(KEY, timeout=_PATIENCE)
+            said = client.local_storage.get_item(KEY, timeout=_PATIENCE) or ""
         except (RuntimeError, TimeoutError):
-            known = None
+            said = ""
         drafts = self.studio.drafts
-        for _ in range(_TRIES if known else 0):
-            try:
-                return drafts.enter(known)
-            except TmdError:
+        names = list(dict.fromkeys(said.split(",")[:_WINDOWS])) if said else []
+        kept = [name for name in names if drafts.kept(name)]
+        for known in (kept, [name for name in names if name not in kept]):
+            for _ in range(_TRIES if known else 0):
+                for name in known:
+                    with suppress(TmdError):
+                        return drafts.enter(name)
                 time.sleep(0.2)  # the page was loaded again, and who was here has not left yet
-        if known:
-            return drafts.enter()  # a second window of the same browser, or a name that somebody made up
         identity = drafts.enter()
-        client.local_storage.set_item(KEY, identity)
+        names = list(dict.fromkeys([*kept, identity, *names]))
+        client.local_storage.set_item(KEY, ",".join(names[:_WINDOWS]))
         return identity
 
     def _leave(self, client: ClientHandle) -> None:

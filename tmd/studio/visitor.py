@@ -42,7 +42,7 @@ BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 ALOUD = 8.0
 """Seconds that a message over the view stays."""
 KEY = "tmd-visitor"
-"""Under this name a browser keeps which visitor it is."""
+"""Under this name a browser keeps which visitors its windows are."""
 
 
 class Visitor:
@@ -260,7 +260,7 @@ class Visitor:
         if not (fault or aloud):
             return
         title, colour = ("Not done", ORANGE) if fault else ("tmd studio", BLUE)
-        said = " ".join(filter(None, (message, hint)))
+        said = " – ".join(filter(None, (message, hint)))
         with self._voice:
             if self._aloud is not None:
                 self._aloud.remove()
