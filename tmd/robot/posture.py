@@ -33,8 +33,6 @@ _FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
 """Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 _YAWS = 8
-_MOST_CARRIED, _MOST_RAISED = 40, 8
-"""So many ways that are not straight are searched for what is held, and for an empty hand that cannot be tucked."""
 TUCK_BUDGET = 300
 """Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
 
@@ -57,8 +55,8 @@ def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
 
 def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
     if robot.held(side) is not None:
-        return _in_front(robot, side) or _carry(robot, side, budget // 3, _MOST_CARRIED)
-    return _fold(robot, side, budget) or _carry(robot, side, budget // 3, _MOST_RAISED)
+        return _in_front(robot, side) or _carry(robot, side, budget // 3)
+    return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
 
 
 def _fold(robot: Pr2, side: str, budget: int) -> bool:
@@ -84,12 +82,8 @@ def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
     return [usual] if free else [other for other, clear in zip(others, rest, strict=True) if clear][:_MOST_FOLDED]
 
 
-def _carry(robot: Pr2, side: str, budget: int, most: int) -> bool:
-    """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible.
-
-    Straight ways cost little, and all are looked at; of other ways ``most``.
-    """
-    searches = 0
+def _carry(robot: Pr2, side: str, budget: int) -> bool:
+    """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
     for place in _tool_places(now, side):
@@ -98,10 +92,7 @@ def _carry(robot: Pr2, side: str, budget: int, most: int) -> bool:
             if robot.collides(side=side, arm=goal):
                 continue
             line = plan_line(robot, side, robot.tool(side), tool, arm=robot.arm(side))
-            path = line[1:] if line else None
-            if path is None and searches < most:
-                searches += 1
-                path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
             if path is not None:
                 return robot.move_arm(side, path)
     return False
