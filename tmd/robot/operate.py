@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from math import copysign, cos, pi, sin
 
 from tmd.robot.cell import Cell
@@ -37,10 +36,7 @@ _LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0), (1.0, 1.0))
 """The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
 _STRUCK = 0.004
 """Metres that a lid may be in a hand on its way."""
-_AWAY = 0.06
-"""Metres that a hand should get straight away from a lid."""
-_PULLED, _PUSHED, _FREED = 0, 1, 2
-"""What is done with a handle: the last is to pull it, with the way out as the last pose."""
+_PULLED, _PUSHED = 0, 1
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
     Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
@@ -163,14 +159,8 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
             pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
             ways += _ways(handle, pushed, goal - start, _PUSHES)
         found = [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
-        options += _lifting(_beside(cell, handle, goal, found)) if handle.kind == "lid" else found
+        options += _beside(cell, handle, goal, found) if handle.kind == "lid" else found
     return options
-
-
-def _lifting(options: Sequence[Option]) -> list[Option]:
-    """Ways to lift a lid, those first at whose end the hand gets straight away from it: what lets go must not hook."""
-    away = [replace(o, poses=(*o.poses, o.poses[-1] * Pose((-_AWAY, 0.0, 0.0))), spot=_FREED) for o in options]
-    return [*away, *options]
 
 
 def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) -> list[Option]:
@@ -248,7 +238,7 @@ def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
             raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
     try:
         with cell.gripped(side, handle):
-            follow(cell, side, option.poses[2 : -1 if option.spot == _FREED else None], option.ignore)
+            follow(cell, side, option.poses[2:], option.ignore)
     finally:
         cell.robot.open_gripper(side, handle.opening)
 
