@@ -7,9 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from tmd.errors import Location, TmdError
-from tmd.pddl.check import check_domain
 from tmd.pddl.model import Domain, Problem
-from tmd.pddl.reader import parse_domain_unchecked
+from tmd.pddl.reader import read_domain
 from tmd.pddl.syntax import Report, nearest, read_text
 from tmd.world.classes import Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
@@ -88,13 +87,10 @@ def check_planviz(path: Path) -> None:
 
 def _instructions(folder: DomainFolder) -> Domain | None:
     """The hand-written domain that classes are compiled into; ``None`` where it has faults, which are told anyway."""
-    path = folder.instructions_path
     try:
-        domain, source = parse_domain_unchecked(read_text(path), str(path))
+        return read_domain(folder.instructions_path)
     except TmdError:
         return None
-    faults = [fault for fault in check_domain(domain, source) if fault.code != "missing-requirement"]
-    return None if faults else domain
 
 
 def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:

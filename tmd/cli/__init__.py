@@ -5,8 +5,12 @@ Nothing heavy is imported before a command needs it: ``tmd --help`` is to be the
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
+
+ALLOCATIONS = 100_000
+"""Python looks for cycles after so many new objects: parse trees grow quickly, and hold none."""
 
 
 def main() -> None:
@@ -14,6 +18,9 @@ def main() -> None:
     # its matrices are small: on busy processors the threads of BLAS wait for one another ten times as long as they work
     for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(variable, "1")
+    # we have no plugins of pydantic, and to look for some among all that is installed takes longer than a small file
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
+    gc.set_threshold(ALLOCATIONS)
     from tmd.cli.program import run
 
     sys.exit(run(sys.argv[1:]))

@@ -122,7 +122,7 @@ _Path = tuple[str | int, ...]
 
 
 class _KindEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
 
     types: _Words
     called: _Words = ()
@@ -130,7 +130,7 @@ class _KindEntry(BaseModel):
 
 
 class _TemplateEntry(BaseModel):
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
 
     verb: _Words
     objects: _Words = ()
@@ -143,7 +143,7 @@ class _TemplateEntry(BaseModel):
 
 
 class _File(BaseModel):
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
 
     kinds: dict[str, _KindEntry] = {}
     verbs: dict[str, _Words] = {}

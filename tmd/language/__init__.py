@@ -1,10 +1,19 @@
-"""Text to verb clauses, and nouns to the things of an environment (section III-A of the paper)."""
+"""Text to verb clauses, and nouns to the things of an environment (section III-A of the paper).
+
+The parser is imported when it is first used: who reads only a lexicon does not wait for the grammar.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.language.lexicon import Lexicon
 from tmd.language.notation import clause_json, print_clause, read_clause
-from tmd.language.parse import parse
 from tmd.language.segments import by_segment, segments
+
+if TYPE_CHECKING:
+    from tmd.language.parser import parse
 
 __all__ = [
     "Clause",
@@ -20,3 +29,12 @@ __all__ = [
     "read_clause",
     "segments",
 ]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the module
+    """The parser, imported now."""
+    if name == "parse":
+        from tmd.language.parser import parse
+
+        return parse
+    raise AttributeError(f"module 'tmd.language' has no attribute '{name}'")

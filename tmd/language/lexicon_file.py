@@ -91,7 +91,7 @@ def read_lexicon(path: Path) -> Lexicon:
         raise TmdError(f"cannot read the lexicon {path}: {reason}") from None
     source = _Source(path, text)
     try:
-        node = yaml.compose(text, Loader=yaml.SafeLoader)
+        node = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # libyaml where it is built in
     except yaml.MarkedYAMLError as error:
         source.fail(error.problem_mark, f"broken YAML: {error.problem}")
     except yaml.YAMLError as error:

@@ -7,9 +7,10 @@ open. Where faults are collected, each is mended in the way that explains the re
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
-from tmd.errors import Location
+from tmd.errors import Location, TmdError
 from tmd.pddl.syntax import TOKEN, Document, Group, Node, Report, Source, Word, split_lines
 
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
@@ -21,6 +22,8 @@ _SECTIONS = frozenset(
     }
 )  # fmt: skip
 """Keywords that begin a section, and nothing else."""
+_MOST_KEPT = 200_000
+"""The groups of longer texts, in characters, are not kept for the next reader."""
 _MOST_FAULTS = 100
 """After so many faults of parentheses the rest of a text tells nothing."""
 
@@ -50,6 +53,23 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
     Raises:
         TmdError: A parenthesis is missing or left over, or a word stands outside all parentheses.
     """
+    if len(text) <= _MOST_KEPT:
+        try:
+            document = _faultless(text, file)
+        except TmdError:
+            pass  # read again, so that all faults are told
+        else:
+            return replace(document, source=replace(document.source, report=report))
+    return _split(text, file, report)
+
+
+@lru_cache(maxsize=8)
+def _faultless(text: str, file: str) -> Document:
+    """The groups of a text without faults, kept: a domain is read several times while it is checked or compiled."""
+    return _split(text, file, None)
+
+
+def _split(text: str, file: str, report: Report | None) -> Document:
     source = Source(file, split_lines(text), report)
     parser = _Parser(source)
     for number, line in enumerate(source.lines, start=1):

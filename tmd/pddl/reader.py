@@ -7,6 +7,7 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -75,6 +76,12 @@ def read_problem(path: str | Path, domain: Domain) -> Problem:
 
 def parse_domain(text: str, file: str = "<text>") -> Domain:
     """The domain that ``text`` describes; ``file`` names it in errors."""
+    return _faultless_domain(text, file)
+
+
+@lru_cache(maxsize=8)
+def _faultless_domain(text: str, file: str) -> Domain:
+    """The same, kept: compiling, checking and grounding read the same domain in one run."""
     domain, source = parse_domain_unchecked(text, file)
     _raise_first(check_domain(domain, source))
     return domain

@@ -37,7 +37,7 @@ _ROLES = ("object", "target", "relation", "setting")
 class SkillEntry(BaseModel):
     """One action's skill; each role is a parameter of the action (without its ``?``) or a constant of the domain."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     skill: SkillName
     object: str | None = None
     target: str | None = None
@@ -49,7 +49,7 @@ class SkillEntry(BaseModel):
 class SkillsFile(BaseModel):
     """The whole of ``skills.yaml``."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     skills: dict[str, SkillEntry]
     seen: dict[str, Sensor] = {}
     confirmed: dict[str, Confirmation] = {}

@@ -43,7 +43,7 @@ class Shape(BaseModel):
         settings: Of a knob: the names of its settings, in the order of its angle.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
     kind: str = Field(pattern=NAME)
     size: tuple[Length, Length, Length] | None = None
     colour: str | None = Field(default=None, pattern=COLOUR)
@@ -61,7 +61,7 @@ class Shape(BaseModel):
 class PartEntry(BaseModel):
     """One part of a class, as ``objects.yaml`` says it."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     class_name: str = Field(alias="class", pattern=NAME)
     facts: list[str] = []
     init: list[str] = []
@@ -72,7 +72,7 @@ class PartEntry(BaseModel):
 class ClassEntry(BaseModel):
     """One class, as ``objects.yaml`` says it."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     parent: str | None = Field(default=None, pattern=NAME)
     facts: list[str] = []
     init: list[str] = []
@@ -85,7 +85,7 @@ class ClassEntry(BaseModel):
 class ObjectsFile(BaseModel):
     """The whole of ``objects.yaml``."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     substances: dict[str, str] = {}
     facts: list[str] = []
     init: list[str] = []

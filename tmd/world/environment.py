@@ -37,7 +37,7 @@ Position = tuple[float, float, float]
 class ObjectEntry(BaseModel):
     """One object, as an environment file says it."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     class_name: str = Field(alias="class", pattern=NAME)
     at: str | None = None
     states: dict[str, StateValue] = {}
@@ -48,7 +48,7 @@ class ObjectEntry(BaseModel):
 class EnvironmentFile(BaseModel):
     """The whole of an environment file."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(defer_build=True, extra="forbid")
     name: str = Field(pattern=NAME)
     domain: str
     about: str = ""

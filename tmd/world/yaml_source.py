@@ -89,7 +89,7 @@ class YamlSource:
         if self._root is None:
             raise TmdError(f"{self.path}: the file is empty", code="empty-file")
         try:
-            return model.model_validate(yaml.load(self.text, Loader=_Loader))
+            return model.model_validate(self._data())
         except yaml.MarkedYAMLError as error:
             raise self._from_yaml(error) from None
         except ValidationError as error:
@@ -97,6 +97,14 @@ class YamlSource:
             for other in others if self.report is not None else ():
                 self.fault(other)
             raise first from None
+
+    def _data(self) -> object:
+        """What the nodes stand for, without reading the text again."""
+        loader = _Loader("")
+        try:
+            return loader.construct_document(self._root)
+        finally:
+            loader.dispose()
 
     def error(
         self, path: Sequence[str | int], message: str, hint: str | None = None, code: str = "bad-value"
