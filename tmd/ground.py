@@ -11,10 +11,9 @@ Read this first; each call goes to the room of that name (the boxes of Figure 3 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
-from importlib.util import find_spec
 
 from tmd.energy.energy import Energy
 from tmd.energy.factors import AKIN
@@ -27,9 +26,8 @@ from tmd.language import parse
 from tmd.language.clause import Parsed
 from tmd.pddl.syntax import nearest
 from tmd.pddl.validator import Verdict, validate
-from tmd.planning.backends import FAST_DOWNWARD_FIRST, IN_PROCESS, make
+from tmd.planning.backends import IN_PROCESS, last_resort, make
 from tmd.planning.filler import QUICK
-from tmd.planning.result import Planner
 from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
 from tmd.veil.world import World
@@ -137,17 +135,10 @@ def ground(
         few=FEW,
         guess=False,
         goal_filler=make(planner, world.task, cap=QUICK) if planner == IN_PROCESS else None,
-        last_resort=_last_resort(planner, world),
+        last_resort=partial(last_resort, world.task) if planner == IN_PROCESS else None,
     )
     inferred = inference.infer(parsed.clauses, world.task.init)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     plans = tuple(plan for plan in inferred.plans if plan.instructions or len(unseen) < len(parsed.clauses))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
     return Grounded(parsed, plans, verdicts, inferred.refusals, unseen)
-
-
-def _last_resort(planner: str, world: World) -> Callable[[], Planner] | None:
-    """Where nobody asked for another planner and Fast Downward is installed: the first plan that it finds."""
-    if planner != IN_PROCESS or find_spec("up_fast_downward") is None:
-        return None
-    return partial(make, FAST_DOWNWARD_FIRST, world.task)

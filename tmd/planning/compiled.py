@@ -11,9 +11,9 @@ from functools import cache
 from hashlib import sha256
 from pathlib import Path
 from types import FunctionType
-from typing import TYPE_CHECKING, Any, NamedTuple, cast
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
-from tmd.planning import kernel, landmarks, relaxation, states
+from tmd.planning import greedy, kernel, landmarks, relaxation, states
 from tmd.planning.relaxation import Goal
 from tmd.planning.tables import Ints, Tables
 
@@ -22,14 +22,19 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+SearchFunction: TypeAlias = Callable[[Tables, Goal, Ints, int], tuple[int, int, int, Ints]]
+"""Status, bound, generated states and plan, for tables, goal, start and the greatest number of generated states."""
+
+
 class Functions(NamedTuple):
     """The entry points of the kernel."""
 
     prepared: Callable[[Tables, Ints, Ints, Ints, Ints], Goal]
-    search: Callable[[Tables, Goal, Ints, int], tuple[int, int, int, Ints]]
+    search: SearchFunction
+    search_any: SearchFunction
 
 
-MODULES = (states, relaxation, landmarks, kernel)
+MODULES = (states, relaxation, landmarks, kernel, greedy)
 """The modules that make up the kernel, each before those that use it."""
 
 REPLACED = frozenset({"zeros", "grown"})
@@ -64,7 +69,7 @@ def compiled() -> Functions:
                 twin = FunctionType(member.__code__, namespace, name)
                 twin.__module__, twin.__qualname__ = module.__name__, f"{name}_{version}"
                 namespace[name] = jit(twin)
-    return Functions(namespace["prepared"], namespace["search"])
+    return Functions(namespace["prepared"], namespace["search"], namespace["search_any"])
 
 
 def digest() -> str:

@@ -1,4 +1,4 @@
-"""Optimal search over the bit sets of one task: the in-process planner, without any cache.
+"""Search over the bit sets of one task, optimal or content with any plan: the in-process planner, without any cache.
 
 The kernel runs compiled where numba is installed and as plain Python elsewhere; the answers are the same.
 """
@@ -11,8 +11,8 @@ from typing import Literal
 
 from tmd.errors import MissingToolError, TmdError
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning import kernel
-from tmd.planning.compiled import Functions, array, arrays, compiled
+from tmd.planning import greedy, kernel
+from tmd.planning.compiled import Functions, SearchFunction, array, arrays, compiled
 from tmd.planning.reachability import unreachable_reason
 from tmd.planning.relaxation import Goal, prepared
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
@@ -52,6 +52,8 @@ class OptimalSearch:
         TmdError: There is no such back-end, or the cap is not positive.
     """
 
+    patience = PATIENCE
+
     def __init__(self, task: Task, *, backend: Backend = "auto", cap: int = DEFAULT_CAP) -> None:
         if cap < 1:
             raise TmdError(f"the cap on generated states must be at least 1, found {cap}")
@@ -60,11 +62,11 @@ class OptimalSearch:
         self.backend = chosen(backend)
         self.generated = 0
         self.steps: tuple[int, ...] = ()
-        self._patience = PATIENCE if backend == "auto" and self.backend == "numba" else 0
-        self._kernel = _kernel(task, "python" if self._patience else self.backend)
+        self._patience = self.patience if backend == "auto" and self.backend == "numba" else 0
+        self._kernel = self._made("python" if self._patience else self.backend)
 
     def fill(self, state: Bits, goal: Sequence[Cube], cap: int | None = None) -> Answer:
-        """The cheapest instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
+        """The missing instructions from ``state`` to any cube of ``goal``; ``cap`` replaces the usual one."""
         self.generated, self.steps = 0, ()
         limit = self.cap if cap is None else cap
         cubes = tuple(cube for cube in goal if not cube.positive & cube.negative)
@@ -85,10 +87,33 @@ class OptimalSearch:
             result = self._kernel.run(state, cubes, small)
             self._patience -= result[1] + QUESTION
             if self._patience <= 0:
-                self._kernel = _kernel(self.task, self.backend)
+                self._kernel = self._made(self.backend)
             if result[0] != kernel.CAPPED or small == cap:
                 return result
         return self._kernel.run(state, cubes, cap)
+
+    def _made(self, backend: str) -> _Kernel:
+        """The kernel in one of its forms."""
+        if backend == "python":
+            functions = Functions(prepared, kernel.search, greedy.search_any)
+            return _Kernel(build(self.task), functions, self._entry(functions), list)
+        functions = compiled()
+        return _Kernel(arrays(build(self.task)), functions, self._entry(functions), array)
+
+    def _entry(self, functions: Functions) -> SearchFunction:
+        return functions.search
+
+
+class FirstSearch(OptimalSearch):
+    """Finds any plan, greedily: for what is too much for :class:`OptimalSearch`. Its answers repeat as well.
+
+    It goes on for better plans, and in plain Python that takes longer than loading numba: ``auto`` does so at once.
+    """
+
+    patience = 0
+
+    def _entry(self, functions: Functions) -> SearchFunction:
+        return functions.search_any
 
 
 def replayed(task: Task, state: Bits, steps: Sequence[int]) -> Filled:
@@ -116,9 +141,12 @@ def chosen(backend: str) -> Literal["numba", "python"]:
 class _Kernel:
     """Calls the kernel with a question in flat form, and keeps what it works out about goals."""
 
-    def __init__(self, tables: Tables, functions: Functions, pack: Callable[[Ints], Ints]) -> None:
+    def __init__(
+        self, tables: Tables, functions: Functions, search: SearchFunction, pack: Callable[[Ints], Ints]
+    ) -> None:
         self._tables = tables
         self._functions = functions
+        self._search = search
         self._pack = pack
         self._goals: dict[tuple[Cube, ...], Goal] = {}
 
@@ -127,7 +155,7 @@ class _Kernel:
         goal = self._goals.pop(cubes, None) or self._prepared(cubes)
         self._goals[cubes] = goal
         start = self._pack(words_of(state, self._tables.words))
-        status, _, generated, plan = self._functions.search(self._tables, goal, start, cap)
+        status, _, generated, plan = self._search(self._tables, goal, start, cap)
         return int(status), int(generated), tuple(int(step) for step in plan)
 
     def _prepared(self, cubes: tuple[Cube, ...]) -> Goal:
@@ -141,9 +169,3 @@ class _Kernel:
         return self._functions.prepared(
             self._tables, self._pack(positive), self._pack(negative), self._pack(fact_start), self._pack(fact)
         )
-
-
-def _kernel(task: Task, backend: str) -> _Kernel:
-    if backend == "python":
-        return _Kernel(build(task), Functions(prepared, kernel.search), list)
-    return _Kernel(arrays(build(task)), compiled(), array)

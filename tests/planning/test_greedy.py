@@ -1,0 +1,100 @@
+"""The search that is content with any plan: what it finds works, and what it does not find is not there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import pytest
+from hypothesis import given, settings
+
+from tmd.errors import TmdError
+from tmd.pddl.task import Cube, Task
+from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, InTurn, last_resort, make
+from tmd.planning.eliminate import eliminate
+from tmd.planning.greedy import ENTRY, put, take
+from tmd.planning.result import Filled, GaveUp, Unreachable
+from tmd.planning.search import FirstSearch, OptimalSearch, replayed
+
+from .test_search import canonical, random_tasks
+
+
+@settings(max_examples=300, deadline=None)
+@given(random_tasks())
+def test_a_plan_is_found_where_there_is_one_and_it_works(task: Task) -> None:
+    search = FirstSearch(task, backend="python")
+    answer = search.fill(task.init, task.goal)
+    expected = canonical(task, task.init, task.goal)
+    if expected is None:
+        assert isinstance(answer, Unreachable)
+        return
+    assert isinstance(answer, Filled)
+    assert answer == replayed(task, task.init, search.steps)
+    assert any(cube.holds(answer.state) for cube in task.goal) and answer.cost >= expected[0]
+    state = task.init
+    for instruction in answer.plan:
+        assert task.by_instruction[instruction].applicable(state)
+        state = task.by_instruction[instruction].apply(state)
+    assert state == answer.state
+
+
+def test_both_forms_find_the_same_plan(any_kitchen: Callable[[str], Task]) -> None:
+    pytest.importorskip("numba", reason="needs numba")
+    task = any_kitchen("kitchen3")
+    goals = [Cube(1 << atom) for atom in range(0, len(task.atoms), 17)]
+    slow, quick = FirstSearch(task, backend="python", cap=30), FirstSearch(task, backend="numba", cap=30)
+    for goal in goals:
+        assert slow.fill(task.init, (goal,)) == quick.fill(task.init, (goal,))
+        assert (slow.generated, slow.steps) == (quick.generated, quick.steps)
+
+
+def test_its_plans_of_what_the_optimal_search_can_do_are_little_dearer(any_kitchen: Callable[[str], Task]) -> None:
+    task = any_kitchen("kitchen2")
+    optimal, first = OptimalSearch(task), FirstSearch(task)
+    least, found = 0, 0
+    for atom in range(0, len(task.atoms), 11):
+        best = optimal.fill(task.init, (Cube(1 << atom),), 2_000)
+        if isinstance(best, Filled):
+            any_plan = first.fill(task.init, (Cube(1 << atom),))
+            assert isinstance(any_plan, Filled)
+            least, found = least + best.cost, found + any_plan.cost
+    assert least > 50 and least <= found <= 1.2 * least
+
+
+def test_a_line_gives_the_least_first_and_equals_in_order_of_arrival() -> None:
+    values = [5, 3, 8, 3, 1, 5, 9, 1, 1, 0, 7, 3]
+    line, count = [0] * ENTRY, [0, 0]
+    for number, value in enumerate(values):
+        line = put(line, count, value, number, -number)
+    left = [take(line, count) for _ in values]
+    assert count[0] == 0 and all(operator == -node for node, operator in left)
+    assert all((values[a], a) < (values[b], b) for (a, _), (b, _) in pairwise(left))
+
+
+def test_who_is_asked_next_is_asked_only_where_the_one_before_gave_up(any_kitchen: Callable[[str], Task]) -> None:
+    task = any_kitchen("kitchen1")
+    optimal = make(IN_PROCESS, task, cap=2_000)
+    goals = [(Cube(1 << atom),) for atom in range(0, len(task.atoms), 11)]
+    answers = [(optimal.fill(task.init, goal), goal) for goal in goals]
+    goal = next(goal for answer, goal in answers if isinstance(answer, Filled) and answer.cost > 4)
+    assert isinstance(make(IN_PROCESS, task, cap=1).fill(task.init, goal), GaveUp)
+    first = make(IN_PROCESS_FIRST, task).fill(task.init, goal)
+    assert isinstance(first, Filled)
+    assert InTurn(task, ((IN_PROCESS, 1), (IN_PROCESS_FIRST, None))).fill(task.init, goal) == first
+    assert InTurn(task, ((IN_PROCESS_FIRST, None), ("nobody", None))).fill(task.init, goal) == first
+    with pytest.raises(TmdError, match="nobody"):
+        InTurn(task, ((IN_PROCESS, 1), ("nobody", None))).fill(task.init, goal)
+    assert isinstance(InTurn(task, ((IN_PROCESS, 1),)).fill(task.init, goal), GaveUp)
+
+
+def test_the_last_resort_answers_what_the_optimal_search_gives_up_on(any_kitchen: Callable[[str], Task]) -> None:
+    task = any_kitchen("kitchen3")
+    wanted = [a for a in task.atoms if a.predicate == "contains" and a.args[-1] == "cooked_ramen"]
+    if not wanted:
+        pytest.skip("nothing is cooked in this kitchen")
+    goal = (Cube(1 << task.index[wanted[0]]),)
+    assert isinstance(OptimalSearch(task).fill(task.init, goal, 500), GaveUp)
+    answer = last_resort(task).fill(task.init, goal)
+    assert isinstance(answer, Filled)
+    shorter = eliminate(answer.plan, task, task.init, goal)
+    assert goal[0].holds(answer.state) and len(shorter) <= len(answer.plan)
