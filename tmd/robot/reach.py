@@ -43,8 +43,8 @@ _ALIKE = 0.15
 """Metres between places that are as good as one."""
 MOST_TRIES = 6
 """So many stances are driven to before a skill gives up."""
-_SQUEEZED = 0.008
-"""Metres that the base keeps from things where it cannot keep more."""
+_WAYS = ((0.05, 1.0), (0.02, 0.4), (0.008, 0.4))
+"""Metres that the base keeps from things, best first, and its pace there: where it keeps less, it drives exactly."""
 _COARSE = 4.0
 _SHORT, _LONG = 300, 2000
 """Samples for a way of the arm: where there are other stances to try, and where there is none."""
@@ -255,12 +255,11 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
         cell.fold()
         if abs(cell.robot.torso() - torso) > 0.005 and not _sticks(cell, torso):
             _lift(cell, torso)  # there it may be below a shelf
-        path = plan_base(cell.robot, base, rng=cell.rng)
-        if path is None:  # between furniture there may be less room
-            path = plan_base(cell.robot, base, rng=cell.rng, clearance=_SQUEEZED)
+        ways = ((plan_base(cell.robot, base, rng=cell.rng, clearance=away), pace) for away, pace in _WAYS)
+        path, pace = next(((path, pace) for path, pace in ways if path is not None), (None, 1.0))
         if path is None:
             raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
-        if not cell.robot.drive(path):
+        if not cell.robot.drive(path, pace=pace):
             raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
     if abs(cell.robot.torso() - torso) > 0.005:
         _lift(cell, torso)
