@@ -25,6 +25,8 @@ _SETTING_SHARE = 0.25
 
 _BACK = (0.1, 0.05, 0.025)
 """Metres that a hand is drawn back from what it worked, best first."""
+_PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
+"""Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
 _LONG = 2000
 """Samples for a way of the arm where there is no other place to tuck it."""
 _STEPS_BACK = (0.12, 0.25, 0.4)
@@ -162,11 +164,16 @@ class Cell:
                 return True
         return self.robot.tuck(_LONG)
 
-    def retire(self, side: str, ignore: Ignored) -> None:
-        """Draw a hand back the way it points, and tuck the arms."""
+    def retire(self, side: str, ignore: Ignored, *, lid: bool = False) -> None:
+        """Draw a hand back the way it points, and tuck the arms.
+
+        A hand that let go of a ``lid`` may as well leave it across: any other way would take along what it stands on.
+        """
         here = self.robot.tool(side)
-        for share in _BACK:
-            path = plan_line(self.robot, side, here, here * Pose((-share, 0.0, 0.0)), ignore=ignore)
+        back: list[tuple[Vector, Ignored]] = [((-away, 0.0, 0.0), ignore) for away in _BACK]
+        across: list[tuple[Vector, Ignored]] = [(away, ()) for away in _PAST]  # without pushing the lid
+        for away, touched in (*back[:2], *(across if lid else ()), *back[2:]):
+            path = plan_line(self.robot, side, here, here * Pose(away), ignore=touched)
             if path is not None:
                 self.robot.move_arm(side, path)
                 break

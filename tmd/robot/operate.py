@@ -104,7 +104,7 @@ def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
         accept=_out_of_its_way(cell, name, handle),
     )
     _pull(cell, name, _handle(cell, name), chosen)
-    cell.retire(chosen.side, chosen.ignore)
+    cell.retire(chosen.side, chosen.ignore, lid=handle.kind == "lid")
 
 
 def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
