@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from copy import copy
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
+from tmd.pddl.grounding import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.semantics import apply
+from tmd.robot.detour import Setbacks, without
 from tmd.robot.execute import MOST_REPAIRS, Executor
 from tmd.robot.observe import Observer
 from tmd.robot.outcome import Execution, SkillError, Stage, Status, Step
@@ -227,3 +232,102 @@ def test_random_trouble_is_never_claimed_as_success(corpus: Corpus, demonstratio
         if done.status is not Status.STOPPED:
             assert set(wanted(corpus, demonstrations[number])) <= truth.state
     assert Status.RECOVERED in ended
+
+
+def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
+    corpus: Corpus, demonstrations: list[Demonstration]
+) -> None:
+    """Nobody gets a spoon into a jar that stands somewhere: it is not tried for ever, but moved."""
+    scoops = next(d for d in demonstrations if any(i.name == "scoopfrom" for i in d.instructions))
+    start: list[tuple[str, str]] = []
+
+    def too_far_in(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "scoopfrom" and (place := truth.support(instruction.args[1])) is not None:
+            start.append(place)
+            if place == start[0]:
+                raise SkillError(Stage.STANCE, "no place to stand")
+        return False
+
+    done, truth, _ = run(corpus, scoops, too_far_in)
+    assert start, "the jar was in a hand from the beginning"
+    assert done.status is Status.RECOVERED, done.reason
+    failures = [step for step in done.steps if step.failure]
+    assert [step.instruction.name for step in failures] == ["scoopfrom"]
+    assert set(wanted(corpus, scoops)) <= truth.state
+
+
+def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """How a thing is held is no fact of PDDL: what cannot be put down somewhere is put elsewhere and taken anew."""
+
+    def into(instruction: Instruction) -> bool:
+        return instruction.name == "keep" and instruction.args[1:] == ("microwave1", "in")
+
+    heats = next(d for d in demonstrations if any(map(into, d.instructions)))
+    taken: list[str] = []
+
+    def bad_grip(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "grasp":
+            taken.append(instruction.args[0])
+        if into(instruction):
+            now = taken.count(instruction.args[0])
+            if now == grips.setdefault(instruction.args[0], now):
+                raise SkillError(Stage.STANCE, "the hand does not fit in")
+        return False
+
+    grips: dict[str, int] = {}
+    done, truth, _ = run(corpus, heats, bad_grip)
+    assert grips
+    assert done.status is Status.RECOVERED, done.reason
+    assert sum(bool(step.failure) for step in done.steps) == len(grips)
+    assert set(wanted(corpus, heats)) <= truth.state
+
+
+def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """One instruction never works; what the plan is for is brought about by others, or the robot stops and says so."""
+    ended = []
+    for number in range(0, len(demonstrations), 70):
+        chosen = demonstrations[number]
+        broken = next((i for i in chosen.instructions if i.name == "keep"), None)
+        if broken is None:
+            continue
+
+        def never(truth: Truth, instruction: Instruction, broken: Instruction = broken) -> bool:
+            if instruction == broken:
+                raise SkillError(Stage.PRECONDITION, "there is no room")
+            return False
+
+        done, truth, _ = run(corpus, chosen, never)
+        ended.append(done.status)
+        assert not any(step.instruction == broken and not step.failure for step in done.steps)
+        if done.status is not Status.STOPPED:
+            assert set(wanted(corpus, chosen)) <= truth.state
+    assert ended
+
+
+@given(data=st.data())
+@settings(max_examples=25, deadline=None)
+def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Corpus, data: st.DataObject) -> None:
+    """Random walks: as long as the facts of a setback hold, the task without it lacks that instruction; no other."""
+    task = ground(corpus.world("kitchen4").task.problem)
+    skills = load_skills(corpus.folder)
+    state = task.init
+    for _ in range(data.draw(st.integers(0, 6))):
+        state = data.draw(st.sampled_from([o for o in task.operators if o.applicable(state)])).apply(state)
+    task = replace(task, init=state)
+    tried = data.draw(st.sampled_from([o for o in task.operators if o.applicable(state)])).instruction
+    setbacks = Setbacks(skills.seen)
+    setbacks.failed(tried, task.decode(state), Stage.STANCE)
+    assume(setbacks.standing)
+    facts = task.encode(setbacks.standing[0].facts)
+    others = without(task, setbacks.standing)
+    marked, unchanged = others.init, True
+    for _ in range(8):
+        allowed = {o.instruction for o in others.operators if o.applicable(marked)}
+        plain = {o.instruction for o in task.operators if o.applicable(state)}
+        assert plain - allowed == ({tried} if unchanged and tried in plain else set())
+        assert allowed <= plain
+        chosen = data.draw(st.sampled_from(sorted(allowed)))
+        state = task.by_instruction[chosen].apply(state)
+        marked = others.by_instruction[chosen].apply(marked)
+        unchanged = unchanged and state & facts == facts
+        assert marked & (1 << len(task.atoms)) - 1 == state

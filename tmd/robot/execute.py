@@ -10,14 +10,18 @@ from tmd.energy.constraints import get_constraints
 from tmd.pddl.grounding import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply, first_broken
-from tmd.pddl.task import Bits, Cube, Operator
+from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Unreachable
+from tmd.planning.search import DEFAULT_CAP
+from tmd.robot.detour import Setback, Setbacks, careful, without
 from tmd.robot.observe import Mismatch, Observer
 from tmd.robot.outcome import Execution, SkillError, Status, Step
 
 MOST_REPAIRS = 6
 """So often a plan is mended before the robot stops."""
+_ANEW = 1000
+"""Generated states after which the search for another plan to the same end gives up."""
 
 
 class Performer(Protocol):
@@ -78,6 +82,8 @@ class Executor:
         """Carry out ``plan``."""
         self._steps: list[Step] = []
         self._repairs = 0
+        self._setbacks = Setbacks(self.observer.skills.seen)
+        self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
         state = self.observer.now(self.problem.init)
         wanted = self._wanted(plan, state)
         waiting = [(instruction, False) for instruction in plan]
@@ -104,7 +110,7 @@ class Executor:
             mended = self._mend(state, [i for i, _ in waiting], wanted)
             if isinstance(mended, str):
                 return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
-            waiting = [(instruction, True) for instruction in mended] + waiting
+            waiting = mended
         status = Status.RECOVERED if self._repairs else Status.DONE
         return Execution(status, "", tuple(self._steps), self._repairs, state)
 
@@ -120,7 +126,9 @@ class Executor:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
             failure = str(error)
+            self._setbacks.failed(instruction, state, error.stage)
         now = self.observer.after(state, instruction, happened=not failure)
+        self._setbacks.observed(now)
         mismatches = self.observer.mismatches(predicted, now)
         confirmed = tuple(sorted((predicted - state) & now))
         step = Step(
@@ -131,27 +139,40 @@ class Executor:
             self.watch(step)
         return step, now
 
-    def _mend(self, state: State, waiting: Sequence[Instruction], wanted: _Wanted) -> list[Instruction] | str:
-        """Instructions that make what is waiting executable, or bring about what is missing; or why not."""
+    def _mend(
+        self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | str:
+        """What is to be done now, each with whether it is a repair; or why there is no way.
+
+        What could not be done is avoided where that is possible. Where it is not, it is tried again.
+        """
         task = ground(replace(self.problem, init=state))
-        operators = [task.by_instruction.get(instruction) for instruction in waiting]
-        known = [operator for operator in operators if operator is not None]
-        if len(known) < len(operators):
-            lost = next(i for i, o in zip(waiting, operators, strict=True) if o is None)
-            return f"{lost} can no longer be done"
-        if waiting and _runs(known, task.init):
-            return []
-        if waiting:
-            goal = get_constraints(known)[0]
-        else:
-            needed, spoiled = (task.encode(frozenset(atoms)) for atoms in wanted)
-            goal = (Cube(needed, spoiled),)
-        answer = make(self.planner, task).fill(task.init, goal)
-        if isinstance(answer, Filled):
-            return list(answer.plan)
-        if isinstance(answer, Unreachable):
-            return f"the plan cannot be mended: {answer.reason}"
-        return f"no way to mend the plan was found: {answer.limit}"
+        around = self._around(task, waiting, wanted)
+        if around is not None:
+            return around
+        plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
+        way = _missing(self.planner, plain, waiting, wanted)
+        return way if isinstance(way, str) else _joined(way, waiting)
+
+    def _around(
+        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | None:
+        """A way round the setbacks, if there are any and there is one.
+
+        All that is waiting is done all the same; or what comes next is left out, and others do for it; or what the
+        plan is for is brought about in quite another way.
+        """
+        question = tuple(self._setbacks.standing), tuple(waiting)
+        if not self._setbacks.standing or question in self._hopeless:
+            return None
+        # setbacks are no part of the PDDL that other planners are given
+        chances = without(careful(task, self.observer.skills), self._setbacks.standing)
+        for rest in dict.fromkeys((question[1], question[1][1:], ())):
+            way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _ANEW)
+            if not isinstance(way, str):
+                return _joined(way, rest)
+        self._hopeless.add(question)
+        return None
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
         """What the plan is for: the facts that it brings about, and those that it ends."""
@@ -176,6 +197,35 @@ class Executor:
 
 
 _Wanted = tuple[frozenset[GroundAtom], frozenset[GroundAtom]]
+
+
+def _missing(
+    planner: str, task: Task, waiting: Sequence[Instruction], wanted: _Wanted, cap: int = DEFAULT_CAP
+) -> Sequence[Instruction] | str:
+    """Instructions that make what is waiting executable, or bring about what is missing; or why not."""
+    operators = [task.by_instruction.get(instruction) for instruction in waiting]
+    known = [operator for operator in operators if operator is not None]
+    if len(known) < len(operators):
+        lost = next(i for i, o in zip(waiting, operators, strict=True) if o is None)
+        return f"{lost} can no longer be done"
+    if waiting and _runs(known, task.init):
+        return ()
+    if waiting:
+        goal = get_constraints(known)[0]
+    else:
+        needed, spoiled = (task.encode(frozenset(atoms)) for atoms in wanted)
+        goal = (Cube(needed, spoiled),)
+    answer = make(planner, task, cap=cap).fill(task.init, goal)
+    if isinstance(answer, Filled):
+        return answer.plan
+    if isinstance(answer, Unreachable):
+        return f"the plan cannot be mended: {answer.reason}"
+    return f"no way to mend the plan was found: {answer.limit}"
+
+
+def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
+    """What mends a plan and then the rest of it, each with whether it is a repair."""
+    return [*((instruction, True) for instruction in repairs), *((instruction, False) for instruction in rest)]
 
 
 def _runs(operators: Sequence[Operator], state: Bits) -> bool:
