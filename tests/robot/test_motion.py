@@ -10,6 +10,8 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
+from tmd.robot.follow import Group, exact
+from tmd.robot.kinematics import Array
 from tmd.robot.motion import between, plan_arm, plan_base, plan_line, plan_poses
 from tmd.robot.pose import Pose
 from tmd.robot.pr2 import Pr2
@@ -62,6 +64,28 @@ def test_a_plan_is_the_same_for_the_same_seed(sim: Simulator, box: Box, robot: P
     goal = robot.solve("right", Pose((0.6, -0.2, 0.6)))[0]
     first, second = (plan_arm(robot, "right", goal, rng=np.random.default_rng(4)) for _ in range(2))
     assert first == second
+
+
+def test_what_touches_at_the_start_is_left_and_not_dragged_along(sim: Simulator, box: Box, robot: Pr2) -> None:
+    """A hand that starts on a plate gets off it before it goes anywhere, even if the way along the plate is shorter."""
+    start, above = Pose((0.6, -0.35, 0.9), DOWN), Pose((0.6, 0.0, 0.908), DOWN)
+    first, goal = (
+        next(arm for arm in robot.solve("right", tool) if not robot.collides(side="right", arm=arm, margin=0.02))
+        for tool in (start, above)
+    )
+    assert robot.move_arm("right", [first])
+    plate = box((0.3, 1.0, 0.02), (0.6, -0.2, 0.0))
+    for height in np.arange(0.8, 0.95, 0.002):
+        sim.set_pose(plate, Pose((0.6, -0.2, float(height))))
+        if any(depth > 0.002 for *_, depth in robot.collides(side="right")):
+            break
+    assert {body for _, body, _, _ in robot.collides(side="right")} == {plate}
+    path = plan_arm(robot, "right", goal, rng=np.random.default_rng(1), budget=1000)
+    assert path is not None
+    rows = dense(np.array([first, *path]), (0.02,) * 7)
+    away = next(number for number, row in enumerate(rows) if not robot.collides(side="right", arm=row))
+    assert robot.tool_at("right", rows[away]).distance(start) < 0.1
+    assert not any(robot.collides(side="right", arm=row) for row in rows[away:])
 
 
 def test_a_goal_inside_of_something_has_no_plan(sim: Simulator, box: Box, robot: Pr2) -> None:
@@ -155,6 +179,21 @@ def test_rrt_finds_the_gap_in_a_wall() -> None:
     assert (short[-1] == goal).all()
     assert free(dense(short, [0.02, 0.02]))
     assert plan(start, goal, lambda points: False, lambda: rng.uniform(0, 1, 2), strides, budget=20) is None
+
+
+def test_corners_that_must_not_be_rounded_are_not() -> None:
+    path = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
+    group = Group((0, 1), (1.0, 1.0), (1.0, 1.0), (0.1, 0.1), 0.01)
+
+    def outside(track: Array) -> bool:
+        """Nothing may be more than 5 mm inside of the corner."""
+        return not np.any((track[:, 0] < 0.995) & (track[:, 1] > 0.005))
+
+    assert not outside(timed(path, group.speeds, 240, group.window))
+    rested = exact(path, group, outside)
+    assert outside(timed(rested, group.speeds, 240, group.window))
+    assert np.array_equal(np.unique(rested, axis=0), np.unique(path, axis=0))
+    assert exact(path, group, lambda track: True) is path
 
 
 def test_trajectories_keep_the_speed_and_end_at_rest() -> None:

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from tmd.robot.collision import Checker, Ignored
+from tmd.robot.follow import exact
 from tmd.robot.kinematics import Array
 from tmd.robot.pr2_urdf import BASE_JOINTS
 from tmd.robot.rrt import shorten
@@ -34,6 +35,10 @@ CLEARANCE = 0.02
 """Metres that the way keeps from things, where its start and its goal do."""
 DEEPEST = 0.03
 """Metres: the robot may be this deep in something where it starts (a door that springs open leans on it)."""
+_NEAR = 3.0
+"""Strides from the ends of a way within which what touches there may touch."""
+_ROUNDED = 0.5
+"""The part of the clearance that may be lost where corners are rounded."""
 _OUTWARDS = (0.0, 0.12, -0.12, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3)
 _AWAY = (0.6, 0.4, 0.25)
 _MOST_WAYS_OUT = 3
@@ -70,16 +75,16 @@ def plan_base(
     end = np.array([goal[0], goal[1], theta + (goal[2] - theta + pi) % tau - pi])
     start = np.array([x, y, theta])
     with Checker(robot, BASE_JOINTS, ignore=ignore, margin=clearance) as checker:
-        for pose, deepest in ((start, DEEPEST), (end, 1e-3)):
-            for name, body, link, depth in checker.collisions(pose.tolist()):
-                if depth > deepest:
-                    return None
-                pair = name, body, link
-                checker.allowed[pair] = max(checker.allowed.get(pair, -np.inf), depth + 1e-3)
-        path = _search(checker, start, end, budget)
+        for near in (_NEAR * STRIDES, None):
+            if not checker.allow(((start, DEEPEST), (end, 1e-3)), near):
+                return None
+            path = _search(checker, start, end, budget)
+            if path is not None or not checker.touching():
+                break
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng, tries=100)
+        path = exact(path, robot.base_group, lambda track: checker.free(track, _ROUNDED * clearance))
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
 
 

@@ -30,6 +30,8 @@ Ignored: TypeAlias = Collection[tuple[int, int | None]]
 """Bodies and links that may be touched; None: all links of the body."""
 TOUCH = 1e-4
 """Metres: surfaces that are not deeper in each other than this do not collide."""
+_APART = 0.003
+"""Metres that what touched at an end of a way is apart once it has got away from there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,6 +94,7 @@ class Checker:
         self._undo = ExitStack()
         self.allowed: dict[tuple[str, int, int], float] = {}
         """How deep pairs may be in each other; those that are not named here: not at all."""
+        self._ends: list[tuple[Array, Array, dict[tuple[str, int, int], float]]] = []
         tree = robot.tree
         top = tree.root if arm is None else f"{arm[0]}_shoulder_pan_link"
         below = [name for name in tree.below(top) if name in robot.boxes]
@@ -198,6 +201,34 @@ class Checker:
         self._second = np.array([o if isinstance(o, int) else place[o] for _, o in result], dtype=int)
         return result
 
+    def allow(self, ends: Sequence[tuple[Array, float]], near: Array | None = None) -> bool:
+        """Allow what is near at the ends of a way to be as near as it is there.
+
+        Args:
+            ends: Configurations, each with how deep it may be in something, in metres.
+            near: How far from an end each joint may be where that holds; what touches there is apart elsewhere, so
+                that it is neither dragged along nor pushed on. None: it holds all the way.
+
+        Returns:
+            False if an end is deeper in something.
+        """
+        self.allowed.clear()
+        self._ends.clear()
+        for end, deepest in ends:
+            found = {(name, body, link): depth + 1e-3 for name, body, link, depth in self.collisions(end.tolist())}
+            if any(depth > deepest + 1e-3 for depth in found.values()):
+                return False
+            if near is not None:
+                self._ends.append((end, near, found))
+            for pair, depth in found.items():
+                elsewhere = depth if near is None else min(depth, -_APART)
+                self.allowed[pair] = max(self.allowed.get(pair, -np.inf), elsewhere)
+        return True
+
+    def touching(self) -> bool:
+        """Whether anything at the ends of a way, as given to :meth:`allow`, is nearer than it should be elsewhere."""
+        return any(depth > -_APART for _, _, pairs in self._ends for depth in pairs.values())
+
     # checks
 
     def frames(self, configurations: Array) -> Array:
@@ -219,14 +250,14 @@ class Checker:
         found = self._narrow(batch[0], frames[0], pairs, every=True)
         return sorted(found, key=lambda each: (-each[3], each[:3]))
 
-    def free(self, configurations: Array) -> bool:
-        """Whether none of (n, joints) touches anything."""
+    def free(self, configurations: Array, closer: float = 0.0) -> bool:
+        """Whether none of (n, joints) touches anything, with a margin that is smaller by ``closer`` metres."""
         frames = self.frames(configurations)
         candidates = self._candidates(frames)
         busy = [index for index, pairs in enumerate(candidates) if pairs]
         # the middle first: neighbours tell the same
         for index in sorted(busy, key=lambda each: _spread(each, len(candidates))):
-            if self._narrow(configurations[index], frames[index], candidates[index], every=False):
+            if self._narrow(configurations[index], frames[index], candidates[index], every=False, closer=closer):
                 return False
         return True
 
@@ -266,11 +297,18 @@ class Checker:
         return result
 
     def _narrow(
-        self, configuration: Array, frames: Array, pairs: Sequence[tuple[int, int, int]], *, every: bool
+        self,
+        configuration: Array,
+        frames: Array,
+        pairs: Sequence[tuple[int, int, int]],
+        *,
+        every: bool,
+        closer: float = 0.0,
     ) -> list[Collision]:
         if not pairs:
             return []
         self._set(dict(zip(self._vary, configuration, strict=True)))
+        allowed = self._allowed_at(configuration)
         first = len(self._links) - len(self._helds)
         for held, frame in zip(self._helds, frames[first:], strict=True):
             self._sim.set_pose(held.body, Pose.from_matrix(frame))
@@ -282,10 +320,18 @@ class Checker:
             else:
                 points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
             depth = max((-point.distance for point in points), default=-np.inf)
-            if depth > self.allowed.get((name, body, link), TOUCH - self._margin):
+            if depth > allowed.get((name, body, link), TOUCH - self._margin) + closer:
                 found.append((name, body, link, float(depth)))
                 if not every:
                     break
+        return found
+
+    def _allowed_at(self, configuration: Array) -> dict[tuple[str, int, int], float]:
+        """How deep pairs may be in each other in a configuration: more near the ends of a way."""
+        found = self.allowed
+        for end, near, pairs in self._ends:
+            if np.all(np.abs(configuration - end) <= near):
+                found = found | {pair: max(depth, found.get(pair, -np.inf)) for pair, depth in pairs.items()}
         return found
 
     def _set(self, positions: Mapping[str, float]) -> None:

@@ -14,6 +14,8 @@ from tmd.robot.trajectory import dense, timed
 GAIN = 0.2
 """The part of a position error that a motor removes in one step."""
 _YIELDING = 0.1
+_LOOKED_AT = 8
+"""Steps between two checks of a track."""
 STALLED = 120
 """Steps without getting nearer after which a motion is given up."""
 
@@ -37,6 +39,14 @@ class Group:
     strides: tuple[float, ...]
     tolerance: float
     window: int = 48
+
+
+def exact(path: Array, group: Group, free: Callable[[Array], bool]) -> Array:
+    """The path with a rest at each corner, if what comes of rounding them under physics is not free."""
+    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[::_LOOKED_AT]
+    if len(path) == 2 or free(track):
+        return path
+    return np.repeat(path, [1, *[2] * (len(path) - 2), 1], axis=0)
 
 
 def hold(sim: Simulator, body: int, group: Group, positions: Sequence[float]) -> None:

@@ -14,6 +14,7 @@ import numpy as np
 
 from tmd.robot.base_motion import plan_base as plan_base
 from tmd.robot.collision import Checker, Held, Ignored
+from tmd.robot.follow import exact
 from tmd.robot.kinematics import Array
 from tmd.robot.pose import Pose, Quaternion
 from tmd.robot.pr2_urdf import ARM
@@ -31,6 +32,10 @@ CLEARANCE = 0.01
 """Metres that planned motions keep from things, where their start and their goal do."""
 DEEPEST = 0.01
 """Metres: an arm may be this deep in something where it starts (contacts are soft), never deeper on its way."""
+_NEAR = 2.0
+"""Strides from the ends of a way within which what touches there may touch."""
+_ROUNDED = 0.5
+"""The part of the clearance that may be lost where corners are rounded."""
 _ENDLESS = (4, 6)
 _BRANCHES = 12
 _CHUNK = 8
@@ -92,24 +97,18 @@ def plan_arm(
         ignore=ignore,
         margin=clearance,
     ) as checker:
-        if not _make_room(checker, first, last):
-            return None
-        path = plan(first, last, checker.free, sample, STRIDES, budget=budget)
+        # what touches at an end should come off soon; where that is not possible, it may touch all the way
+        for near in (_NEAR * STRIDES, None):
+            if not checker.allow(((first, DEEPEST), (last, 1e-3)), near):
+                return None
+            path = plan(first, last, checker.free, sample, STRIDES, budget=budget)
+            if path is not None or not checker.touching():
+                break
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng)
+        path = exact(path, robot.arm_groups[side], lambda track: checker.free(track, _ROUNDED * clearance))
     return [tuple(float(value) for value in row) for row in path[1:]]
-
-
-def _make_room(checker: Checker, start: Array, goal: Array) -> bool:
-    """Allow what is near at both ends; False if one end is in something."""
-    for end, deepest in ((start, DEEPEST), (goal, 1e-3)):
-        for name, body, link, depth in checker.collisions(end.tolist()):
-            if depth > deepest:
-                return False
-            pair = name, body, link
-            checker.allowed[pair] = max(checker.allowed.get(pair, -np.inf), depth + 1e-3)
-    return True
 
 
 def plan_line(

@@ -255,14 +255,25 @@ def get_to(cell: Cell, base: Base, torso: float) -> None:
         cell.fold()
         if abs(cell.robot.torso() - torso) > 0.005 and not _sticks(cell, torso):
             _lift(cell, torso)  # there it may be below a shelf
-        ways = ((plan_base(cell.robot, base, rng=cell.rng, clearance=away), pace) for away, pace in _WAYS)
-        path, pace = next(((path, pace) for path, pace in ways if path is not None), (None, 1.0))
-        if path is None:
-            raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
-        if not cell.robot.drive(path, pace=pace):
-            raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
+        _drive(cell, base)
     if abs(cell.robot.torso() - torso) > 0.005:
         _lift(cell, torso)
+
+
+def _drive(cell: Cell, base: Base) -> None:
+    """Drive; slowly where there is little room, for there the robot must be exact.
+
+    Raises:
+        SkillError: There is no way, or the robot did not get there.
+    """
+    for away, pace in _WAYS:
+        path = plan_base(cell.robot, base, rng=cell.rng, clearance=away)
+        if path is None:
+            continue
+        if not cell.robot.drive(path, pace=pace):
+            raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
+        return
+    raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
 
 
 def _lift(cell: Cell, torso: float) -> None:

@@ -14,7 +14,8 @@ def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array
     """Positions for every step.
 
     Each piece is passed at the speed of the joint that needs longest; the result is smoothed by a moving average, so
-    it starts and ends at rest, and corners are rounded.
+    it starts and ends at rest, and corners are rounded. A row that is given twice is a corner where the joints come to
+    rest, so it is not rounded.
 
     Args:
         path: (n, k), n ≥ 2; the first row is where the joints are.
@@ -26,6 +27,7 @@ def timed(path: Array, speeds: Sequence[float], rate: int, window: int) -> Array
         (m, k); the last row is the last of ``path``.
     """
     steps = np.max(np.abs(np.diff(path, axis=0)) / np.asarray(speeds), axis=1) * rate
+    steps[steps == 0.0] = window
     at = np.concatenate([[0.0], np.cumsum(steps)])
     times = np.arange(1, int(np.ceil(at[-1])) + 1)
     track = np.stack([np.interp(times, at, column) for column in path.T], axis=1)
