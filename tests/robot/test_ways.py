@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
@@ -31,10 +32,10 @@ def cell() -> Iterator[Cell]:
 
 
 @contextmanager
-def held(cell: Cell, side: str, item: str) -> Iterator[None]:
-    """As if a hand had taken an item, by its first grasp."""
+def held(cell: Cell, side: str, item: str, grasp: int = 0) -> Iterator[None]:
+    """As if a hand had taken an item, by one of its grasps."""
     motion = cell.sim.motion(cell.scene.bodies[item])
-    grip = cell.scene.grasps(item)[0].tool.pose().inverse()
+    grip = cell.scene.grasps(item)[grasp].tool.pose().inverse()
     cell.sim.set_pose(cell.scene.bodies[item], cell.robot.tool(side) * grip)
     cell.robot.hold(side, cell.scene.bodies[item])
     cell.in_hand[side] = item
@@ -99,6 +100,31 @@ def test_a_hand_can_be_asked_about_one_thing_only(cell: Cell) -> None:
     assert everything.depth([inside])[0] > 0.0
     assert only.depth([inside])[0] == 0.0
     assert HandChecker(cell.robot, "right", only=(body, -1)).depth([inside])[0] > 0.0
+
+
+def test_a_door_is_seen_to_hit_what_the_other_hand_holds(cell: Cell) -> None:
+    """Even a spoon, wherever the robot stands: as if the door were looked at in 120 places of its way."""
+    handle, tucked = cell.scene.handle("fridge1_door"), cell.robot.arm("left")
+    assert handle is not None
+    body, struck = cell.scene.bodies["spoon1"], []
+    cell.robot.move_arm("left", [(1.08, -0.1, 1.4, -2.29, -3.46, -0.44, -7.71)])
+    places = [(x, y, turn) for x in np.arange(-0.3, 0.11, 0.05) for y in (-0.8, -0.9, -1.0) for turn in (-0.87, -1.2)]
+    with held(cell, "left", "spoon1", grasp=5):
+        for place in places:
+            cell.robot.drive([place])
+            for share in np.linspace(0.0, 1.0, 120):
+                cell.sim.set_joint(handle.body, handle.index, handle.closed + share * (handle.open - handle.closed))
+                if cell.sim.closest(body, handle.body, 0.0, other_link=handle.index):
+                    struck.append(place)
+                    break
+            cell.sim.set_joint(handle.body, handle.index, handle.closed)
+        cell.robot.drive([(0.0, 0.0, 0.0)])
+        before = cell.sim.pose(body)
+        assert all(cell.sweeps("fridge1_door", place, side="right") for place in struck)
+        assert not all(cell.sweeps("fridge1_door", place, side="right") for place in places)
+        assert cell.sim.pose(body) == before
+    cell.robot.move_arm("left", [tucked])
+    assert 0 < len(struck) < len(places)
 
 
 def test_nothing_is_dipped_through_a_lid(cell: Cell) -> None:

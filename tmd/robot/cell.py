@@ -32,8 +32,9 @@ _LONG = 2000
 _STEPS_BACK = (0.12, 0.25, 0.4)
 """Metres that the base goes back where the arms have no room."""
 _NEARBY = 300
-_SWEEP, _SWEEP_MARGIN = 7, 0.03
-"""So many angles of a door are looked at, and so many metres it must stay away."""
+_SWEEP, _SWEEP_MARGIN = 0.05, 0.015
+"""A door is looked at every so many radians (a drawer: metres), and must stay so many metres away: its edge then
+passes nothing unseen, not even a spoon in the other hand."""
 _LIGHTLY = 1.0
 """Newtons that the lid of a thing is lifted with, so that what it is on neither slides nor tips over."""
 _PINS = 0.015
@@ -264,17 +265,19 @@ class Cell:
             return False
         start = self.sim.joint_position(handle.body, handle.index)
         end = handle.open if goal is None else goal
-        arm = frozenset(self.robot.tree.below(f"{side[0]}_shoulder_pan_link")) if side else frozenset()
-        try:
-            for share in np.linspace(0.0, 1.0, _SWEEP):
-                self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
-                touched = self.robot.collides(base=base, margin=_SWEEP_MARGIN)
-                if any(
-                    body == handle.body and link == handle.index and own not in arm for own, body, link, _ in touched
-                ):
-                    return True
-        finally:
-            self.sim.set_joint(handle.body, handle.index, start)
+        arm = self.robot.tree.below(f"{side[0]}_shoulder_pan_link") if side else ()
+        own = {self.robot.index[link] for link in arm}
+        helds = [held for held in self.robot.helds() if held.side != side]
+        with self.robot.as_if(base):
+            try:
+                for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / _SWEEP)):
+                    self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
+                    for body in (self.robot.body, *(held.body for held in helds)):
+                        near = self.sim.closest(body, handle.body, _SWEEP_MARGIN, other_link=handle.index)
+                        if any(body != self.robot.body or each.link not in own for each in near):
+                            return True
+            finally:
+                self.sim.set_joint(handle.body, handle.index, start)
         return False
 
     def how_open(self, name: str) -> str:

@@ -10,7 +10,8 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
 from pathlib import Path
@@ -199,7 +200,7 @@ class Pr2:
         """Drive the base through (x, y, theta), each turn the short way.
 
         Args:
-            path: The way. Its corners are rounded, by up to 5 cm at full speed.
+            path: The way. Its corners are rounded, by up to 5 cm at full speed, where they are not given twice.
             pace: The speed, as a part of the full one; corners are rounded by as much less.
 
         Returns:
@@ -432,6 +433,15 @@ class Pr2:
         helds = None if held is None else list(held)
         with Checker(self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin) as checker:
             return checker.collisions(())
+
+    @contextmanager
+    def as_if(self, base: tuple[float, float, float]) -> Iterator[None]:
+        """As if the base, with all that it carries, were elsewhere; afterwards all is where it was, to the bit."""
+        helds = self.helds()
+        with Checker(self, (), positions=self.elsewhere(base), helds=helds):
+            for held in helds:
+                self.sim.set_pose(held.body, self.tool(held.side) * held.grip)
+            yield
 
     def free_bases(self, bases: Sequence[tuple[float, float, float]]) -> list[bool]:
         """For many poses of the base, whether the robot as it is would touch nothing there."""
