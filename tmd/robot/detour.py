@@ -23,8 +23,8 @@ TRIES = {Stage.PRECONDITION: 1, Stage.STANCE: 1, Stage.PATH: 2}
 Another try finds another path, and no other place to stand. What failed at other stages was within reach.
 """
 
-DROP = 3
-"""What lands on the floor is hard to take from there: letting go of it costs as much as three other instructions."""
+DROP = 6
+"""What lands on the floor is hard to take from there: letting go of it costs as much as six other instructions."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +36,13 @@ class Setback:
         facts: Where things were.
         lasting: It is not tried again while all these facts hold. Else it is once one of them has changed, even if it
             is then as before: what was put down is a little elsewhere, and held in another way.
+        hands: What was in the hands.
     """
 
     instruction: Instruction
     facts: frozenset[GroundAtom]
     lasting: bool = False
+    hands: frozenset[GroundAtom] = frozenset()
 
 
 class Setbacks:
@@ -64,9 +66,10 @@ class Setbacks:
         self._failures[instruction] += 1
         if stage not in TRIES or self._failures[instruction] < TRIES[stage]:
             return
+        hands = frozenset(atom for atom in state if self._seen.get(atom.predicate) == "held")
         for lasting, facts in product((False, True), self._situations(instruction, state)):
-            setback = Setback(instruction, facts, lasting)
-            if facts and setback not in self._known:
+            setback = Setback(instruction, facts or hands, lasting, hands)
+            if setback.facts and setback not in self._known:
                 del self._failures[instruction]
                 self._known.add(setback)
                 self.standing.append(setback)
@@ -75,6 +78,14 @@ class Setbacks:
     def observed(self, state: State) -> None:
         """Forget what may be tried again, as things are now."""
         self.standing = [setback for setback in self.standing if setback.lasting or setback.facts <= state]
+
+    def with_free_hands(self, state: State) -> list[Setback]:
+        """The same, if it may also be tried again once something else that was in a hand is put down."""
+        return [
+            setback if setback.lasting else replace(setback, facts=setback.facts | setback.hands)
+            for setback in self.standing
+            if setback.lasting or setback.hands <= state
+        ]
 
     def _situations(self, instruction: Instruction, state: State) -> Iterator[frozenset[GroundAtom]]:
         """What might be changed: where the things are that it names, then what else is at them."""

@@ -88,6 +88,7 @@ class Executor:
         wanted = self._wanted(plan, state)
         waiting = [(instruction, False) for instruction in plan]
         attempt = 0
+        smooth = True
         tried: Instruction | None
         while waiting or not _satisfied(wanted, state):
             if waiting and first_broken(waiting[0][0], state, self.problem) is None:
@@ -97,10 +98,13 @@ class Executor:
                     waiting.pop(0)
                     attempt = 0
                     continue
+                smooth = False
                 tried, attempt = waiting[0][0], attempt + 1
                 if not done.failure and self._did(tried, before, state):
                     waiting.pop(0)  # it did what it is for; something else is not as it should be
                     attempt = 0
+                    if waiting and self._goes_on(waiting, state):
+                        continue
             else:
                 tried = waiting[0][0] if waiting else None
             if self._repairs >= self.most_repairs:
@@ -111,13 +115,21 @@ class Executor:
             if isinstance(mended, str):
                 return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
             waiting = mended
-        status = Status.RECOVERED if self._repairs else Status.DONE
+        status = Status.DONE if smooth and not self._repairs else Status.RECOVERED
         return Execution(status, "", tuple(self._steps), self._repairs, state)
 
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
         """Whether what an instruction changes is as it should be."""
         predicted = apply(instruction, before, self.problem)
         return predicted - before <= after and not (before - predicted) & after
+
+    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
+        """Whether what is waiting can be executed from here as it is: then there is nothing to mend."""
+        for instruction, _ in waiting:
+            if first_broken(instruction, state, self.problem) is not None:
+                return False
+            state = apply(instruction, state, self.problem)
+        return True
 
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[Step, State]:
         predicted = apply(instruction, state, self.problem)
@@ -160,17 +172,20 @@ class Executor:
         """A way round the setbacks, if there are any and there is one.
 
         All that is waiting is done all the same; or what comes next is left out, and others do for it; or what the
-        plan is for is brought about in quite another way.
+        plan is for is brought about in quite another way. If none of that is possible, a hand is freed first.
         """
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
         # setbacks are no part of the PDDL that other planners are given
-        chances = without(careful(task, self.observer.skills), self._setbacks.standing)
-        for rest in dict.fromkeys((question[1], question[1][1:], ())):
-            way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _ANEW)
-            if not isinstance(way, str):
-                return _joined(way, rest)
+        plain = careful(task, self.observer.skills)
+        freed = self._setbacks.with_free_hands(task.decode(task.init))
+        for setbacks in dict.fromkeys((question[0], tuple(freed))):
+            chances = without(plain, setbacks)
+            for rest in dict.fromkeys((question[1], question[1][1:], ())):
+                way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _ANEW)
+                if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
+                    return _joined(way, rest)
         self._hopeless.add(question)
         return None
 
@@ -221,6 +236,14 @@ def _missing(
     if isinstance(answer, Unreachable):
         return f"the plan cannot be mended: {answer.reason}"
     return f"no way to mend the plan was found: {answer.limit}"
+
+
+def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
+    """Whether all that is wanted holds after a plan."""
+    state = task.init
+    for instruction in plan:
+        state = task.by_instruction[instruction].apply(state)
+    return _satisfied(wanted, task.decode(state))
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
