@@ -33,6 +33,8 @@ _FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
 """Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 _YAWS = 8
+_MOST_CARRIED = 12
+"""So many places are tried: an arm that gets to none of them is wedged in where it is."""
 TUCK_BUDGET = 300
 """Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
 
@@ -86,6 +88,7 @@ def _carry(robot: Pr2, side: str, budget: int) -> bool:
     """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
+    failed = 0
     for place in _tool_places(now, side):
         tool = base * place
         for goal in robot.solve(side, tool)[:2]:
@@ -95,6 +98,9 @@ def _carry(robot: Pr2, side: str, budget: int) -> bool:
             path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
             if path is not None:
                 return robot.move_arm(side, path)
+            failed += 1
+            if failed == _MOST_CARRIED:
+                return False
     return False
 
 
