@@ -10,6 +10,7 @@ from math import pi
 from tmd.robot.cell import Cell
 from tmd.robot.outcome import SkillError, Stage
 from tmd.robot.pose import Pose, Vector
+from tmd.robot.pr2 import FULL_GAP
 from tmd.robot.reach import Links, Option, follow, reach, with_room
 
 BEFORE = 0.10
@@ -192,7 +193,7 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
 def _release(cell: Cell, side: str, item: str) -> None:
     cell.robot.let_go(side)
     cell.in_hand.pop(side, None)
-    cell.robot.open_gripper(side)
+    cell.robot.open_gripper(side, FULL_GAP)  # a finger that still touches it would drag it along
     cell.settle(item)
 
 
