@@ -336,7 +336,7 @@ def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations
 
 
 @given(data=st.data())
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=12, deadline=None)
 def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Corpus, data: st.DataObject) -> None:
     """Random walks: as long as the facts of a setback hold, the task without it lacks that instruction; no other."""
     task = ground(corpus.world("kitchen4").task.problem)
