@@ -14,13 +14,12 @@ import pytest
 
 pytest.importorskip("viser", reason="needs the extra studio")
 
+from experiments.studio.wire import Wire
 from tmd.errors import TmdError
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
-
-from .wire import Wire
 
 VISITORS = 10
 TEXT = "Put the cup on the shelf"
