@@ -73,9 +73,11 @@ class Wire:
             self.elements[message["uuid"]] = known
 
     def send(self, message: dict[str, Any]) -> None:
+        """Send one message."""
         self._socket.send(msgspec.msgpack.encode(message))
 
     def garbage(self, data: bytes) -> None:
+        """Send what no page would send."""
         self._socket.send(data)
 
     def until(self, holds: Callable[[], object]) -> object:
@@ -105,6 +107,7 @@ class Wire:
         self.send({"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": value}})
 
     def press(self, label: str) -> None:
+        """Press a button."""
         self.put(label, True)
 
     def said(self) -> str:
@@ -113,7 +116,9 @@ class Wire:
         return texts[0] if texts else ""
 
     def told(self, words: str) -> None:
+        """Wait until the message at the top has some words."""
         self.until(lambda: words in self.said())
 
     def shows(self, words: str) -> None:
+        """Wait until some element has some words."""
         self.until(lambda: any(words in str(each.get("content")) for each in self.elements.values()))
