@@ -166,9 +166,10 @@ def _origin(order: Order) -> str:
 
 
 def _ending(execution: Execution, steps: int) -> str:
+    how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
     told = {
         Status.DONE: "every effect of every instruction is confirmed",
-        Status.RECOVERED: f"everything that the plan is for is confirmed, after {_count(execution.repairs, 'repair')}",
+        Status.RECOVERED: f"everything that the plan is for is confirmed, {how}",
         Status.STOPPED: execution.reason,
     }[execution.status]
     count = _count(len(execution.steps), "instruction")

@@ -73,7 +73,7 @@ class Status(StrEnum):
     DONE = "done"
     """Every instruction was done, and every effect confirmed."""
     RECOVERED = "recovered"
-    """Something went wrong, the plan was mended, and in the end every effect that it is for is confirmed."""
+    """Something was not as predicted, the plan was mended if need be, and every effect that it is for is confirmed."""
     STOPPED = "stopped"
     """It could not be done; the reason says why."""
 
