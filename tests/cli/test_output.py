@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -163,6 +164,15 @@ def test_what_is_unknown_is_told(tmd: Tmd, environment: Path) -> None:
     assert told["unknown_nouns"] == ["zebra"]
     assert "warning: no demonstration has the verb 'flurble'" in ended.err
     assert "warning: nothing here is called 'zebra'" in ended.err
+
+
+def test_what_is_only_alike_in_meaning_is_told(tmd: Tmd, environment: Path) -> None:
+    ended = tmd("ground", "--environment", environment, "--text", "Put the cauldron in the sink.")
+    said = re.search(
+        "nothing here is called 'cauldron'; by likeness of meaning it was taken for ([a-z0-9_]+)", ended.err
+    )
+    assert said and said[1] in ended.out
+    assert "likeness" not in tmd("ground", "--environment", environment, "--text", "Put the pot in the sink.").err
 
 
 def test_a_no_is_json_too(tmd: Tmd, environment: Path) -> None:

@@ -48,6 +48,6 @@ def command(
         emit_json(told | {"environment_file": environment_file(environment), "made_with": found.made_with})
     else:
         emit(grounded_text(grounded))
-    for line in remarks(grounded, found.unknown, found.verbs):
+    for line in remarks(grounded, found.unknown, found.verbs, found.likened):
         emit(line, error=True)
     return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED

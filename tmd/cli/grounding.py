@@ -48,6 +48,7 @@ class Answer:
         corpus: The domain.
         world: The environment.
         unknown: Nouns that name nothing there.
+        likened: Nouns that only likeness of meaning leads to something there, with what it leads to.
         verbs: The verbs that there are templates for, the most frequent first.
         made_with: What decides the outcome beside text and environment.
     """
@@ -56,6 +57,7 @@ class Answer:
     corpus: Corpus
     world: World
     unknown: tuple[str, ...]
+    likened: dict[str, tuple[str, ...]]
     verbs: tuple[str, ...]
     made_with: dict[str, object]
 
@@ -108,7 +110,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     Raises:
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
-    from tmd.cli.scene import frequent_verbs, load_scene, unknown_nouns
+    from tmd.cli.scene import frequent_verbs, likened_nouns, load_scene, unknown_nouns
     from tmd.ground import ground, make_model
     from tmd.learned.store import known
     from tmd.planning.backends import IN_PROCESS
@@ -134,7 +136,8 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     weights = options.weights or model.weights
     made = made_with(weights, options.planner, options.model_name, options.beam, options.trim, options.top)
     unknown = tuple(unknown_nouns(grounded.parsed.clauses, world))
-    return Answer(grounded, corpus, world, unknown, tuple(frequent_verbs(knowledge.library)), made)
+    likened = likened_nouns(grounded.parsed.clauses, world)
+    return Answer(grounded, corpus, world, unknown, likened, tuple(frequent_verbs(knowledge.library)), made)
 
 
 def environment_file(name: str) -> str | None:

@@ -42,7 +42,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     """
     from tmd.cli.grounding import made_with
     from tmd.cli.remarks import remarks
-    from tmd.cli.scene import frequent_verbs, unknown_nouns
+    from tmd.cli.scene import frequent_verbs, likened_nouns, unknown_nouns
     from tmd.cli.show_plans import grounded_json
     from tmd.ground import DEFAULT, MODELS, ground
     from tmd.learned.store import known
@@ -50,7 +50,8 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     knowledge = known(corpus, learned)
     grounded = ground(text, world, knowledge.library, reward=knowledge.reward, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
-    told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library)))
+    likened = likened_nouns(grounded.parsed.clauses, world)
+    told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library), likened))
     record = grounded_json(grounded, corpus.folder.name, world.name, unknown)
     record["made_with"] = made_with(MODELS[DEFAULT].weights, planner)
     if not any(verdict.valid for verdict in grounded.verdicts):

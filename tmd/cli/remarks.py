@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
 from tmd.ground import Grounded
@@ -13,13 +13,16 @@ _SHOWN = 3
 """How many different reasons are told."""
 
 
-def remarks(grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str]) -> list[str]:
+def remarks(
+    grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str], likened: Mapping[str, Sequence[str]]
+) -> list[str]:
     """Lines for standard error: what was said and could not be used, and why there is no plan if there is none.
 
     Args:
         grounded: What came out.
         unknown: Nouns that name nothing here.
         verbs: The verbs that there are demonstrations of, the most frequent first.
+        likened: Nouns that were taken for things of another name that mean something alike.
     """
     lines = [
         f"warning: no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen
@@ -28,6 +31,11 @@ def remarks(grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str]) ->
         f"warning: nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
         for noun in unknown
     ]
+    for noun, names in likened.items():
+        taken = ", ".join(names[:_SHOWN]) + (" or others" if len(names) > _SHOWN else "")
+        lines.append(
+            f"warning: nothing here is called '{_plain(noun)}'; it was taken for {taken}, by likeness of meaning"
+        )
     if not any(verdict.valid for verdict in grounded.verdicts):
         lines.append(f"no plan: {_why(grounded)}")
     return [f"{line}\n" for line in lines]

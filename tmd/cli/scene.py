@@ -8,6 +8,7 @@ from pathlib import Path
 from tmd.cli.roots import Roots
 from tmd.errors import TmdError
 from tmd.language.clause import Clause
+from tmd.language.nouns import WORDNET
 from tmd.pddl.reader import read_problem
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library
@@ -55,6 +56,16 @@ def unknown_nouns(clauses: Iterable[Clause], world: World) -> list[str]:
             if not mentions.of(noun, world.task.init) and not readings & set(substances):
                 unknown[noun] = None
     return list(unknown)
+
+
+def likened_nouns(clauses: Iterable[Clause], world: World) -> dict[str, tuple[str, ...]]:
+    """The nouns of ``clauses`` that only WordNet leads to something here, each with what it may lead to."""
+    likened: dict[str, tuple[str, ...]] = {}
+    for noun in (noun for clause in clauses for noun in clause.resolved()):
+        matches = world.mentions.of(noun, world.task.init)
+        if matches and all(match.how == WORDNET for match in matches):
+            likened[noun] = tuple(match.name for match in matches)
+    return likened
 
 
 def frequent_verbs(library: Library) -> list[str]:

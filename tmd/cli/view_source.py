@@ -48,7 +48,7 @@ def subject_of_text(roots: Roots, text: str, environment: str, domain: str | Non
         unknown=found.unknown,
         made=rows,
     )
-    told = tuple(remarks(grounded, found.unknown, found.verbs))
+    told = tuple(remarks(grounded, found.unknown, found.verbs, found.likened))
     return Found(subject, Path(f"{found.world.name}.html"), told, of_text=True)
 
 
