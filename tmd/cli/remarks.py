@@ -34,7 +34,7 @@ def remarks(
     for noun, names in likened.items():
         taken = ", ".join(names[:_SHOWN]) + (" or others" if len(names) > _SHOWN else "")
         lines.append(
-            f"warning: nothing here is called '{_plain(noun)}'; it was taken for {taken}, by likeness of meaning"
+            f"warning: nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}"
         )
     if not any(verdict.valid for verdict in grounded.verdicts):
         lines.append(f"no plan: {_why(grounded)}")
