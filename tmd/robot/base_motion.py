@@ -44,6 +44,8 @@ _AWAY = (0.6, 0.4, 0.25)
 _MOST_WAYS_OUT = 3
 _BLOCK = 6
 _ATTEMPTS = 20
+_FEW = 200
+"""So many points are looked at from the start, to see whether one gets away from there at all."""
 _TURN = 0.35
 """Metres that turning by one radian costs."""
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
@@ -155,7 +157,7 @@ class _Lattice:
         if (path := self.straight()) is not None:
             return path
         entries = {cell for cell in self._entries() if self._free(cell) and self._line(self._start, self.pose(cell))}
-        if not entries:  # wedged in: no search from the goal would get there
+        if self._enclosed(entries):  # wedged in: a search from the goal would look at the whole room in vain
             return None
         # the search looks at points only; what lies between them is looked at once a way is found
         for _ in range(_ATTEMPTS):
@@ -167,6 +169,16 @@ class _Lattice:
                 return np.array([self._start, *(self.pose(cell) for cell in cells)])
             self._blocked.update(bad, [(b, a) for a, b in bad])
         return None
+
+    def _enclosed(self, entries: set[Cell]) -> bool:
+        """Whether few points can be reached from the start, and the goal is none of them."""
+        reached, waiting = set(entries), sorted(entries)
+        while waiting and len(reached) < _FEW:
+            for neighbour, _ in self._neighbours(waiting.pop()):
+                if neighbour not in reached and self._free(neighbour):
+                    reached.add(neighbour)
+                    waiting.append(neighbour)
+        return not waiting and (0, 0, 0) not in reached
 
     def _astar(self, entries: set[Cell], budget: int) -> list[Cell] | None:
         """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
