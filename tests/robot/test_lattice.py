@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import cast
 
 import numpy as np
@@ -40,7 +41,7 @@ def test_a_way_leads_through_the_gap() -> None:
     way = search(walls)
     assert way is not None
     assert way[0] == pytest.approx([0.0, 0.0, 0.0]) and way[-1] == pytest.approx([0.4, -1.9, 0.0])
-    for start, end in zip(way, way[1:], strict=False):
+    for start, end in pairwise(way):
         assert walls.free(start + (end - start) * np.linspace(0, 1, 50)[:, None])
 
 
