@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from tmd.check.yaml_files import check_compiled, check_environment, check_objects, check_planviz
+from tmd.check.yaml_files import check_compiled, check_environment, check_objects
 from tmd.errors import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.syntax import Report
@@ -38,9 +38,9 @@ class DataFiles:
             "lexicon.yaml": self._lexicon,
             "skills.yaml": self._skills,
             "templates.yaml": self._templates,
-            "planviz.json": check_planviz,
         }
-        check = known.get(file.name) or (self._demonstrations if file.suffix == ".jsonl" else self._environment)
+        others = {".jsonl": self._demonstrations, ".json": self._planviz}
+        check = known.get(file.name) or others.get(file.suffix, self._environment)
         self._try(check, file)
 
     def _try(self, check: Callable[[Path], object], file: Path) -> None:
@@ -94,6 +94,11 @@ class DataFiles:
         from tmd.evaluation.template_file import load_templates
 
         load_templates(self._folder(file))
+
+    def _planviz(self, file: Path) -> None:
+        from tmd.check.planviz import check_planviz
+
+        check_planviz(file, self._report(file))
 
     def _environment(self, file: Path) -> None:
         key = file.resolve()

@@ -236,7 +236,7 @@ def _is_ours(path: Path) -> bool:
     """Whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
     if path.suffix in (".yaml", ".yml"):
         return path.name in DATA_FILES or path.parent.name == "environments"
-    return path.suffix == ".pddl" or path.name in DATA_FILES
+    return path.suffix == ".pddl" or path.name in DATA_FILES or path.name.endswith(".planviz.json")
 
 
 def _line(place: Location) -> str | None:

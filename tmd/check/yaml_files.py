@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -64,25 +63,6 @@ def check_environment(path: Path, folder: DomainFolder, report: Report) -> Probl
         TmdError: The file cannot be used at all.
     """
     return compile_problem(load_environment(path, report), folder)
-
-
-def check_planviz(path: Path) -> None:
-    """``planviz.json`` is read by editors; here it must be a JSON object.
-
-    Raises:
-        TmdError: It is none.
-    """
-    text = read_text(path)
-    try:
-        said = json.loads(text)
-    except json.JSONDecodeError as error:
-        place = Location(str(path), error.lineno, error.colno)
-        raise TmdError(f"not JSON: {error.msg}", location=place, code="json-syntax") from None
-    except RecursionError:
-        place = Location(str(path), 1, 1)
-        raise TmdError("nested too deeply", location=place, code="nested-too-deeply") from None
-    if not isinstance(said, dict):
-        raise TmdError("planviz.json is a JSON object", location=Location(str(path), 1, 1), code="bad-value")
 
 
 def _instructions(folder: DomainFolder) -> Domain | None:
