@@ -178,10 +178,9 @@ def test_what_is_left_out_of_drawings_is_an_action_of_the_domain(tmp_path: Path)
     file.write_text('{"swimlanes": true,\n "excludeActions": ["^find$", "^fidn$"]}')
     (told,) = found(file)
     assert (told.code, told.location.line, told.location.column) == ("unknown-action", 2, 31)
-    slow = "a" * 60 + "b"
-    (tmp_path / "kitchen" / "domain.pddl").write_text(
-        f"(define (domain kitchen) (:predicates (p)) (:action {slow} :parameters () :precondition (p) :effect (not (p))))"
-    )
+    slow = f"(:action {'a' * 60}b :parameters () :precondition (p) :effect (not (p)))"
+    domain = f"(define (domain kitchen) (:predicates (p)) {slow})"
+    (tmp_path / "kitchen" / "domain.pddl").write_text(domain)
     file.write_text('{"excludeActions": ["^(a+)+$"]}')
     assert not found(file)  # and at once
 
