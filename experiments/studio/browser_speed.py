@@ -14,6 +14,8 @@ import statistics
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import pairwise
 from pathlib import Path
 
@@ -109,24 +111,29 @@ def environment(browser: Browser, url: str, name: str, *, play: bool) -> None:
     page.close()
 
 
-def main() -> None:
-    """Start a studio and a browser, measure, end both."""
-    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+@contextmanager
+def opened() -> Iterator[str]:
+    """The address of a studio in a process of its own, with the arguments of this one; it ends afterwards."""
     with tempfile.TemporaryDirectory() as directory:
         environ = {**os.environ, "TMD_STUDIO_STATE": f"{directory}/drafts"}
         command = [sys.executable, "-m", "tmd", "studio", "--environment", "kitchen1", "--port", "0", *sys.argv[1:]]
         served = subprocess.Popen(command, text=True, stdout=subprocess.PIPE, env=environ)
         assert served.stdout is not None
         try:
-            url = next(found.group() for line in served.stdout if (found := re.search(r"http://\S+", line)))
-            with sync_playwright() as playwright:
-                browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
-                for name in KITCHENS:
-                    environment(browser, url, name, play=name == "kitchen1")
-                browser.close()
+            yield next(found.group() for line in served.stdout if (found := re.search(r"http://\S+", line)))
         finally:
             served.terminate()
             served.wait()
+
+
+def main() -> None:
+    """Start a studio and a browser, measure, end both."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    with opened() as url, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
+        for name in KITCHENS:
+            environment(browser, url, name, play=name == "kitchen1")
+        browser.close()
 
 
 if __name__ == "__main__":

@@ -6,16 +6,11 @@ how quickly a page is drawn. Told are, for each bundled kitchen, how many steps 
 
 from __future__ import annotations
 
-import os
-import re
 import statistics
-import subprocess
-import sys
-import tempfile
 import time
 from itertools import pairwise
 
-from experiments.studio.browser_speed import KITCHENS, text_of
+from experiments.studio.browser_speed import KITCHENS, opened, text_of
 from experiments.studio.wire import Wire
 
 PER_SECOND = 10
@@ -55,24 +50,15 @@ def played(url: str, kitchen: str) -> tuple[int, list[tuple[int, float]]]:
 
 def main() -> None:
     """Start a studio, play a plan in each kitchen, print."""
-    with tempfile.TemporaryDirectory() as directory:
-        environ = {**os.environ, "TMD_STUDIO_STATE": f"{directory}/drafts"}
-        command = [sys.executable, "-m", "tmd", "studio", "--environment", "kitchen1", "--port", "0", *sys.argv[1:]]
-        served = subprocess.Popen(command, text=True, stdout=subprocess.PIPE, env=environ)
-        assert served.stdout is not None
-        try:
-            url = next(found.group() for line in served.stdout if (found := re.search(r"http://\S+", line)))
-            for kitchen in KITCHENS:
-                steps, seen = played(url, kitchen)
-                gaps = [1e3 * (later - earlier) for (_, earlier), (_, later) in pairwise(seen)]
-                print(
-                    f"{kitchen}: {len({number for number, _ in seen})} of {steps} steps arrived, "
-                    f"median {statistics.median(gaps):.0f} ms apart, {min(gaps):.0f} to {max(gaps):.0f}",
-                    flush=True,
-                )
-        finally:
-            served.terminate()
-            served.wait()
+    with opened() as url:
+        for kitchen in KITCHENS:
+            steps, seen = played(url, kitchen)
+            gaps = [1e3 * (later - earlier) for (_, earlier), (_, later) in pairwise(seen)]
+            print(
+                f"{kitchen}: {len({number for number, _ in seen})} of {steps} steps arrived, "
+                f"median {statistics.median(gaps):.0f} ms apart, {min(gaps):.0f} to {max(gaps):.0f}",
+                flush=True,
+            )
 
 
 if __name__ == "__main__":
