@@ -50,6 +50,23 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
 
     Without ``problem`` the domain is looked at; with it, the problem, which inherits its domain's.
     """
+    return [
+        TmdError(
+            f"{feature} needs {name}",
+            location=place,
+            hint=f"add {name} to (:requirements ...)",
+            code="missing-requirement",
+        )
+        for name, feature, place in _undeclared(domain, problem)
+    ]
+
+
+def undeclared_requirements(problem: Problem) -> tuple[str, ...]:
+    """The requirements that ``problem`` uses and neither it nor its domain declares."""
+    return tuple(name for name, _, _ in _undeclared(problem.domain, problem))
+
+
+def _undeclared(domain: Domain, problem: Problem | None) -> list[_Use]:
     declared = set(domain.requirements) | set(problem.requirements if problem else ())
     for name in tuple(declared):
         declared.update(_IMPLIED.get(name, ()))
@@ -60,16 +77,7 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
         before = first.get(use[0])
         if before is None or (use[2] and before[2] and use[2] < before[2]):
             first[use[0]] = use
-    return [
-        TmdError(
-            f"{feature} needs {name}",
-            location=place,
-            hint=f"add {name} to (:requirements ...)",
-            code="missing-requirement",
-        )
-        for name, feature, place in first.values()
-        if name not in declared
-    ]
+    return [use for use in first.values() if use[0] not in declared]
 
 
 def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:

@@ -5,12 +5,14 @@ A corpus is JSON Lines, one demonstration a line::
     {"id": "ramen-kitchen1-01", "task": "ramen", "environment": "kitchen1",
      "text": "Fill the pot and boil it. …",
      "segments": [{"text": "Fill the pot", "instructions": ["find(pot1)", "moveto(pot1)", …]}, …],
-     "end_state": ["(contains pot1 cooked_ramen)", …]}
+     "end_state": ["(contains pot1 cooked_ramen)", …],
+     "goal": "(exists (?v - pot) (contains ?v cooked_ramen))"}
 
 Segments are pieces of the text, in order and without overlap; each carries the instructions that serve it.
-``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done.
+``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done. ``goal`` is a closed PDDL
+condition: what the text asks for, written from the text alone, with ``exists`` for what it leaves open.
 
-Three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands where somebody corrected a plan: it
+These two may be left out, and three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands where somebody corrected a plan: it
 lists the instructions of that plan, and each segment has those of its own as ``proposed``.
 """
 
@@ -56,6 +58,7 @@ class Demonstration:
     proposed: tuple[Instruction, ...] | None = None
     who: str | None = None
     when: str | None = None
+    goal: str | None = None
     location: Location | None = field(default=None, compare=False, repr=False)
 
     @property
@@ -74,7 +77,7 @@ def demonstration_line(demonstration: Demonstration) -> str:
     ]
     data["end_state"] = list(demonstration.end_state)
     data |= _proposed(demonstration.proposed)
-    data |= {key: value for key in ("who", "when") if (value := getattr(demonstration, key)) is not None}
+    data |= {key: value for key in ("goal", "who", "when") if (value := getattr(demonstration, key)) is not None}
     line = json.dumps(data, ensure_ascii=False)
     # other programs may take these for ends of lines
     return "".join(f"\\u{ord(c):04x}" if c in _ENDS else c for c in line)
@@ -154,6 +157,7 @@ class _Line:
             self._corrected(data, segments),
             self._said(data, "who"),
             self._said(data, "when"),
+            self._said(data, "goal"),
             Location(str(self.path), self.number, 1),
         )
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from tmd.errors import TmdError
+from tmd.pddl.goal import with_goal
 from tmd.pddl.model import GroundAtom, Problem, State
-from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.world import World
 
@@ -25,7 +26,18 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
     for literal in demonstration.end_state:
         if not _literal_holds(literal, states[-1]):
             raise TmdError(f"the stated end {literal} is not reached")
+    if demonstration.goal is not None and not goal_holds(demonstration.goal, problem, states[-1]):
+        raise TmdError(f"the goal {demonstration.goal} does not hold at the end")
     return states
+
+
+def goal_holds(goal: str, problem: Problem, state: State) -> bool:
+    """Whether a closed PDDL condition, as a text, holds in a state of ``problem``.
+
+    Raises:
+        TmdError: It is no condition, or speaks of what the problem does not have.
+    """
+    return holds(with_goal(problem, goal, "goal").goal, state, problem)
 
 
 def check_executable(demonstration: Demonstration, world: World) -> None:
