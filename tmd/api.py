@@ -9,12 +9,13 @@ import os
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from tmd.energy.config import DEFAULT, preset
 from tmd.errors import TmdError
 from tmd.export.from_unified import from_unified_planning
 from tmd.export.planned import planned
 from tmd.export.strips import restored
 from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
-from tmd.ground import DEFAULT, Grounded, make_model
+from tmd.ground import Grounded
 from tmd.ground import ground as ground_text
 from tmd.learned.store import known
 from tmd.pddl.goal import with_goal
@@ -126,7 +127,7 @@ class DomainKit:
             self._world(environment),
             knowledge.library,
             reward=knowledge.reward,
-            model=make_model(model),
+            config=preset(model),
             planner=planner,
             top=top,
         )

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import statistics
 import time
+from dataclasses import replace
 
+from tmd.energy.config import DEFAULT, PRESETS
 from tmd.ground import ground
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import learn
@@ -29,13 +31,13 @@ def main() -> None:
         demonstrations = [d for d in corpus.demonstrations() if d.environment != environment]
         library = learn(demonstrations, corpus.world, corpus.lexicon)
         world = corpus.world(environment)
-        ground(TEXT, world, library, beam=1)
+        ground(TEXT, world, library)
         cells = []
         for beam in BEAMS:
             times = []
             for _ in range(REPEATS):
                 start = time.perf_counter()
-                grounded = ground(TEXT, world, library, beam=beam)
+                grounded = ground(TEXT, world, library, config=replace(PRESETS[DEFAULT], beam=beam))
                 times.append(time.perf_counter() - start)
                 assert len(grounded.parsed.clauses) == 6
             cells.append(f"{statistics.median(times):8.2f}")

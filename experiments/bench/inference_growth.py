@@ -13,6 +13,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from tmd.energy.config import DEFAULT, PRESETS
 from tmd.ground import ground
 from tmd.pddl.model import GroundAtom, TypedName
 from tmd.veil.corpus import Corpus
@@ -44,13 +45,16 @@ def main() -> None:
         step = round(1 / share)
         return learn(demonstrations[::step], corpus.world, corpus.lexicon)
 
+    def act(said: str, place: World, taught: Library, beam: int = BEAM) -> object:
+        return ground(said, place, taught, config=replace(PRESETS[DEFAULT], beam=beam))
+
     whole = library(1)
-    row("clauses", (1, 2, 3, 6, 12, 24), lambda n: ground(" ".join((SENTENCES * 4)[:n]), world, whole, beam=BEAM))
+    row("clauses", (1, 2, 3, 6, 12, 24), lambda n: act(" ".join((SENTENCES * 4)[:n]), world, whole))
     libraries = {len(made): made for made in (library(share) for share in (0.125, 0.25, 0.5, 1))}
-    row("templates", tuple(libraries), lambda n: ground(text, world, libraries[n], beam=BEAM))
+    row("templates", tuple(libraries), lambda n: act(text, world, libraries[n]))
     crowded = {len(made.profiles.objects): made for made in (with_spoons(corpus, n) for n in (0, 10, 20, 40))}
-    row("objects", tuple(crowded), lambda n: ground(text, crowded[n], whole, beam=BEAM))
-    row("beam", (1, 2, 4, 8, 16), lambda n: ground(text, world, whole, beam=n))
+    row("objects", tuple(crowded), lambda n: act(text, crowded[n], whole))
+    row("beam", (1, 2, 4, 8, 16), lambda n: act(text, world, whole, n))
     print(f"peak memory {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024:.0f} MiB")
 
 

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from tmd.energy.algorithm1 import Inference
+from tmd.energy.config import PAPER_EXTENDED
 from tmd.energy.constraints import get_constraints
 from tmd.energy.energy import Energy
-from tmd.energy.infer import Inference
+from tmd.energy.proposers import proposers_of
 from tmd.energy.statistics import count
 from tmd.energy.weights import NAMES, Weights, named_weights
 from tmd.language import parse
@@ -24,7 +27,7 @@ from tmd.veil.instantiate import instantiate
 from tmd.veil.library import Library, learn
 from tmd.veil.world import World
 
-HAND_SET = named_weights("hand_set")
+EXTENDED = named_weights("paper_extended")
 MIXED = Weights({name: 1.5 + number for number, name in enumerate(reversed(NAMES))} | {"trim": 0.3})
 
 
@@ -36,10 +39,11 @@ def inference_of(
     *,
     beam: int | None = 5,
     trim: int | None = None,
-    top: int = 1,
 ) -> Inference:
+    config = replace(PAPER_EXTENDED, beam=beam, trim=trim)
     energy = Energy(weights, count(library), world)
-    return Inference(world, library, energy, filler or make(IN_PROCESS, world.task), beam=beam, trim=trim, top=top)
+    proposers = proposers_of(config, world, library, energy)
+    return Inference(world, energy, filler or make(IN_PROCESS, world.task), proposers, config)
 
 
 def library_of(corpus: Corpus, without: str) -> Library:
@@ -133,7 +137,7 @@ def brute_force(world: World, library: Library, weights: Weights, clauses: Seque
     return min(energy for energy, _ in frontier)
 
 
-@pytest.mark.parametrize("weights", [HAND_SET, MIXED], ids=["hand_set", "mixed"])
+@pytest.mark.parametrize("weights", [EXTENDED, MIXED], ids=["extended", "mixed"])
 @pytest.mark.parametrize("environment", ["kitchen1", "kitchen3"])
 def test_unbounded_inference_finds_what_brute_force_finds(kitchen: Corpus, environment: str, weights: Weights) -> None:
     library = small(library_of(kitchen, environment), ["fill", "add", "wait"], 6)
@@ -156,8 +160,8 @@ TEXTS = [
 @pytest.mark.parametrize("environment", ["kitchen2", "kitchen3", "kitchen5"])
 def test_every_plan_is_valid_distinct_and_in_order(kitchen: Corpus, environment: str, text: str) -> None:
     world = kitchen.world(environment)
-    inference = inference_of(world, library_of(kitchen, environment), HAND_SET, beam=3, top=4)
-    plans = inference.infer(parse(text, kitchen.lexicon).clauses, world.task.init).plans
+    inference = inference_of(world, library_of(kitchen, environment), EXTENDED, beam=3)
+    plans = inference.infer(parse(text, kitchen.lexicon).clauses, world.task.init, top=4).plans
     assert plans
     for plan in plans:
         verdict = validate(world.task.problem, plan.instructions, trace=True)
@@ -178,15 +182,15 @@ def test_the_beam_loses_nothing_that_its_queue_passes_over(kitchen: Corpus) -> N
     for beam in (1, 2, 4):
         ends = []
         for width in (beam, None):
-            inference = inference_of(world, library, HAND_SET, beam=width, top=beam)
-            ends.append([round(p.energy, 9) for p in inference.infer(clause, world.task.init).plans])
+            inference = inference_of(world, library, EXTENDED, beam=width)
+            ends.append([round(p.energy, 9) for p in inference.infer(clause, world.task.init, top=beam).plans])
         assert ends[0][:1] == ends[1][:1]
         assert len(ends[0]) == len(ends[1])
 
 
 def test_an_unseen_verb_leaves_the_environment_as_it_is(kitchen: Corpus) -> None:
     world = kitchen.world("kitchen1")
-    inference = inference_of(world, library_of(kitchen, "kitchen1"), HAND_SET)
+    inference = inference_of(world, library_of(kitchen, "kitchen1"), EXTENDED)
     (plan,) = inference.infer([Clause("defenestrate", ("cup",))], world.task.init).plans
     assert (plan.instructions, plan.energy, plan.state) == ((), 0.0, world.task.init)
 
@@ -202,7 +206,7 @@ def test_a_clause_that_is_already_so_may_be_left_out(kitchen: Corpus) -> None:
 
 def test_what_cannot_be_done_is_refused_with_its_reason(kitchen: Corpus) -> None:
     world = kitchen.world("kitchen3")
-    inference = inference_of(world, library_of(kitchen, "kitchen3"), HAND_SET)
+    inference = inference_of(world, library_of(kitchen, "kitchen3"), EXTENDED)
     refusals = inference.infer([Clause("heat", ("pot",))], world.task.init).refusals
     assert refusals
     sources = {d.id for d in kitchen.demonstrations()}
@@ -218,7 +222,7 @@ def test_more_than_one_worker_would_see_the_same(kitchen: Corpus) -> None:
     warm = make(IN_PROCESS, world.task)
     outcomes = []
     for filler in (warm, warm, make(IN_PROCESS, world.task)):
-        plans = inference_of(world, library, HAND_SET, filler, beam=3, top=3).infer(clauses, world.task.init).plans
+        plans = inference_of(world, library, EXTENDED, filler, beam=3).infer(clauses, world.task.init, top=3).plans
         outcomes.append([(p.energy, p.instructions) for p in plans])
     for one, other in itertools.pairwise(outcomes):
         assert one == other

@@ -14,7 +14,7 @@ from tmd.energy.plans import Choice, RankedPlan
 from tmd.energy.weights import Weights, named_weights
 from tmd.errors import OutputError
 
-START = named_weights("original")
+START = named_weights("paper")
 EXAMPLES, ROUNDS = 5, 2
 
 

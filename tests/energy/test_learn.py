@@ -9,7 +9,7 @@ from tmd.energy.learn import Pool, descend, learn_weights, vector_of
 from tmd.energy.plans import Choice, RankedPlan
 from tmd.energy.weights import NAMES, Weights, named_weights
 
-START = named_weights("hand_set")
+START = named_weights("paper_extended")
 
 
 def plan(**raw: float) -> RankedPlan:

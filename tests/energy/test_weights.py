@@ -16,7 +16,7 @@ def test_writing_and_reading_gives_the_same_weights(values: dict[str, float]) ->
     assert all(weights[name] == values.get(name, 0.0) for name in NAMES)
 
 
-@pytest.mark.parametrize("name", ["hand_set", "nearest"])
+@pytest.mark.parametrize("name", ["paper_extended", "nearest"])
 def test_the_bundled_weights_can_be_read(name: str) -> None:
     assert named_weights(name)["env"] > 0
 
@@ -39,7 +39,14 @@ def test_a_wrong_line_is_reported_with_its_number(line: str, message: str) -> No
 
 
 def test_unknown_names_and_missing_files_are_reported(tmp_path: Path) -> None:
-    with pytest.raises(TmdError, match="hand_set"):
-        named_weights("hand_sett")
+    with pytest.raises(TmdError, match="goalz") as caught:
+        named_weights("goalz")
+    assert "goals" in (caught.value.hint or "")
     with pytest.raises(TmdError, match="cannot be read"):
         read_weights(tmp_path / "none.txt")
+
+
+@pytest.mark.parametrize(("old", "new"), [("original", "paper"), ("hand_set", "paper_extended"), ("stating", "goals")])
+def test_an_old_name_is_refused_with_the_new_one(old: str, new: str) -> None:
+    with pytest.raises(TmdError, match=f"^the weights '{old}' are now called '{new}'$"):
+        named_weights(old)

@@ -11,15 +11,16 @@ from typing import Any, TypeVar
 import numpy as np
 import pytest
 
+from tmd.energy.config import PAPER
 from tmd.energy.plans import RankedPlan
 from tmd.energy.weights import NAMES, OURS, Weights, named_weights
-from tmd.evaluation.crf import ROWS, Crf, NoLatent
+from tmd.evaluation.crf import ROWS, Crf
 from tmd.evaluation.dataset import BundledData, Example
 from tmd.evaluation.folds import given_fold
 from tmd.evaluation.prediction import Prediction, Served
 from tmd.evaluation.units import fit_text
 from tmd.pddl.task import Cube
-from tmd.planning.result import Filled, Unreachable
+from tmd.planning.result import Filled, NoPlanner, Unreachable
 from tmd.veil.library import Library
 
 ROOT = Path(__file__).parents[2]
@@ -29,7 +30,7 @@ ABSENT = {
     "no_latent": (*LATENT, *OURS),
     "no_nl": ("nl", "pcc", "cons", *OURS),
     "no_domain": ("cons", *LATENT, *OURS),
-    "extended": ("words", "generated", "stated"),
+    "paper_extended_learned": ("words", "generated", "stated"),
 }
 """The factors that a row does not have."""
 EXAMPLES = 4
@@ -95,7 +96,7 @@ def test_weights_that_are_not_learned_are_those_of_the_start_for_the_same_factor
     model = row(name)
     model.learned = False
     weights = fitted(model, train, data).weights_["kitchen"]
-    start = named_weights(model.start)
+    start = named_weights(model.config.weights)
     assert [weights[f] for f in NAMES] == [0 if f in ABSENT[name] else start[f] for f in NAMES]
     assert fit_text(name, given_fold(data.examples, {2}, {1})[0], model) is None
 
@@ -126,7 +127,7 @@ def test_an_example_is_learned_from_without_the_templates_of_its_environment(
 # ---------------------------------------------------------------- restoring
 
 
-@pytest.mark.parametrize("name", ["full", "no_nl", "no_domain", "hand_set"])
+@pytest.mark.parametrize("name", ["full", "no_nl", "no_domain", "paper"])
 def test_a_restored_model_predicts_what_the_fitted_one_did(
     name: str, data: BundledData, train: list[Example], test: list[Example]
 ) -> None:
@@ -178,7 +179,11 @@ def test_a_killed_fit_goes_on_where_it_was_and_learns_the_same(
 ) -> None:
     def mortal(lives: int) -> Mortal:
         model = Mortal(
-            language=language, most_examples=EXAMPLES, rounds=1, proposals=3, journal=tmp_path / "fit.journal.jsonl"
+            replace(PAPER, language=language),
+            most_examples=EXAMPLES,
+            rounds=1,
+            proposals=3,
+            journal=tmp_path / "fit.journal.jsonl",
         )
         model.lives = lives
         return model
@@ -232,8 +237,8 @@ def test_a_text_without_clauses_asks_for_nothing(
 
 
 def test_without_latent_nodes_only_what_holds_is_filled() -> None:
-    assert NoLatent().fill(0b101, (Cube(0b010), Cube(0b100))) == Filled((), 0b101, 0)
-    assert isinstance(NoLatent().fill(0b101, (Cube(0b010),)), Unreachable)
+    assert NoPlanner().fill(0b101, (Cube(0b010), Cube(0b100))) == Filled((), 0b101, 0)
+    assert isinstance(NoPlanner().fill(0b101, (Cube(0b010),)), Unreachable)
 
 
 def test_several_plans_are_given_cheapest_first(data: BundledData, train: list[Example], test: list[Example]) -> None:

@@ -24,7 +24,7 @@ def test_some_numbers_as_printed() -> None:
 
 
 def test_rows_come_in_the_papers_order_and_ours_below() -> None:
-    assert in_order(["empty", "full", "hand_set", "chance"]) == (["chance", "full"], ["empty", "hand_set"])
+    assert in_order(["empty", "full", "paper", "chance"]) == (["chance", "full"], ["empty", "paper"])
 
 
 def test_every_model_has_a_title() -> None:

@@ -191,7 +191,7 @@ def test_steps_of_a_sequence_that_was_changed_afterwards_belong_to_no_clause() -
 
 
 def test_without_the_empty_row_the_page_says_so(tmp_path: Path) -> None:
-    page = write_report(finished(tmp_path, ("nearest", "hand_set"))).read_text(encoding="utf-8")
+    page = write_report(finished(tmp_path, ("nearest", "paper"))).read_text(encoding="utf-8")
     assert "The floor was not computed" in page
     assert "No row of this run learned weights" in page
 
@@ -204,7 +204,7 @@ def test_a_run_of_few_rows_has_a_page(tmp_path: Path, models: tuple[str, ...]) -
 
 
 def test_the_paper_stands_beside_rows_and_tasks_that_both_have(tmp_path: Path) -> None:
-    page = write_report(finished(tmp_path, ("full", "hand_set"), ("ramen", "study_night"))).read_text(encoding="utf-8")
+    page = write_report(finished(tmp_path, ("full", "paper"), ("ramen", "study_night"))).read_text(encoding="utf-8")
     table = page[page.index('id="table2"') : page.index('id="tasks"')]
     said = Reader(table).said()
     assert "The paper's average is over four tasks, this run's over the 1 shown" in said

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tmd.energy.config import PAPER, PRESETS
 from tmd.errors import TmdError
 from tmd.evaluation.crf import ROWS, Crf
 from tmd.evaluation.dataset import BundledData, Example
@@ -355,3 +357,22 @@ def test_an_unknown_row_is_refused_with_one_that_is_like_it() -> None:
     with pytest.raises(TmdError, match="fulll") as caught:
         make_model("fulll")
     assert "full" in (caught.value.hint or "")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"), [("generating", "policy"), ("stating", "goals"), ("hand_set", "paper"), ("extended", "paper_ext")]
+)
+def test_the_old_name_of_a_row_is_refused_in_one_line_with_the_new_one(old: str, new: str) -> None:
+    with pytest.raises(TmdError, match=f"^the model '{old}' is now called '{new}") as caught:
+        make_model(old)
+    assert str(caught.value).count("\n") == 0
+
+
+def test_what_ships_is_what_is_measured() -> None:
+    """The presets are rows as they are; ``full`` and its ablations differ from the paper's in one thing each."""
+    for name, config in PRESETS.items():
+        assert (ROWS[name]().config, ROWS[name]().learned) == (config, False)
+    assert ROWS["full"]().config == PAPER
+    assert ROWS["no_latent"]().config == replace(PAPER, latent=False)
+    assert ROWS["no_domain"]().config == replace(PAPER, knowledge=False)
+    assert ROWS["no_nl"]().config == replace(PAPER, language=False)

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tmd.ground import MODELS, ground
+from tmd.energy.config import PAPER
+from tmd.ground import ground
 from tmd.learned.knowledge import Knowledge, study
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
@@ -98,7 +99,7 @@ def test_the_paper_model_knows_nothing_of_ours() -> None:
     known = knowledge("01_blocks")
     world = corpus("01_blocks").world("yard2")
     text = "Put the blue block on the green block."
-    plan = ground(text, world, known.library, reward=known.reward, model=MODELS["paper"]).plans[0]
+    plan = ground(text, world, known.library, reward=known.reward, config=PAPER).plans[0]
     assert not {"words", "generated", "stated"} & set(plan.factors)
     assert not plan.factors["cover"]
     mine = ground(text, world, known.library, reward=known.reward).plans[0]

@@ -10,6 +10,7 @@ from typing import TypedDict, Unpack
 import numpy as np
 import pytest
 
+from tmd.energy.config import PAPER_EXTENDED
 from tmd.energy.journal import Journal
 from tmd.energy.learn import Learned, Propose, learn_weights
 from tmd.energy.weights import Weights, named_weights
@@ -48,7 +49,7 @@ def test_a_correction_pushes_the_weights_from_the_plan_it_corrects(
     data: BundledData, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     lessons = list(data.examples)[::6][:8]
-    model = Crf(learned=False, extended=True, start="hand_set").fit(lessons, data, np.random.default_rng(0))
+    model = Crf(PAPER_EXTENDED, learned=False).fit(lessons, data, np.random.default_rng(0))
     asked = correction("asked", (), None)
     first, second = (plan for plan in model.plans(asked, data, top=2))
     corrected = correction("corrected", second.instructions, first.instructions)
@@ -61,11 +62,11 @@ def test_a_correction_pushes_the_weights_from_the_plan_it_corrects(
         return learn_weights(propose, examples, start, random, **options)
 
     monkeypatch.setattr(crf, "learn_weights", listen)
-    learner = Crf(extended=True, start="hand_set", most_examples=2, rounds=1)
+    learner = Crf(PAPER_EXTENDED, most_examples=2, rounds=1)
     learner.fit([*lessons, corrected], data, np.random.default_rng(0))
     ((propose, count),) = seen
     assert count == 2
-    start, learned = named_weights("hand_set"), learner.weights_["kitchen"]
+    start, learned = named_weights("paper_extended"), learner.weights_["kitchen"]
     rows = [propose(number, start) for number in range(count)]
     pairs = [(plan.instructions, lost) for row in rows for plan, lost in row]
     assert (first.instructions, 1.0) in pairs
@@ -81,7 +82,7 @@ def test_a_correction_pushes_the_weights_from_the_plan_it_corrects(
 
 def test_only_the_plan_that_was_corrected_is_as_far_off_as_can_be(data: BundledData) -> None:
     lessons = list(data.examples)[::6][:8]
-    model = Crf(learned=False, extended=True, start="hand_set").fit(lessons, data, np.random.default_rng(0))
+    model = Crf(PAPER_EXTENDED, learned=False).fit(lessons, data, np.random.default_rng(0))
     first, second = model.plans(correction("asked", (), None), data, top=2)
     world = data.world("kitchen1")
     plain, corrected = (correction("x", second.instructions, proposed) for proposed in (None, first.instructions))

@@ -175,12 +175,12 @@ def test_why_the_robot_does_nothing(
 
 
 def test_the_best_row_and_the_first_that_works(tmp_path: Path) -> None:
-    lines = [line("kitchen1", 1, "full"), line("kitchen1", 1, "hand_set", END=70.0, executable=False)]
-    lines += [line("kitchen1", 2, "hand_set", END=20.0), line("kitchen1", 3, "hand_set", END=100.0)]
+    lines = [line("kitchen1", 1, "full"), line("kitchen1", 1, "paper", END=70.0, executable=False)]
+    lines += [line("kitchen1", 2, "paper", END=20.0), line("kitchen1", 3, "paper", END=100.0)]
     lines += [line("kitchen1", 1, "empty", predicted=[], END=99.0)]
-    finished(tmp_path, lines, ("empty", "full", "hand_set"))
+    finished(tmp_path, lines, ("empty", "full", "paper"))
     (choice,) = choices(read_run(tmp_path))
-    assert choice.model == "hand_set"
+    assert choice.model == "paper"
     assert choice.line is not None and choice.line.id == "ramen-kitchen1-2"
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import wraps
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
@@ -13,6 +13,7 @@ import click
 from tmd import __version__
 from tmd.cli.learned import learned_option
 from tmd.cli.roots import Roots
+from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig, preset
 from tmd.errors import TmdError
 
 if TYPE_CHECKING:
@@ -35,8 +36,18 @@ class GroundingOptions:
     model_name: str
     weights: str | None
     learned: Path | None
-    beam: int
+    beam: int | None
     trim: int | None
+
+    def config(self) -> InferenceConfig:
+        """The model, with what is to be otherwise.
+
+        Raises:
+            TmdError: There is none of that name.
+        """
+        model = preset(self.model_name)
+        beam = model.beam if self.beam is None else self.beam or None
+        return replace(model, beam=beam, trim=model.trim if self.trim is None else self.trim)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,19 +93,17 @@ _OPTIONS = (
     click.option(
         "--model",
         "model_name",
-        default="stating",
+        default=DEFAULT,
         show_default=True,
         metavar="NAME",
-        help="What is minimised: stating, generating, extended, or paper, which is the paper's as printed.",
+        help=f"What is minimised: {', '.join(PRESETS)}; the last is the paper's as printed.",
     ),
     click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the model's own by default."),
     learned_option,
     click.option(
         "--beam",
         type=click.IntRange(0),
-        default=3,
-        show_default=True,
-        help="How many states to follow from clause to clause; 0 follows all.",
+        help=f"How many states to follow from clause to clause, {PRESETS[DEFAULT].beam} by default; 0 follows all.",
     ),
     click.option(
         "--trim",
@@ -111,11 +120,11 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
     from tmd.cli.scene import frequent_verbs, likened_nouns, load_scene, unknown_nouns
-    from tmd.ground import ground, make_model
+    from tmd.ground import ground
     from tmd.learned.store import known
     from tmd.planning.backends import IN_PROCESS
 
-    model = make_model(options.model_name)
+    config = options.config()
     factors = _weights(options.weights) if options.weights and options.weights != LEARNED else None
     corpus, world = load_scene(roots, environment, domain)
     knowledge = known(corpus, options.learned)
@@ -127,14 +136,11 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
         knowledge.library,
         factors,
         reward=knowledge.reward,
-        model=model,
+        config=config,
         planner=options.planner or IN_PROCESS,
-        beam=options.beam or None,
-        trim=options.trim,
         top=options.top,
     )
-    weights = options.weights or model.weights
-    made = made_with(weights, options.planner, options.model_name, options.beam, options.trim, options.top)
+    made = made_with(options.planner, options.model_name, config, options.weights, options.top)
     unknown = tuple(unknown_nouns(grounded.parsed.clauses, world))
     likened = likened_nouns(grounded.parsed.clauses, world)
     return Answer(grounded, corpus, world, unknown, likened, tuple(frequent_verbs(knowledge.library)), made)
@@ -147,7 +153,11 @@ def environment_file(name: str) -> str | None:
 
 
 def made_with(
-    weights: str, planner: str | None, model: str = "stating", beam: int = 3, trim: int | None = None, top: int = 1
+    planner: str | None,
+    model: str = DEFAULT,
+    config: InferenceConfig = PRESETS[DEFAULT],
+    weights: str | None = None,
+    top: int = 1,
 ) -> dict[str, object]:
     """What decides the plans for a text, beside the text and the environment."""
     from tmd.planning.backends import IN_PROCESS
@@ -155,10 +165,10 @@ def made_with(
     return {
         "version": __version__,
         "model": model,
-        "weights": weights,
+        "weights": weights or config.weights,
         "planner": planner or IN_PROCESS,
-        "beam": beam,
-        "trim": trim,
+        "beam": config.beam or 0,
+        "trim": config.trim,
         "top": top,
     }
 

@@ -44,7 +44,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     from tmd.cli.remarks import remarks
     from tmd.cli.scene import frequent_verbs, likened_nouns, unknown_nouns
     from tmd.cli.show_plans import grounded_json
-    from tmd.ground import DEFAULT, MODELS, ground
+    from tmd.ground import ground
     from tmd.learned.store import known
 
     knowledge = known(corpus, learned)
@@ -53,7 +53,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     likened = likened_nouns(grounded.parsed.clauses, world)
     told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library), likened))
     record = grounded_json(grounded, corpus.folder.name, world.name, unknown)
-    record["made_with"] = made_with(MODELS[DEFAULT].weights, planner)
+    record["made_with"] = made_with(planner)
     if not any(verdict.valid for verdict in grounded.verdicts):
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
     clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]

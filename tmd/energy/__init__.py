@@ -8,8 +8,10 @@ module              holds
 ``energy``          the factors of a choice, and their weighing
 ``weights``         what each factor weighs: a text file
 ``constraints``     getConstraints: what a sequence needs of the state it begins in
-``infer``           Algorithm 1, and a policy that may propose and judge beside the templates
-``plans``           the ranked plans that come out of it, and why each lost
+``config``          one definition of each model: the presets
+``proposers``       what may be done for a clause: templates, a policy, the planner
+``algorithm1``      Algorithm 1 over the clauses
+``plans``           the ways through the clauses, the ranked plans that come of them, and why each lost
 ``learn``           the weights by descent on the structured hinge
 ``journal``         what learning has proposed so far, on disk: after a kill it goes on
 ==================  ==============================================================================

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from tmd.energy import factors
+from tmd.energy.config import AKIN
 from tmd.energy.statistics import EndStates, Statistics, kind_of
 from tmd.energy.weights import Weights
 from tmd.language.clause import Clause
@@ -28,7 +29,7 @@ class Energy:
         akin: As for :func:`~tmd.energy.factors.delta_nl`.
     """
 
-    def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = factors.AKIN) -> None:
+    def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = AKIN) -> None:
         self.weights = weights
         self.statistics = statistics
         self.world = world
@@ -59,7 +60,7 @@ class Energy:
 
     def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:
         """ψ'_i: whether the clause's objects end as they usually do when its verb has been done."""
-        table = self.statistics.ends.get(verb)
+        table = self.statistics.ends.get(self.world.mentions.lexicon.canonical_verb(verb))
         return {"cons": self._inconsistency(table, names, end) if table is not None else 0.0}
 
     def of_latent(self, plan: Sequence[Instruction], end: Bits) -> Factors:
@@ -84,6 +85,10 @@ class Energy:
     def weigh(self, values: Mapping[str, float]) -> Factors:
         """Each factor multiplied by its weight."""
         return {name: self.weights[name] * value for name, value in values.items()}
+
+    def total(self, values: Mapping[str, float]) -> float:
+        """The weighed factors, summed."""
+        return sum(self.weigh(values).values())
 
     def _prior(self, instructions: Sequence[Instruction]) -> tuple[float, float]:
         """Δ_inpr and Δ_para: the mean surprise of the instructions, and of the classes of their arguments."""

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+from tmd.energy.config import AKIN
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube
 from tmd.veil.instantiate import Instantiation
 from tmd.veil.states import differences
-
-AKIN = 0.75
-"""What a noun counts that differs from another only by a modifier."""
 
 
 def delta_env(instantiation: Instantiation) -> float:

@@ -1,9 +1,9 @@
-"""Ranked plans: what inference hands out, with the reasons for the ranking."""
+"""Ways through the clauses, and the ranked plans that inference makes of them, with the reasons for the ranking."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
@@ -29,8 +29,8 @@ class Choice:
     """What was chosen for one clause.
 
     Attributes:
-        source: The demonstration whose template was used; ``None`` where none could be used:
-            the verb is in no demonstration, or nothing that was shown for it can be done here.
+        source: The demonstration whose template was used, or the name of another proposer; ``None`` where none could
+            be used: the verb is in no demonstration, or nothing that was shown for it can be done here.
         steps: The latent steps, then those of the template.
         factors: The weighed factors, by name.
         raw: The same factors before they are weighed.
@@ -45,6 +45,29 @@ class Choice:
     def energy(self) -> float:
         """The sum of the factors."""
         return sum(self.factors.values())
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """A way through the first clauses: what it cost, where it ends, and the choices that make it."""
+
+    energy: float
+    state: Bits
+    choices: tuple[Choice, ...] = ()
+
+    def extended(self, choice: Choice, end: Bits) -> Path:
+        """The way with a choice for the next clause, which ends in ``end``."""
+        return Path(self.energy + choice.energy, end, (*self.choices, choice))
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """What is done on it."""
+        return tuple(step.instruction for choice in self.choices for step in choice.steps)
+
+    @property
+    def order(self) -> tuple[float, tuple[Instruction, ...]]:
+        """Cheapest first; ties in the order of the instructions, so that the ranking is the same everywhere."""
+        return self.energy, self.instructions
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,6 +117,30 @@ class RankedPlan:
     def energy(self) -> float:
         """Γ: the sum of all factors."""
         return sum(choice.energy for choice in self.choices)
+
+
+@dataclass(frozen=True, slots=True)
+class Inferred:
+    """The outcome of inference: plans, cheapest first, and the candidates that could not be executed."""
+
+    plans: tuple[RankedPlan, ...]
+    refusals: tuple[Refusal, ...]
+
+
+def cheapest(paths: Iterable[Path], count: int) -> list[Path]:
+    """The ``count`` cheapest paths that differ in what is done."""
+    kept: dict[tuple[Instruction, ...], Path] = {}
+    for path in sorted(paths, key=lambda path: path.order):
+        if len(kept) == count:
+            break
+        kept.setdefault(path.instructions, path)
+    return list(kept.values())
+
+
+def ranked(paths: Iterable[Path], count: int) -> tuple[RankedPlan, ...]:
+    """The ``count`` cheapest distinct plans, each with why it is not the first."""
+    plans = [RankedPlan(path.choices, path.state) for path in cheapest(paths, count)]
+    return tuple(replace(plan, why=why_lost(plan, plans[0])) if place else plan for place, plan in enumerate(plans))
 
 
 def _total(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:

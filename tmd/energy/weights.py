@@ -19,6 +19,7 @@ NAMES = (
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
 OURS = ("cover", "words", "generated", "stated")
 """Those of them that are not in the paper."""
+_RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +73,13 @@ def read_weights(path: Path) -> Weights:
 
 
 def named_weights(name: str) -> Weights:
-    """The weights that come with the package, by name: ``hand_set``, ``original``, ``generating`` or ``nearest``.
+    """The weights that come with the package: those of a preset (:mod:`tmd.energy.config`), or ``nearest``.
 
     Raises:
         TmdError: There are none of that name.
     """
+    if name in _RENAMED:
+        raise TmdError(f"the weights '{name}' are now called '{_RENAMED[name]}'")
     folder = resources.files("tmd.energy") / "data"
     known = sorted(f.name.removesuffix(".txt") for f in folder.iterdir() if f.name.endswith(".txt"))
     if name not in known:

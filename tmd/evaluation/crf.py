@@ -1,9 +1,9 @@
-"""The model of the paper as rows of the table: full, its ablations, and our variants of it."""
+"""The model of the paper as rows of the table: full, its ablations, and the presets of :mod:`tmd.energy.config`."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from statistics import median
@@ -12,12 +12,13 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from tmd.energy.algorithm1 import Inference
+from tmd.energy.config import GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
 from tmd.energy.energy import Energy
-from tmd.energy.factors import AKIN
-from tmd.energy.infer import FEW, Inference
 from tmd.energy.journal import Journal
 from tmd.energy.learn import Learned, learn_weights
 from tmd.energy.plans import RankedPlan
+from tmd.energy.proposers import proposers_of
 from tmd.energy.statistics import Statistics, count
 from tmd.energy.weights import NAMES, OURS, Weights, named_weights
 from tmd.errors import TmdError
@@ -26,10 +27,8 @@ from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
 from tmd.evaluation.tree import InstructionTree
 from tmd.language import Clause, parse
-from tmd.pddl.task import Bits, Cube
-from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.filler import QUICK
-from tmd.planning.result import Answer, Filled, Planner, Unreachable
+from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.planning.result import Planner
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
@@ -42,29 +41,16 @@ _BLIND = ("cons", *_LATENT)
 """The factors that need to know what instructions do."""
 
 
-class NoLatent:
-    """A planner that never plans: what is not executable as it stands is refused."""
-
-    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Nothing, where the goal holds."""
-        if any(cube.holds(state) for cube in goal):
-            return Filled((), state, 0)
-        return Unreachable("it would need instructions that nobody said")
+_PLANNERS: WeakKeyDictionary[Worlds, dict[tuple[str, int], Planner]] = WeakKeyDictionary()
+"""One planner for each environment of a data set: what one model has asked, no other has to ask again."""
 
 
-_PLANNERS: WeakKeyDictionary[Worlds, dict[str, Planner]] = WeakKeyDictionary()
-"""One planner for each environment of a data set: what one model has asked, no other has to ask again.
-
-Its searches are short: what people leave unsaid is, and a candidate that needs more is not the best one.
-"""
-
-
-def planner_for(data: Worlds, environment: str) -> Planner:
-    """The planner of an environment."""
+def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
+    """The planner of an environment, which gives up after ``cap`` generated states."""
     known = _PLANNERS.setdefault(data, {})
-    if environment not in known:
-        known[environment] = make(IN_PROCESS, data.world(environment).task, cap=QUICK)
-    return known[environment]
+    if (environment, cap) not in known:
+        known[environment, cap] = make(IN_PROCESS, data.world(environment).task, cap=cap)
+    return known[environment, cap]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,19 +66,8 @@ class Crf:
     """The energy and its inference.
 
     Args:
-        learned: Whether the weights are learned; otherwise they are those named by ``start``.
-        start: The weights that learning begins with.
-        latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
-        knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*.
-        language: Whether the robot hears what is said; without it *No NL Instructions*: as many steps as the median
-            of the demonstrations has, each by any template.
-        extended: Our extensions: nouns paired in order of mention, akin nouns, Δ_cover.
-        generate: A log-linear policy, learned from the same demonstrations, proposes sequences as well and judges all
-            candidates by the words of the clause (Δ_words).
-        state: The planner proposes the shortest way to what the clause states as well, and all candidates are judged
-            by whether it holds in the end (Δ_stated).
-        beam: As for :class:`~tmd.energy.infer.Inference`.
-        trim: As there.
+        config: The model.
+        learned: Whether the weights are learned; otherwise they are those of the model.
         proposals: How many plans are looked at for each training example.
         most_examples: At most so many training examples of each world are learned from, drawn at random.
         rounds: How often plans are proposed anew.
@@ -101,32 +76,16 @@ class Crf:
 
     def __init__(
         self,
+        config: InferenceConfig = PAPER,
         *,
         learned: bool = True,
-        start: str = "original",
-        latent: bool = True,
-        knowledge: bool = True,
-        language: bool = True,
-        extended: bool = False,
-        generate: bool = False,
-        state: bool = False,
-        beam: int = 3,
-        trim: int | None = None,
         proposals: int = 10,
         most_examples: int = 20,
         rounds: int = 2,
         journal: Path | None = None,
     ) -> None:
+        self.config = config
         self.learned = learned
-        self.start = start
-        self.latent = latent
-        self.knowledge = knowledge
-        self.language = language
-        self.extended = extended
-        self.generate = generate
-        self.state = state
-        self.beam = beam
-        self.trim = trim
         self.proposals = proposals
         self.most_examples = most_examples
         self.rounds = rounds
@@ -135,13 +94,14 @@ class Crf:
     @property
     def factors(self) -> tuple[str, ...]:
         """The factors that this model weighs."""
+        config = self.config
         absent = (
-            *(() if self.extended else OURS),
-            *(() if self.generate else ("words", "generated")),
-            *(() if self.state else ("stated",)),
-            *(() if self.language else _SPOKEN),
-            *(() if self.knowledge else _BLIND),
-            *(() if self.latent else _LATENT),
+            *(() if config.extended else OURS),
+            *(() if config.policy else ("words", "generated")),
+            *(() if config.goals else ("stated",)),
+            *(() if config.language else _SPOKEN),
+            *(() if config.knowledge else _BLIND),
+            *(() if config.latent else _LATENT),
         )
         return tuple(name for name in NAMES if name not in absent)
 
@@ -196,14 +156,14 @@ class Crf:
 
     def _prepare(self, examples: Sequence[Example], data: Worlds) -> None:
         self.libraries_ = libraries(examples, data)
-        if not self.language:
+        if not self.config.language:
             self.libraries_ = {world: whole(library) for world, library in self.libraries_.items()}
             self.steps_ = {world: _usual_steps(examples, world) for world in self.libraries_}
             self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
         self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
         self.learned_: dict[str, Learned] = {}
         self.tree_ = self._policy(examples, data)
-        start = named_weights(self.start)
+        start = named_weights(self.config.weights)
         mine = Weights({name: start[name] for name in self.factors})
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
@@ -228,7 +188,7 @@ class Crf:
             return [(plan, loss(plan, example, data.world(example.environment))) for plan in plans]
 
         journal = Journal(self.journal, name) if self.journal else None
-        start = named_weights(self.start)
+        start = named_weights(self.config.weights)
         return learn_weights(
             propose, len(chosen), start, random, factors=self.factors, rounds=self.rounds, journal=journal
         )
@@ -237,7 +197,7 @@ class Crf:
         """What the other examples teach."""
         others = [e for e in examples if e.demonstration.id not in group]
         library = self.libraries_[name].filtered(lambda template: template.source not in group)
-        if not self.language:
+        if not self.config.language:
             library = whole(library)
         return _Taught(library, count(library), self._policy(others, data))
 
@@ -250,7 +210,7 @@ class Crf:
     def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
         # its own seed: a model that is restored has the same policy
         random = np.random.default_rng(0)
-        return InstructionTree(grounded=True).fit(examples, data, random) if self.generate else None
+        return InstructionTree(grounded=True).fit(examples, data, random) if self.config.policy else None
 
     def _plans(
         self,
@@ -263,7 +223,7 @@ class Crf:
     ) -> tuple[RankedPlan, ...]:
         """What inference finds. Told nothing it finds the same for every example in an environment."""
         infer = partial(self._infer, example, data, taught, weights, top=top)
-        if self.language:
+        if self.config.language:
             return infer()
         key = example.environment, len(taught.library), tuple(weights.values.items()), top
         if key not in self._told_nothing:
@@ -279,25 +239,16 @@ class Crf:
         *,
         top: int,
     ) -> tuple[RankedPlan, ...]:
-        world = data.world(example.environment)
-        inference = Inference(
-            world,
-            taught.library,
-            Energy(weights, taught.statistics, world, akin=AKIN if self.extended else 0.0),
-            planner_for(data, example.environment) if self.latent else NoLatent(),
-            beam=self.beam,
-            trim=self.trim,
-            top=top,
-            pair_nouns=self.extended,
-            knowledge=self.knowledge,
-            policy=taught.tree.policy(example.environment, example.world, data) if taught.tree else None,
-            plan_stated=self.state,
-            few=FEW if self.state else 0.0,
-        )
-        return inference.infer(self._clauses(example, data), world.task.init).plans
+        config, world = self.config, data.world(example.environment)
+        energy = Energy(weights, taught.statistics, world, akin=config.akin)
+        policy = taught.tree.policy(example.environment, example.world, data) if taught.tree else None
+        proposers = proposers_of(config, world, taught.library, energy, policy, partial(last_resort, world.task))
+        planner = planner_for(data, example.environment, config.cap)
+        inference = Inference(world, energy, planner, proposers, config)
+        return inference.infer(self._clauses(example, data), world.task.init, top).plans
 
     def _clauses(self, example: Example, data: Worlds) -> Sequence[Clause]:
-        if not self.language:
+        if not self.config.language:
             return [Clause("")] * self.steps_[example.world]
         return parse(example.demonstration.text, data.lexicon).clauses
 
@@ -360,26 +311,23 @@ def _usual_steps(examples: Sequence[Example], world: str) -> int:
 
 
 ROWS: dict[str, Callable[[], Crf]] = {
-    "no_nl": partial(Crf, language=False),
-    "no_domain": partial(Crf, knowledge=False),
-    "no_latent": partial(Crf, latent=False),
+    "no_nl": partial(Crf, replace(PAPER, language=False)),
+    "no_domain": partial(Crf, replace(PAPER, knowledge=False)),
+    "no_latent": partial(Crf, replace(PAPER, latent=False)),
     "full": Crf,
-    "hand_set": partial(Crf, learned=False),
-    "extended": partial(Crf, extended=True, start="hand_set"),
-    "generating": partial(Crf, learned=False, extended=True, generate=True, start="generating"),
-    "stating": partial(Crf, learned=False, extended=True, generate=True, state=True, start="stating"),
-    "stating_learned": partial(Crf, extended=True, generate=True, state=True, start="stating"),
-    "extended_hand_set": partial(Crf, learned=False, extended=True, start="hand_set"),
+    "paper_extended_learned": partial(Crf, PAPER_EXTENDED),
+    "goals_learned": partial(Crf, GOALS),
+    **{name: partial(Crf, PRESETS[name], learned=False) for name in reversed(list(PRESETS))},
 }
-"""The model of the paper, its ablations, and our variants."""
+"""The model of the paper with learned weights, its ablations, and the presets as they ship."""
 
 
 def weights_of(corpus: Corpus, random: np.random.Generator) -> Learned:
-    """Weights for the model ``stating``, learned on all demonstrations of a domain.
+    """Weights for the model ``goals``, learned on all demonstrations of a domain.
 
     Raises:
         TmdError: A demonstration is wrong.
     """
     name = corpus.folder.name
     examples = [Example(d.id, d.task, name, d.environment, 0, d) for d in corpus.demonstrations()]
-    return ROWS["stating_learned"]().fit(examples, corpus, random).learned_[name]
+    return ROWS["goals_learned"]().fit(examples, corpus, random).learned_[name]

@@ -52,12 +52,12 @@ TABLE_2: dict[str, PaperRow] = {
 """The rows of Table II by our short names, in its order."""
 
 OURS = {
-    "hand_set": "Full model, weights set by hand",
-    "extended": "Extended model: Δ_cover, akin nouns, nouns paired in order",
-    "extended_hand_set": "Extended model, weights set by hand",
-    "generating": "Extended model with a policy that proposes and judges",
-    "stating": "The same, and the planner proposes what the clause states",
-    "stating_learned": "The same with learned weights",
+    "paper": "Full model, weights set by hand",
+    "paper_extended": "Extended model, weights set by hand",
+    "paper_extended_learned": "Extended model: Δ_cover, akin nouns, nouns paired in order",
+    "policy": "Extended model with a policy that proposes and judges",
+    "goals": "The same, and the planner proposes what the clause states",
+    "goals_learned": "The same with learned weights",
     "empty": "Empty prediction",
 }
 """Titles of rows that the paper does not have."""
