@@ -10,20 +10,48 @@ from dataclasses import dataclass, field
 
 from lark import Tree
 
-from tmd.language.clause import PERSONS, Clause, Relation, Span
+from tmd.language.chunking import CHOICE
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 from tmd.language.grammar import Leaf
 from tmd.language.morphology import singular
-from tmd.language.tokens import NAME, Kind, Token
+from tmd.language.tokens import IMPLIED, NAME, Kind, Token
 from tmd.language.words import section
 
 _ORIGIN = frozenset({"from", "out_of", "off"})
 _NEVER_HOSTS = frozenset({"with", "for", "using", "of", "containing"})
 _MULTIPLE = "; "
+WHOLES = frozenset({"everything", "anything", "all", "everybody", "both", "each", "every_thing"})
+"""Words that mean all there is."""
+_ALL = frozenset({"all", "both", "every", "each"})
+_OTHERS = frozenset({"other", "another", "others"})
+_SOME = frozenset({"some", "any", "few", "several"})
+_INDEFINITE = frozenset({"a", "an", "some", "any", "another", "no", "one"})
+_DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "your", "his", "her", "our", "their", "its"})
+_DETERMINERS = section("determiners") | section("quantifiers") | _DEFINITE | _INDEFINITE | _ALL
+_NUMBERS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve")
+
+
+def number_of(word: str) -> int | None:
+    """The number that a word or numeral names, up to twelve in words."""
+    if word.isdigit():
+        return int(word)
+    if word in ("couple", "pair"):
+        return 2
+    return _NUMBERS.index(word) if word in _NUMBERS else None
+
+
+def is_number(word: str) -> bool:
+    """Tell whether a word is a number, in figures or in words."""
+    return word[:1].isdigit() or word in section("numbers")
 
 
 @dataclass(slots=True)
 class Phrase:
-    """A noun phrase: its head's name, what hangs on it with "of", its number as written."""
+    """A noun phrase: its head's name, what hangs on it with "of", its number as written, and what was said of it.
+
+    ``lead`` are the words before the head, ``attributes`` adjectives behind it, ``either`` the names of which any will
+    do.
+    """
 
     name: str
     place: int
@@ -32,6 +60,37 @@ class Phrase:
     pronoun: bool
     quantity: str = ""
     of: list[Phrase] = field(default_factory=list)
+    lead: tuple[str, ...] = ()
+    either: tuple[str, ...] = ()
+    attributes: list[str] = field(default_factory=list)
+
+    def said(self) -> NounPhrase:
+        """How it was said."""
+        words = (*self.lead, self.name) if self.pronoun or self.name in WHOLES else self.lead
+        adjectives = [w for w in self.lead if w not in _DETERMINERS and not is_number(w)]
+        if self.name in WHOLES or any(w in _ALL for w in words):
+            quantifier = Quantifier.ALL
+        elif "no" in self.lead or self.name in ("nothing", "none"):
+            quantifier = Quantifier.NONE
+        elif self.quantity and number_of(self.quantity) is not None and number_of(self.quantity) != 1:
+            quantifier = Quantifier.NUMBER
+        elif any(w in _OTHERS for w in self.lead):
+            quantifier = Quantifier.OTHER
+        elif any(w in _SOME for w in self.lead):
+            quantifier = Quantifier.SOME
+        else:
+            quantifier = Quantifier.PLAIN
+        attributes = tuple(dict.fromkeys([*(w for w in adjectives if w not in _OTHERS), *self.attributes]))
+        return NounPhrase(
+            self.name,
+            quantifier,
+            number_of(self.quantity) if self.quantity else None,
+            any(w in _DEFINITE for w in self.lead) or self.determined and not any(w in _INDEFINITE for w in self.lead),
+            self.plural,
+            attributes,
+            self.either,
+            "each" in words or "every" in words,
+        )
 
     def all(self) -> Iterator[Phrase]:
         """Yield the phrase and everything under it."""
@@ -51,6 +110,9 @@ class Draft:
         relations: The relation matrix.
         folds: Conditions, durations, purposes.
         spans: Everything that belongs to it.
+        conditions: What the folded conditions and purposes say.
+        fronted: A condition stands in front of the verb.
+        further: Noun phrases that stand in relative clauses.
     """
 
     verb: Token
@@ -59,6 +121,9 @@ class Draft:
     relations: list[Relation] = field(default_factory=list)
     folds: list[Token] = field(default_factory=list)
     spans: list[Span] = field(default_factory=list)
+    conditions: list[Condition] = field(default_factory=list)
+    fronted: bool = False
+    further: dict[str, NounPhrase] = field(default_factory=dict)
 
     def mentions(self) -> list[Phrase]:
         """Every phrase in order of mention, each name once."""
@@ -76,10 +141,26 @@ class Draft:
             span=span,
             text=text[span.start : span.end],
             quantities={p.name: p.quantity for p in mentions if p.quantity},
+            direct=tuple(dict.fromkeys(p.name for p in self.direct)),
+            phrases=self.further | {p.name: p.said() for p in mentions},
+            conditions=tuple(self.conditions),
+            mood=self._mood(),
+            result=self.verb.lead[-1] if self.verb.lead else None,
+            otherwise=self.verb.otherwise,
+            implied=self.verb.form == IMPLIED,
+            alternative=self.verb.form == CHOICE,
             condition=self._folded(text, "condition"),
             duration=self._folded(text, "duration"),
             purpose=self._folded(text, "purpose"),
         )
+
+    def _mood(self) -> Mood:
+        """*Leave the cup where it is* and *keep the door shut* say what must stay so."""
+        placed = any(r.relation not in ("of", "with", "where") for r in self.relations)
+        relative = any(t.form == "relative" for t in self.folds)
+        if self.verb.stem == "leave" and self.direct and (relative or not placed):
+            return Mood.KEEP
+        return Mood.KEEP if self.verb.stem == "keep" and self.verb.lead and not placed else Mood.DO
 
     def _folded(self, text: str, form: str) -> str | None:
         parts = [" ".join(text[t.span.start : t.span.end].split()) for t in self.folds if t.form == form]
@@ -274,6 +355,10 @@ def _is_tool(name: str) -> bool:
 
 def _phrases(group: Tree[Leaf]) -> list[Phrase]:
     phrases = [_phrase(node) for node in group.children if isinstance(node, Tree)]
+    if any(isinstance(n, Leaf) and n.source.form == CHOICE for n in group.children):
+        names = tuple(phrase.name for phrase in phrases)
+        for phrase in phrases:
+            phrase.either = names
     result: list[Phrase] = []
     for phrase in phrases:
         host = result[-1] if result else None
@@ -307,4 +392,5 @@ def _head(node: Tree[Leaf], lead: list[Token]) -> Phrase:
     name = "one" if written == "ones" else written if as_written else singular(written)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     determined = any(t.kind is Kind.DET for t in lead)
-    return Phrase(name, words[0].span.start, name != written, determined, pronoun, quantity)
+    said = tuple(words[0].lead) or tuple(t.text for t in lead if t.kind in (Kind.DET, Kind.NUM))
+    return Phrase(name, words[0].span.start, name != written, determined, pronoun, quantity, lead=said)

@@ -29,20 +29,88 @@ _HEADS = frozenset({Kind.N, Kind.PRON})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.N, Kind.PRON, Kind.ADJ, Kind.ADV, Kind.FILLER})
 _SCALES = frozenset({"heat", "flame", "fire", "power", "speed", "volume", "temperature", "setting"})
 _ON_OFF = frozenset({"turn", "switch", "shut", "power"})
+CHOICE = "choice"
+"""The form of what "or" joins to what stands before it."""
 _LINKS = frozenset({Kind.COMMA, Kind.CC})
+_WHOLES = frozenset({"everything", "anything", "all", "every", "each", "everybody", "nothing"})
+_RESULT_VERBS = frozenset({"make", "get", "have", "keep", "leave", "turn", "want", "set"})
+"""What stands behind their object may be the state that it shall be in ..."""
+_PLAIN_VERBS = frozenset({"push", "pull", "put", "swing", "slide", "tie", "lock", "switch", "hold", "prop", "find"})
+"""... and behind that of these, if it is one of the next."""
+_STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done"})
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
 
 
 def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the tokens the grammar sees, in order."""
+    _exceptions(tokens)
     tokens = _settings(_ones(_numbered(_partitives(tokens))))
     _particles(tokens, lexicon)
+    _leads(tokens)
+    _sentences(tokens)
     for verb, modifier in pairwise(tokens):
         if verb.kind is Kind.V and modifier.kind is Kind.ADV:
             verb.form = ALONE
     tokens = [t for t in tokens if t.kind not in (Kind.FILLER, Kind.ADV, Kind.ADJ, Kind.SKIP)]
     tokens = _links(_drop_dangling(tokens))
     return [t for t in tokens if t.kind in _VISIBLE]
+
+
+def _exceptions(tokens: list[Token]) -> None:
+    """Read "everything but the cup", "all of them except for the cup": *but* is a preposition there."""
+    for at, token in enumerate(tokens[1:-1], 1):
+        whole = any(t.text in _WHOLES for t in tokens[max(0, at - 4) : at])
+        if token.text in ("but", "save") and whole and tokens[at + 1].kind in _NP | {Kind.ADJ}:
+            token.kind, token.text = Kind.P, "except"
+            if tokens[at + 1].text == "for":
+                tokens[at + 1].kind = Kind.FILLER
+
+
+def _leads(tokens: list[Token]) -> None:
+    """Keep beside each noun the determiners, numerals and adjectives before it; beside a verb the state it asks for."""
+    lead: list[str] = []
+    verb: Token | None = None
+    for at, token in enumerate(tokens):
+        if token.kind in (Kind.N, Kind.PRON):
+            token.lead, lead = lead, []
+        elif token.kind in (Kind.DET, Kind.NUM, Kind.ADJ) or _modifies(tokens, at):
+            lead.append(token.text)
+        elif token.kind not in (Kind.FILLER, Kind.ADV):
+            lead = []
+        if token.kind in (Kind.V, Kind.STOP, Kind.SEP):
+            verb = token if token.kind is Kind.V else None
+        if verb is not None and token is not verb and _is_state(tokens, at, verb):
+            verb.lead.append(token.text)
+            verb.parts.append(token.span)
+
+
+def _modifies(tokens: list[Token], at: int) -> bool:
+    """Tell whether a participle, which is dropped like an adverb, tells which thing is meant: "the used cup"."""
+    token = tokens[at]
+    following = tokens[at + 1] if at + 1 < len(tokens) else None
+    return token.kind is Kind.FILLER and token.form == "ed" and following is not None and following.kind is Kind.N
+
+
+def _is_state(tokens: list[Token], at: int, verb: Token) -> bool:
+    """Tell whether a word says how something shall be in the end: "get it boiling", "keep the door shut"."""
+    token = tokens[at]
+    following = tokens[at + 1] if at + 1 < len(tokens) else None
+    ends = following is None or following.kind not in (Kind.N, Kind.NUM, Kind.ADJ, Kind.DET)
+    said = token.kind is Kind.ADJ or token.text in _STATES or token.form in ("ed", "ing")
+    hosts = verb.stem in _RESULT_VERBS or (verb.stem in _PLAIN_VERBS and token.text in _STATES)
+    noun_before = any(t.kind in (Kind.N, Kind.PRON) for t in tokens[max(0, at - 3) : at]) or verb.stem == "leave"
+    return hosts and said and ends and noun_before and token.kind not in (Kind.N, Kind.V, Kind.PRON, Kind.DET)
+
+
+def _sentences(tokens: list[Token]) -> None:
+    """Number the sentences that verbs stand in, and mark those after "otherwise"."""
+    number, otherwise = 0, False
+    for token in tokens:
+        if token.kind is Kind.STOP and token.text[:1] in ".!?":
+            number += 1
+        otherwise = otherwise or token.text in ("otherwise", "else", "if_not")
+        if token.kind is Kind.V:
+            token.sentence, token.otherwise, otherwise = number, otherwise, False
 
 
 def _following(tokens: list[Token], at: int) -> Token | None:
@@ -274,6 +342,16 @@ def _opens_clause(tokens: list[Token], at: int) -> bool:
     return False
 
 
+def _fronts(tokens: list[Token], at: int) -> bool:
+    """Tell whether a condition belongs to the verb after it: "take the cup and, if it is dirty, wash it"."""
+    if at >= len(tokens) or tokens[at].kind is not Kind.MOD or tokens[at].form != "condition":
+        return False
+    end = at + 1
+    while end < len(tokens) and tokens[end].kind in _LINKS:
+        end += 1
+    return end < len(tokens) and tokens[end].kind is Kind.V
+
+
 def _shares(verb: Token) -> bool:
     """Tell whether a verb takes the object of the next one: "wash and dry the pan"."""
     return verb.form != ALONE and verb.stem not in section("intransitive")
@@ -299,7 +377,14 @@ def _links(tokens: list[Token]) -> list[Token]:
             end += 1
         before = result[-1].kind if result else Kind.SEP
         after = tokens[end].kind if end < len(tokens) else Kind.SEP
-        if after is Kind.V and not fronted:
+        choice = any(t.text == "or" for t in tokens[at:end])
+        token.form = CHOICE if choice else token.form
+        if after is Kind.V and choice:
+            tokens[end].form = CHOICE
+        if not fronted and _fronts(tokens, end):
+            token.kind, fronted = Kind.SEP, True
+            result.append(token)
+        elif after is Kind.V and not fronted:
             token.kind = Kind.VCC if before is Kind.V and _shares(result[-1]) else Kind.SEP
             result.append(token)
         elif after is Kind.P and _opens_clause(tokens, end):

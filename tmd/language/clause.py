@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import NamedTuple
 
 
@@ -33,6 +34,75 @@ class Relation(NamedTuple):
     target: str
 
 
+class Quantifier(StrEnum):
+    """How many of the things that a noun may name are meant."""
+
+    PLAIN = "plain"
+    """Nothing was said of it: *a cup*, *the cups*, *milk*."""
+    SOME = "some"
+    """One or some of them: *some cups*, *any cup*."""
+    ALL = "all"
+    """Every one: *all the cups*, *both cups*, *each cup*, *the cups*."""
+    NUMBER = "number"
+    """So many of them as :attr:`NounPhrase.number` says."""
+    OTHER = "other"
+    """One that was not spoken of before: *another cup*, *the other cup*."""
+    NONE = "none"
+    """None of them: *no sugar*."""
+
+
+@dataclass(frozen=True, slots=True)
+class NounPhrase:
+    """How a language-object was said.
+
+    Attributes:
+        name: The language-object.
+        quantifier: How many are meant.
+        number: The number, where one was said.
+        definite: Said with *the*, *this* or a possessive.
+        plural: Said in the plural.
+        attributes: Adjectives, in order: ``empty``, ``dirty``.
+        either: The language-objects of which any one will do: *the cup or the mug*.
+        each: Said of every one by itself: *each cup*.
+    """
+
+    name: str
+    quantifier: Quantifier = Quantifier.PLAIN
+    number: int | None = None
+    definite: bool = False
+    plural: bool = False
+    attributes: tuple[str, ...] = ()
+    either: tuple[str, ...] = ()
+    each: bool = False
+
+
+class Mood(StrEnum):
+    """What is asked of a clause."""
+
+    DO = "do"
+    AVOID = "avoid"
+    """It must not be done: *don't open the window*."""
+    KEEP = "keep"
+    """Things shall stay as they are: *leave the cup where it is*."""
+
+
+@dataclass(frozen=True, slots=True)
+class Condition:
+    """A subordinate clause that says when, or whether, another one is done.
+
+    Attributes:
+        word: What opens it: ``if``, ``unless``, ``when``, ``before``, ``until``, ``to`` (a purpose) …
+        clauses: What it says; a state is a clause with the verb ``be``.
+        negated: It says that the state does not hold.
+        text: As written.
+    """
+
+    word: str
+    clauses: tuple[Clause, ...]
+    negated: bool = False
+    text: str = ""
+
+
 @dataclass(frozen=True, slots=True)
 class Clause:
     """A verb clause.
@@ -51,6 +121,14 @@ class Clause:
         condition: A condition ("until it boils"), as written.
         duration: A duration ("for 3 minutes"), as written.
         purpose: A purpose ("to make tea"), as written.
+        direct: Those of ``objects`` that the verb acts on.
+        phrases: How each of ``objects`` was said.
+        result: The state that something shall be in: ``open``, ``hot``, ``louder``.
+        conditions: What was said about when, whether and what for.
+        otherwise: It is done where the condition before it does not hold.
+        mood: Whether it is to be done, or avoided, or things are to be kept.
+        implied: The verb was not said: *A glass of milk, please.*
+        alternative: It need not be done where the clause before it was: *or throw it away*.
     """
 
     verb: str
@@ -64,6 +142,18 @@ class Clause:
     condition: str | None = field(default=None, compare=False)
     duration: str | None = field(default=None, compare=False)
     purpose: str | None = field(default=None, compare=False)
+    direct: tuple[str, ...] = field(default=(), compare=False)
+    phrases: Mapping[str, NounPhrase] = field(default_factory=dict, compare=False)
+    result: str | None = field(default=None, compare=False)
+    conditions: tuple[Condition, ...] = field(default=(), compare=False)
+    otherwise: bool = field(default=False, compare=False)
+    mood: Mood = field(default=Mood.DO, compare=False)
+    implied: bool = field(default=False, compare=False)
+    alternative: bool = field(default=False, compare=False)
+
+    def phrase(self, name: str) -> NounPhrase:
+        """How one of its language-objects was said."""
+        return self.phrases.get(name) or NounPhrase(name)
 
     def resolved(self) -> tuple[str, ...]:
         """The objects with each pronoun replaced by its likeliest antecedents, each name once, without persons."""
@@ -89,8 +179,16 @@ class Skipped(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Parsed:
-    """A text as clauses. Nothing of the text is silently lost: what no clause covers is in ``skipped``."""
+    """A text as clauses. Nothing of the text is silently lost: what no clause covers is in ``skipped``.
+
+    Attributes:
+        text: The text.
+        clauses: What is to be done, in the order of the text.
+        skipped: What no clause accounts for.
+        constraints: What must not be done, and what must stay as it is.
+    """
 
     text: str
     clauses: tuple[Clause, ...]
     skipped: tuple[Skipped, ...] = ()
+    constraints: tuple[Clause, ...] = ()

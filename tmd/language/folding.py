@@ -288,6 +288,10 @@ class _Folder:
                 self._filler(*self.tokens[at:place])
                 self.tokens[place].form = RELATIVE
                 return place
+            adjective = self._peek(copula)
+            after = adjective + 1
+            if described and self._kind(adjective) is Kind.ADJ and self._kind(after) in (Kind.P, Kind.TO, Kind.CC):
+                return self._fold(at, after, Kind.MOD, "relative")
         if self.out and self.out[-1].kind is Kind.P:
             self.out[-1].kind = Kind.FILLER
         return self._fold(at, self._relative_end(at), Kind.MOD, "relative")

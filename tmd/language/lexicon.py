@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
 
+from tmd.errors import Location
 from tmd.language.morphology import positive, singular, verb_stem
 from tmd.language.words import data_text, section, sections
 
@@ -49,6 +50,15 @@ def _english() -> frozenset[str]:
     return frozenset(data_text("wordnet_words.txt.gz").split())
 
 
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A pattern or an adjective with the PDDL condition that it was given, as written, and its place."""
+
+    pattern: str
+    condition: str
+    location: Location | None = field(default=None, compare=False)
+
+
 @dataclass(frozen=True)
 class Lexicon:
     """Built-in words plus those of a domain.
@@ -59,6 +69,9 @@ class Lexicon:
             another): ``{"fire_up": "turn_on"}``.
         nouns: What a noun may mean here: names of classes, objects or substances, likeliest first.
         verb_synonyms: Verb to the verb whose templates serve it as well.
+        goals: What verbs with their slots mean, as conditions of the domain (:mod:`tmd.goals.table`).
+        attributes: What adjectives mean, as conditions of ``?x``.
+        groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
         source: The file it came from.
     """
 
@@ -66,6 +79,9 @@ class Lexicon:
     phrasal: Mapping[str, str] = field(default_factory=dict)
     nouns: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     verb_synonyms: Mapping[str, str] = field(default_factory=dict)
+    goals: tuple[Declared, ...] = ()
+    attributes: tuple[Declared, ...] = ()
+    groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     source: str = ""
 
     @classmethod
@@ -84,12 +100,18 @@ class Lexicon:
         return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
 
     @cached_property
+    def goal_verbs(self) -> frozenset[str]:
+        """The verbs that have a declared meaning."""
+        return frozenset(verb for row in self.goals for verb in row.pattern.partition(" ")[0].split("|"))
+
+    @cached_property
     def _own_verbs(self) -> frozenset[str]:
-        return section("verbs") | section("noun_verbs") | section("lead_verbs") | self.verbs
+        named = {verb.partition("_")[0] for verb in self.goal_verbs}
+        return section("verbs") | section("noun_verbs") | section("lead_verbs") | self.verbs | named
 
     @cached_property
     def _own_nouns(self) -> frozenset[str]:
-        heads = {part for noun in self.nouns for part in (noun, noun.rpartition("_")[2])}
+        heads = {part for noun in (*self.nouns, *self.groups) for part in (noun, noun.rpartition("_")[2])}
         return section("nouns") | frozenset(heads)
 
     @cached_property
@@ -98,6 +120,7 @@ class Lexicon:
         moving = section("intransitive") | section("chain_verbs")
         table = {name: False for name in _wordnet_verbs()[2] if name.partition("_")[0] not in moving}
         table.update((entry.rstrip("!"), entry.endswith("!")) for entry in sections()["phrasal"])
+        table.update((name, table.get(name, False)) for name in self.goal_verbs if "_" in name)
         table.update((name, True) for name in self.phrasal)
         return table
 

@@ -14,9 +14,9 @@ from typing import NoReturn
 import yaml
 
 from tmd.errors import Location, TmdError
-from tmd.language.lexicon import Lexicon
+from tmd.language.lexicon import Declared, Lexicon
 
-KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms")
+KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
 
 
@@ -70,6 +70,13 @@ class _Source:
             triples.append((name, key, value))
         return triples
 
+    def condition(self, node: yaml.Node) -> tuple[str, Location]:
+        """Return a scalar that is a PDDL condition, and where it begins."""
+        if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
+            self.fail(node.start_mark, "expected a PDDL condition here", "write (opened ?x)")
+        quoted = node.style in ("'", '"')
+        return node.value, Location(str(self.path), node.start_mark.line + 1, node.start_mark.column + 1 + quoted)
+
     def aliases(self, node: yaml.Node) -> dict[str, tuple[str, ...]]:
         result = {}
         for name, _, value in self.mapping(node):
@@ -105,6 +112,9 @@ def read_lexicon(path: Path) -> Lexicon:
         phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
         nouns=source.aliases(parts["nouns"]) if "nouns" in parts else {},
         verb_synonyms=_synonyms(source, parts["verb_synonyms"]) if "verb_synonyms" in parts else {},
+        goals=_goals(source, parts["goals"]) if "goals" in parts else (),
+        attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),
+        groups=source.aliases(parts["groups"]) if "groups" in parts else {},
         source=str(path),
     )
 
@@ -119,6 +129,25 @@ def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
         if not (isinstance(value, yaml.ScalarNode) and value.tag.endswith(":null")):
             parts[name] = value
     return parts
+
+
+def _goals(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
+    """A list of ``- pattern: condition``; their order counts."""
+    if not isinstance(node, yaml.SequenceNode):
+        source.fail(node.start_mark, "expected a list of goals here", "write '- open X: (opened ?x)'")
+    found = []
+    for child in node.value:
+        if not isinstance(child, yaml.MappingNode) or len(child.value) != 1:
+            source.fail(child.start_mark, "expected one 'pattern: condition' here", "write '- open X: (opened ?x)'")
+        key, value = child.value[0]
+        if not isinstance(key, yaml.ScalarNode):
+            source.fail(key.start_mark, "expected a pattern here, such as 'place X in|on Y'")
+        found.append(Declared(key.value, *source.condition(value)))
+    return tuple(found)
+
+
+def _attributes(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
+    return tuple(Declared(name, *source.condition(value)) for name, _, value in source.mapping(node))
 
 
 def _phrasal(source: _Source, node: yaml.Node) -> dict[str, str]:

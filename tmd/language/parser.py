@@ -1,22 +1,32 @@
 """The front door: text to clauses, with everything that no clause accounts for.
 
-The passes, in order: tokens, repeated runs, first tags, verb or noun, folds, chunks, the LALR grammar,
-attachment, antecedents, coverage. Each is linear in the length of the text.
+The passes, in order: tokens, repeated runs, first tags, verb or noun, requests that are no imperatives, folds, chunks,
+the LALR grammar, attachment, subordinate clauses, antecedents, coverage. Each is linear in the length of the text.
 """
 
 from __future__ import annotations
 
-from tmd.language.attachment import drafts
+from collections.abc import Sequence
+from dataclasses import replace
+
+from tmd.language.attachment import Draft, drafts
+from tmd.language.causatives import NEGATED
 from tmd.language.chunking import chunk
-from tmd.language.clause import Parsed
+from tmd.language.clause import Clause, Mood, Parsed, Relation
 from tmd.language.coverage import foreign, skipped
 from tmd.language.folding import fold_subordinates
 from tmd.language.grammar import parse_tokens
 from tmd.language.lexicon import Lexicon, builtin
-from tmd.language.pronouns import resolve
+from tmd.language.pronouns import resolve, resolve_alone
 from tmd.language.readings import decide
+from tmd.language.requests import rewrite_requests
+from tmd.language.subordinate import Reader, condition_words, read_condition, read_prohibition, read_relative
 from tmd.language.tagging import tag
-from tmd.language.tokens import drop_repeats, tokenise
+from tmd.language.tokens import Kind, Token, drop_repeats, tokenise
+from tmd.language.words import section
+
+_DEEPEST = 3
+"""So deep may subordinate clauses stand in one another."""
 
 
 def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
@@ -27,19 +37,91 @@ def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
         lexicon: Words of the domain besides the built-in ones.
 
     Returns:
-        The clauses in order, and what was skipped with the reason. Never raises for any text.
+        The clauses in order, what must not be done, and what was skipped with the reason. Never raises for any text.
     """
-    words = lexicon or builtin()
+    return _parse(text, lexicon or builtin(), 0)
+
+
+def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     kept, repeated = drop_repeats(tokenise(text))
     for token in repeated:
         token.note = "repeats what was just said"
-    strange = foreign(kept, words)
+    strange = foreign(kept, words) if not depth else None
     if strange is not None:
         return Parsed(text, (), strange(text))
     folded = tag(kept, words)
     decide(folded, words)
-    folded = fold_subordinates(folded)
+    folded = fold_subordinates(rewrite_requests(folded))
     tree, _ = parse_tokens(chunk(folded, words))
     found = drafts(tree)
+
+    def read(inner: str) -> tuple[Clause, ...]:
+        return _parse(inner, words, depth + 1).clauses
+
+    if depth < _DEEPEST:
+        _read_subordinates(found, words, read)
     clauses = resolve(found, text)
-    return Parsed(text, clauses, skipped(text, clauses, [*folded, *repeated]))
+    constraints, understood = _prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
+    rest = [t for t in (*folded, *repeated) if t not in understood]
+    return Parsed(text, clauses, skipped(text, clauses, rest), constraints)
+
+
+def _read_subordinates(found: Sequence[Draft], lexicon: Lexicon, read: Reader) -> None:
+    """Read what was folded into each clause; a condition in front of a sentence holds for the whole of it."""
+    before: Draft | None = None
+    for draft in found:
+        for token in draft.folds:
+            if token.form == "condition":
+                draft.conditions.append(read_condition(condition_words(token), lexicon, read))
+                draft.fronted = draft.fronted or token.span < draft.verb.span
+            elif token.form == "purpose":
+                draft.conditions.append(read_condition(["to", *_purpose(condition_words(token))], lexicon, read))
+            elif token.form == "relative":
+                _add_relative(draft, token, lexicon, read)
+        same = before is not None and before.verb.sentence == draft.verb.sentence and before.fronted
+        if before is not None and same and not draft.conditions and not draft.verb.otherwise:
+            draft.conditions = [c for c in before.conditions if c.word in ("if", "unless")]
+            draft.fronted = True
+        before = draft
+
+
+def _purpose(words: list[str]) -> list[str]:
+    """The words of a purpose as those of an instruction to somebody."""
+    while words and words[0] in ("to", "so", "that", "in", "order", "so_that", "in_order_to", "so_as_to"):
+        words = words[1:]
+    return words if words and words[0] in section("subjects") | section("pronouns") else ["you", *words]
+
+
+def _add_relative(draft: Draft, token: Token, lexicon: Lexicon, read: Reader) -> None:
+    """Add what a relative clause says to the noun before it."""
+    ahead = [phrase for phrase in draft.mentions() if phrase.place < token.span.start]
+    if not ahead:
+        return
+    noun = max(ahead, key=lambda phrase: phrase.place)
+    attributes, relations, clause = read_relative(token, lexicon, read)
+    noun.attributes += attributes
+    for relation, target in relations:
+        draft.relations.append(Relation(relation, noun.name, target))
+        if clause is not None:
+            draft.further[target] = clause.phrase(target)
+
+
+def _prohibitions(
+    tokens: Sequence[Token], clauses: Sequence[Clause], text: str, lexicon: Lexicon, read: Reader
+) -> tuple[tuple[Clause, ...], list[Token]]:
+    """What must not be done, and the tokens that say so."""
+    found: list[Clause] = []
+    understood: list[Token] = []
+    for token in tokens:
+        negated = token.kind is Kind.SKIP and token.note == NEGATED
+        manner = token.kind is Kind.MOD and token.form == "manner"
+        if not (negated or manner) or not token.inner:
+            continue
+        before = [clause for clause in clauses if clause.span.start < token.span.start]
+        said = read_prohibition(condition_words(token), before[-1] if before else None, lexicon, read)
+        found += [
+            replace(resolve_alone(c, before), mood=Mood.AVOID, span=token.span, text=text[slice(*token.span)]) for c in said
+        ]
+        if said and negated:
+            understood.append(token)
+    return tuple(found), understood

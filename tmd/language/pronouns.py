@@ -7,11 +7,11 @@ those of older clauses. Whoever knows the environment picks from the list.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.language.attachment import Draft, Phrase
-from tmd.language.clause import Clause
+from tmd.language.clause import Clause, Condition
 from tmd.language.words import section
 
 SINGULAR = frozenset({"it", "this", "that", "itself"})
@@ -47,6 +47,9 @@ def resolve(drafts: Sequence[Draft], text: str) -> tuple[Clause, ...]:
     clauses = []
     for draft in drafts:
         clause = draft.clause(text)
+        conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
+        clause = replace(clause, conditions=conditions)
+        scenes += [_alone(c) for condition in conditions if condition.word != "to" for c in condition.clauses]
         antecedents, together = {}, {}
         for pronoun in _open_places(draft, clause):
             ranked, count = _rank(pronoun, draft, scenes)
@@ -56,6 +59,59 @@ def resolve(drafts: Sequence[Draft], text: str) -> tuple[Clause, ...]:
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     return tuple(clauses)
+
+
+def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
+    """Return a clause that stands for itself with its pronouns' antecedents among the clauses before it."""
+    names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
+    places = [name for name in clause.objects if is_pronoun(name)]
+    antecedents = {name: tuple(names) for name in places if names}
+    return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
+
+
+def _named(clause: Clause) -> list[str]:
+    """What a clause speaks of by name, what it acts on first."""
+    names = [n for name in (*clause.direct, *clause.objects) for n in clause.meant(name)]
+    return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
+
+
+def _condition(condition: Condition, draft: Draft, scenes: list[_Scene]) -> Condition:
+    """A condition with the antecedents of its pronouns: from the clauses before, or from its own if it stands behind."""
+    ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
+    recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
+    behind = tuple(p.name for p in draft.mentions() if not p.pronoun)
+    many = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.plural}
+    many |= {p.name for p in draft.mentions() if p.plural}
+    names = tuple(dict.fromkeys([*ahead, *recent, *behind]))
+    clauses = tuple(
+        replace(
+            clause,
+            antecedents={
+                **clause.antecedents,
+                **{n: _agreeing(n, names, many) for n in clause.objects if is_pronoun(n) and names},
+            },
+            together={**clause.together, **{n: 1 for n in clause.objects if is_pronoun(n)}},
+        )
+        for clause in condition.clauses
+    )
+    return replace(condition, clauses=clauses)
+
+
+def _agreeing(pronoun: str, names: tuple[str, ...], many: Collection[str]) -> tuple[str, ...]:
+    """The names with those first that agree with a pronoun in number."""
+    if pronoun not in SINGULAR | PLURAL:
+        return names
+    return tuple(sorted(names, key=lambda name: (name in many) != (pronoun in PLURAL)))
+
+
+def _alone(clause: Clause) -> _Scene:
+    """What a subordinate clause leaves behind."""
+    names = _named(clause)
+    direct = [n for name in clause.direct for n in clause.meant(name)]
+    mentions = tuple(
+        _Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names
+    )
+    return _Scene(mentions, tuple(n for n in names if n in direct))
 
 
 def is_pronoun(name: str) -> bool:

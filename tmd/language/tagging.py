@@ -36,7 +36,7 @@ _CONTRACTED = ("'ll", "'d", "'ve")
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
     """Make one token of a run."""
     span = Span(min(t.span.start for t in tokens), max(t.span.end for t in tokens))
-    return Token(kind, joint.join(t.text for t in tokens), span, form=form)
+    return Token(kind, joint.join(t.text for t in tokens), span, form=form, inner=tokens)
 
 
 def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:

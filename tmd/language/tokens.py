@@ -55,6 +55,8 @@ class Kind(StrEnum):
     FILLER = "FILLER"
 
 
+IMPLIED = "implied"
+"""The form of a verb that was not said: "A glass of milk, please."."""
 NAME = "name"
 """The form of a word of no list that is written with a capital."""
 
@@ -73,6 +75,10 @@ class Token:
         parts: Further places that belong to it (the particle of a split verb).
         note: Why it is skipped.
         capital: Written with a capital where other words are not: a name.
+        inner: The tokens a fold was made of.
+        lead: The determiners, numerals and adjectives before a noun; for a verb, the word for the state it asks for.
+        sentence: The number of the sentence that a verb stands in.
+        otherwise: For a verb: "otherwise" stands before it.
     """
 
     kind: Kind
@@ -84,6 +90,10 @@ class Token:
     parts: list[Span] = field(default_factory=list)
     note: str = ""
     capital: bool = False
+    inner: list[Token] = field(default_factory=list)
+    lead: list[str] = field(default_factory=list)
+    sentence: int = 0
+    otherwise: bool = False
 
 
 _TOKEN = re.compile(
@@ -92,6 +102,9 @@ _TOKEN = re.compile(
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
 )
+
+_COPULA = re.compile(r"(that|which|who)'s")
+"""Behind another word these open a relative clause: "the cup that's on the table"."""
 
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
@@ -112,6 +125,11 @@ def tokenise(text: str) -> list[Token]:
         )
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
+        copula = _COPULA.fullmatch(word)
+        if copula and tokens and tokens[-1].kind is Kind.WORD:
+            cut = span.start + len(copula[1])
+            tokens += [Token(kind, copula[1], Span(span.start, cut)), Token(kind, "is", Span(cut, span.end))]
+            continue
         tokens.append(Token(kind, word, span))
     _enumeration(tokens, text)
     _capitals(tokens, text)

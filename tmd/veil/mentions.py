@@ -49,7 +49,7 @@ class Mentions:
     def of(self, noun: str, state: Bits) -> list[Match]:
         """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
         found: dict[str, Match] = {}
-        for match in self._ranked(noun):
+        for match in self.ranked(noun):
             if match.name not in self.profiles.constants:
                 found.setdefault(match.name, match)
                 continue
@@ -61,9 +61,10 @@ class Mentions:
 
     def constants(self, noun: str) -> list[str]:
         """The constants of the domain, substances say, that ``noun`` may mean, likeliest first."""
-        return [match.name for match in self._ranked(noun) if match.name in self.profiles.constants]
+        return [match.name for match in self.ranked(noun) if match.name in self.profiles.constants]
 
-    def _ranked(self, noun: str) -> tuple[Match, ...]:
+    def ranked(self, noun: str) -> tuple[Match, ...]:
+        """The objects and constants that ``noun`` may name, likeliest first, whatever contains them."""
         if noun not in self._known:
             self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
         return self._known[noun]

@@ -1,0 +1,247 @@
+"""A text, clause by clause: which goals it has in the state reached so far, and what must be kept."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
+from tmd.goals.grounder import TRUE, atoms_of
+from tmd.goals.nouns import Memory
+from tmd.goals.reading import ClauseGoal, GoalReader, Refused, Why, bindings_of
+from tmd.goals.steps import Step, in_order
+from tmd.language.clause import Clause, Condition, Mood, Parsed
+from tmd.pddl.task import Bits, Cube, Task
+
+_NEVER = frozenset({"use", "touch"})
+"""To do this to a thing is to handle it in whatever way."""
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What was said and done before a step.
+
+    Attributes:
+        memory: What nouns turned out to mean.
+        kept: What must not be undone.
+        guards: For the sentence so far, whether its condition held.
+    """
+
+    memory: Memory
+    kept: tuple[Kept, ...] = ()
+    guard: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A step with its goal in one state.
+
+    Attributes:
+        step: The step.
+        goal: What it asks for; ``None`` where there is nothing to do.
+        already: It holds already.
+        note: Why there is nothing to do.
+        aims: What to plan for: the goal with what is to be kept, then with ever less of that.
+        ways: What shall hold on the way, before the goal does.
+    """
+
+    step: Step
+    goal: ClauseGoal | None
+    already: bool = False
+    note: str = ""
+    aims: tuple[tuple[Cube, ...], ...] = ()
+    ways: tuple[tuple[Cube, ...], ...] = ()
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """What must not happen, and what must stay as it is.
+
+    Attributes:
+        task: The task without the operators that are forbidden.
+        kept: What must hold at the end of every step.
+        notes: What could not be taken into account.
+    """
+
+    task: Task
+    kept: tuple[Kept, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+class Follower:
+    """Follows a text in one environment.
+
+    Args:
+        reader: Reads clauses as goals.
+    """
+
+    def __init__(self, reader: GoalReader) -> None:
+        self.reader = reader
+        self.task = reader.world.task
+
+    def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[Step, ...], Context, Constraints] | Refused:
+        """The steps of a text, what is known before the first, and what holds throughout."""
+        memory = Memory(first=state)
+        constraints = self._constraints(parsed, state, memory)
+        if isinstance(constraints, Refused):
+            return constraints
+        return in_order(parsed.clauses), Context(memory, constraints.kept), constraints
+
+    def target(self, step: Step, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
+        """What a step asks for in ``state``."""
+        due = self._due(step, context, state)
+        if isinstance(due, Refused):
+            return due
+        if step.otherwise or step.guards:
+            context = replace(context, guard=due if not step.otherwise else context.guard)
+        if not due:
+            note = "the condition does not hold" if not step.otherwise else "the condition before it held"
+            return Target(step, None, note=note), context
+        goal = self.reader.read(step.clause, state, context.memory)
+        if isinstance(goal, Refused):
+            if step.optional and goal.why in (Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD):
+                return Target(step, None, note=goal.message), context
+            return goal
+        if goal.formula == TRUE:
+            return Target(step, goal, already=True, note="nothing that a state shows"), context
+        targets = tuple(a for a in aims(goal.cubes, context.kept, goal.released, self.task) if a)
+        hard = [k for k in context.kept if k.hard]
+        if not targets or (hard and not combined(goal.cubes, hard)):
+            return Refused(Why.CONTRADICTION, f"'{step.clause.text}' contradicts what was said before")
+        held = any(cube.holds(state) for cube in targets[0])
+        ways = () if held else self._ways(goal)
+        return Target(step, goal, already=held, aims=targets, ways=ways), context
+
+    def reached(self, target: Target, context: Context, end: Bits) -> Context:
+        """What is known after a step that ended in ``end``."""
+        if target.goal is None or target.goal.formula == TRUE:
+            return context
+        cube = next((c for c in target.goal.cubes if c.holds(end)), target.goal.cubes[0])
+        memory = bindings_of(target.goal, cube, self.reader, context.memory)
+        task = self.task
+        number = target.step.number
+        fresh = keep(cube, number, task)
+        literals = {k.ways[0] for k in fresh}
+        still = tuple(
+            k for k in context.kept if (any(way.holds(end) for way in k.ways) or k.hard) and k.ways[0] not in literals
+        )
+        return replace(context, memory=memory, kept=(*still, *fresh))
+
+    def _ways(self, goal: ClauseGoal) -> tuple[tuple[Cube, ...], ...]:
+        found = []
+        for formula in goal.approach:
+            cubes = self.reader.cubes(formula)
+            if cubes:
+                found.append(cubes)
+        return tuple(found)
+
+    # ------------------------------------------------------------------ conditions
+
+    def _due(self, step: Step, context: Context, state: Bits) -> bool | Refused:
+        """Whether a step is to be done in ``state``."""
+        if step.otherwise:
+            return context.guard is False
+        for condition in step.guards:
+            found = self._holds(condition, context, state)
+            if isinstance(found, Refused):
+                return found
+            if found == (condition.word == "unless"):
+                return False
+        return True
+
+    def _holds(self, condition: Condition, context: Context, state: Bits) -> bool | Refused:
+        if not condition.clauses:
+            return Refused(Why.NOT_UNDERSTOOD, f"the condition '{condition.text}' is not understood", "say it as a state: if the door is open")
+        truth = True
+        for clause in condition.clauses:
+            goal = self.reader.read(clause, state, context.memory)
+            if isinstance(goal, Refused):
+                if condition.negated and goal.why is Why.CONTRADICTION:
+                    truth = False
+                    continue
+                return replace(goal, message=f"the condition '{condition.text}': {goal.message}")
+            truth = truth and any(cube.holds(state) for cube in goal.cubes)
+        return truth != condition.negated
+
+    # ------------------------------------------------------------------ constraints
+
+    def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> Constraints | Refused:
+        """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
+        forbidden: Bits = 0
+        names: set[str] = set()
+        kept: list[Kept] = []
+        for clause in parsed.constraints:
+            found = self._avoided(clause, state, memory)
+            if isinstance(found, Refused):
+                return found
+            forbidden |= found[0]
+            names |= found[1]
+            kept += found[2]
+        for number, clause in enumerate(parsed.clauses):
+            if clause.mood is Mood.KEEP:
+                preserved = self._preserved(clause, number, state, memory)
+                if isinstance(preserved, Refused):
+                    return preserved
+                kept += preserved
+        task = without_operators(self.task, forbidden, names) if forbidden or names else self.task
+        return Constraints(task, tuple(kept))
+
+    def _avoided(
+        self, clause: Clause, state: Bits, memory: Memory
+    ) -> tuple[Bits, set[str], list[Kept]] | Refused:
+        """The atoms that must not become true, the things that must not be handled, and literals to keep."""
+        if clause.verb in _NEVER and not self._declared(clause.verb):
+            names = {n for noun in clause.direct for n in self.reader.nouns.things(noun, state)}
+            if not names:
+                return self.reader.missing(clause)
+            for name in tuple(names):
+                names.update(self.reader.grounder.relatives(name, 0))
+            return 0, names, []
+        goal = self.reader.read(replace(clause, mood=Mood.DO), state, memory)
+        if isinstance(goal, Refused):
+            return (0, set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
+        forbidden: Bits = 0
+        kept: list[Kept] = []
+        for atom in atoms_of(goal.formula):
+            bit = 1 << self.task.index[atom]
+            stands = any(cube.positive & bit for cube in goal.cubes)
+            if stands and not state & bit and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes):
+                forbidden |= bit
+            elif not stands and state & bit:
+                kept.append(Kept((Cube(bit, 0),), -1, hard=True))
+        return forbidden, set(), kept
+
+    def _declared(self, verb: str) -> bool:
+        return any(table.of(verb) for table in self.reader.tables)
+
+    def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
+        """*Leave the door open* keeps that; *leave the cup where it is* keeps what holds of it and of something else."""
+        if clause.result and clause.result not in ("alone",):
+            goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
+            if isinstance(goal, Refused):
+                return goal
+            return [Kept((c,), number, hard=True) for cube in goal.cubes[:1] for c in _single(cube)]
+        names = [n for noun in clause.direct for n in self.reader.nouns.things(noun, state)]
+        if not names:
+            return self.reader.missing(clause)
+        constants = self.reader.world.profiles.constants
+        found = []
+        for atom in self.task.names(state):
+            things = [a for a in atom.args if a not in constants]
+            if atom.args and atom.args[0] in names and (len(things) > 1 or len(atom.args) > 1):
+                found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
+        return found
+
+
+def _single(cube: Cube) -> list[Cube]:
+    """The literals of a cube."""
+    found = []
+    for bits, positive in ((cube.positive, True), (cube.negative, False)):
+        while bits:
+            low = bits & -bits
+            found.append(Cube(low, 0) if positive else Cube(0, low))
+            bits ^= low
+    return found
+
+
+__all__ = ["Constraints", "Context", "Follower", "Sequence", "Target", "field"]

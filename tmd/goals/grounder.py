@@ -1,0 +1,223 @@
+"""Conditions of rows, ground in one environment: slots filled, ``was`` and ``first`` looked up, parts stood in for.
+
+Where a fact can never hold of a thing, the nearest things that it can hold of stand in: parts, then what the thing or its
+parts control, then the whole and its other parts. *Open the fridge* opens its door, *turn on the stove* a burner.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+from tmd.goals.table import FIRST, WAS, split_predicate
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or
+from tmd.pddl.semantics import bindings
+from tmd.pddl.task import Bits
+from tmd.veil.states import PART_OF
+from tmd.veil.world import World
+
+TRUE, FALSE = And(), Or()
+
+
+@dataclass(frozen=True, slots=True)
+class Moments:
+    """The states that a condition may speak of: when its clause begins, and before the whole text."""
+
+    now: Bits
+    first: Bits
+
+
+class Grounder:
+    """Grounds conditions in one environment.
+
+    Args:
+        world: The environment.
+    """
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.task = world.task
+        self._objects = universe(world.task.problem)
+        self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
+
+    def can_hold(self, atom: GroundAtom) -> bool:
+        """Whether an atom may hold at all, as far as relaxed reachability tells."""
+        return atom in self.task.index or atom in self.task.static
+
+    def holds(self, atom: GroundAtom, state: Bits) -> bool:
+        """Whether an atom holds in ``state``."""
+        bit = self.task.index.get(atom)
+        return bool(state >> bit & 1) if bit is not None else atom in self.task.static
+
+    def is_a(self, name: str, types: tuple[str, ...]) -> bool:
+        """Whether an object is of one of ``types``."""
+        return self._objects.is_a(name, types)
+
+    def of_types(self, types: tuple[str, ...]) -> tuple[str, ...]:
+        """The objects of any of ``types``."""
+        return self._objects.of(types)
+
+    def truth(self, formula: Formula, state: Bits) -> bool:
+        """Whether a ground condition without operators of ours holds in ``state``."""
+        match formula:
+            case Atom(predicate, terms):
+                return self.holds(GroundAtom(predicate, terms), state)
+            case Not(part):
+                return not self.truth(part, state)
+            case And(parts):
+                return all(self.truth(part, state) for part in parts)
+            case Or(parts):
+                return any(self.truth(part, state) for part in parts)
+        raise TypeError(f"not ground: {formula}")
+
+    def ground(self, formula: Formula, binding: Mapping[str, str], slots: Iterable[str], moments: Moments) -> Formula:
+        """``formula`` over ground atoms that may hold, joined by ``and``, ``or`` and ``not``.
+
+        Args:
+            formula: The condition.
+            binding: Objects for its variables.
+            slots: The variables for which relatives may stand in.
+            moments: What ``was`` and ``first`` look at.
+        """
+        return self._ground(formula, dict(binding), frozenset(slots), moments)
+
+    def _ground(self, formula: Formula, binding: dict[str, str], slots: frozenset[str], moments: Moments) -> Formula:
+        match formula:
+            case Atom():
+                return self._atom(formula, binding, slots, moments)
+            case Equals(left, right):
+                return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
+            case Not(part):
+                return negation(self._ground(part, binding, slots, moments))
+            case And(parts):
+                return conjunction(self._ground(part, binding, slots, moments) for part in parts)
+            case Or(parts):
+                return disjunction(self._ground(part, binding, slots, moments) for part in parts)
+            case Imply(left, right):
+                unless = negation(self._ground(left, binding, slots, moments))
+                return unless if unless == TRUE else disjunction((unless, self._ground(right, binding, slots, moments)))
+            case Forall(parameters, part):
+                found = bindings(parameters, self._objects, binding)
+                return conjunction(self._ground(part, dict(b), slots, moments) for b in found)
+            case Exists(parameters, part):
+                found = bindings(parameters, self._objects, binding)
+                return disjunction(self._ground(part, dict(b), slots, moments) for b in found)
+
+    def _atom(self, formula: Atom, binding: dict[str, str], slots: frozenset[str], moments: Moments) -> Formula:
+        predicate, operator = split_predicate(formula.predicate)
+        atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
+        meant = self._standing_in(atom, [place for place, term in enumerate(formula.terms) if term in slots])
+        if operator:
+            state = moments.now if operator == WAS else moments.first
+            assert operator in (WAS, FIRST)
+            return TRUE if any(self.holds(one, state) for one in meant) else FALSE
+        if any(one in self.task.static and one not in self.task.index for one in meant):
+            return TRUE
+        return disjunction(Atom(one.predicate, one.args) for one in meant)
+
+    def _standing_in(self, atom: GroundAtom, places: list[int]) -> list[GroundAtom]:
+        """The atom, if it can hold; otherwise those of the nearest relatives that can."""
+        if self.can_hold(atom):
+            return [atom]
+        for level in range(4):
+            for place in reversed(places):
+                found = []
+                for other in self.relatives(atom.args[place], level):
+                    changed = GroundAtom(atom.predicate, (*atom.args[:place], other, *atom.args[place + 1 :]))
+                    if self.can_hold(changed) and len(set(changed.args)) == len(changed.args):
+                        found.append(changed)
+                if found:
+                    return found
+        return []
+
+    def relatives(self, name: str, level: int) -> tuple[str, ...]:
+        """What may stand in for an object: 0 its parts, 1 what it is linked to, 2 its whole, 3 the whole's other parts."""
+        if name not in self._relatives:
+            self._relatives[name] = self._find_relatives(name)
+        return self._relatives[name][level]
+
+    def _find_relatives(self, name: str) -> tuple[tuple[str, ...], ...]:
+        """Parts; what the thing or its parts are linked to by an edge; the whole; the whole's other parts."""
+        profiles = self.world.profiles
+        parts = tuple(part for _, part in profiles.parts.get(name, ()))
+        own = {name, *parts}
+        linked: dict[str, None] = {}
+        for (tail, head), predicates in sorted(profiles.links.items()):
+            if tail in own and head not in own and not self._equivalence(predicates):
+                linked[head] = None
+        if not linked:
+            for (tail, head), predicates in sorted(profiles.links.items()):
+                if head in own and tail not in own and not self._equivalence(predicates):
+                    linked[tail] = None
+        whole = profiles.wholes.get(name)
+        siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
+        return parts, tuple(linked), (whole,) if whole else (), siblings
+
+    def _equivalence(self, predicates: Iterable[str]) -> bool:
+        """Whether only predicates that hold of everything with itself join two things: they tell nothing."""
+        return all(predicate in self.reflexive for predicate in predicates)
+
+    @cached_property
+    def reflexive(self) -> frozenset[str]:
+        """The predicates that join things with themselves, or parts with their whole: they tell nothing of two things."""
+        return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {PART_OF}
+
+
+def negation(formula: Formula) -> Formula:
+    """The negation of a ground condition, with ``not`` at its atoms only."""
+    match formula:
+        case Atom():
+            return Not(formula)
+        case Not(part):
+            return part
+        case And(parts):
+            return disjunction(negation(part) for part in parts)
+        case Or(parts):
+            return conjunction(negation(part) for part in parts)
+    raise TypeError(f"not ground: {formula}")
+
+
+def conjunction(parts: Iterable[Formula]) -> Formula:
+    """All of ``parts``, without what is always true."""
+    kept: dict[Formula, None] = {}
+    for part in parts:
+        if part == FALSE:
+            return FALSE
+        kept.update(dict.fromkeys(part.parts if isinstance(part, And) else (part,)))
+    return next(iter(kept)) if len(kept) == 1 else And(tuple(kept))
+
+
+def disjunction(parts: Iterable[Formula]) -> Formula:
+    """Any of ``parts``, without what is never true."""
+    kept: dict[Formula, None] = {}
+    for part in parts:
+        if part == TRUE:
+            return TRUE
+        kept.update(dict.fromkeys(part.parts if isinstance(part, Or) else (part,)))
+    return next(iter(kept)) if len(kept) == 1 else Or(tuple(kept))
+
+
+def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
+    """The atoms of a ground condition."""
+    match formula:
+        case Atom(predicate, terms):
+            return frozenset((GroundAtom(predicate, terms),))
+        case Not(part):
+            return atoms_of(part)
+        case And(parts) | Or(parts):
+            return frozenset[GroundAtom]().union(*(atoms_of(part) for part in parts))
+    raise TypeError(f"not ground: {formula}")
+
+
+def only_negative(formula: Formula) -> bool:
+    """Whether every atom of a ground condition is negated."""
+    match formula:
+        case Atom():
+            return False
+        case Not():
+            return True
+        case And(parts) | Or(parts):
+            return all(only_negative(part) for part in parts)
+    return False

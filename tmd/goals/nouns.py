@@ -1,0 +1,304 @@
+"""What the noun phrases of a clause mean in one environment: candidates, filtered by adjectives and relations."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+
+from tmd.goals.grounder import FALSE, Grounder, Moments, disjunction, negation
+from tmd.goals.senses import state_words
+from tmd.goals.table import PREPOSITIONS, RELATION, GoalTable
+from tmd.language.attachment import WHOLES
+from tmd.language.clause import NounPhrase, Quantifier
+from tmd.language.nouns import ALIAS, NAME, WORDNET
+from tmd.pddl.model import Atom, Formula, GroundAtom
+from tmd.pddl.task import Bits
+from tmd.veil.world import World
+
+_INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
+"""Relations said the other way round: what is under the pot is what the pot stands on."""
+_CONTENTS = frozenset({"of", "with", "containing"})
+
+
+class Mode(StrEnum):
+    """How many of the candidates of a noun phrase are meant."""
+
+    ANY = "any"
+    ALL = "all"
+    NUMBER = "number"
+    NONE = "none"
+
+
+@dataclass(frozen=True, slots=True)
+class Referent:
+    """What a noun phrase may mean.
+
+    Attributes:
+        noun: The noun, for messages.
+        names: The candidates.
+        mode: How many of them.
+        number: The number, where one was said.
+        definite: One particular thing is meant.
+        loose: Candidates of which the goal can never hold are not meant: *everything*, *the rubbish*.
+        each: Said of each one by itself.
+    """
+
+    noun: str
+    names: tuple[str, ...]
+    mode: Mode = Mode.ANY
+    number: int = 1
+    definite: bool = False
+    loose: bool = False
+    each: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Bound:
+    """What a noun of an earlier clause turned out to mean: objects, and for a substance what contains it."""
+
+    names: tuple[str, ...]
+    containers: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Memory:
+    """What later clauses need to know of earlier ones.
+
+    Attributes:
+        bound: The nouns that were spoken of, the latest last.
+        recent: Objects that were spoken of, the latest first.
+        first: The state before the text.
+    """
+
+    bound: Mapping[str, Bound] = field(default_factory=dict)
+    recent: tuple[str, ...] = ()
+    first: Bits = 0
+
+
+class Nouns:
+    """The nouns of one environment.
+
+    Args:
+        world: The environment.
+        table: What adjectives and groups mean.
+        grounder: Grounds their conditions.
+        guess: Whether likeness of meaning alone may lead from a noun to a thing.
+    """
+
+    def __init__(self, world: World, table: GoalTable, grounder: Grounder, *, guess: bool = False) -> None:
+        self.world = world
+        self.table = table
+        self.grounder = grounder
+        self.guess = guess
+        self._of_object: dict[str, tuple[GroundAtom, ...]] = {}
+        for atom in (*world.task.atoms, *sorted(world.task.static)):
+            for name in dict.fromkeys(atom.args):
+                self._of_object[name] = (*self._of_object.get(name, ()), atom)
+
+    def things(self, noun: str, state: Bits) -> tuple[str, ...]:
+        """The objects that ``noun`` may mean: the likeliest reading only; never by likeness of meaning alone."""
+        if noun in WHOLES:
+            return self.world.profiles.objects
+        if noun in self.table.groups:
+            classes = self.table.groups[noun]
+            found = [n for n in self.world.profiles.objects if any(c in self._kinds(n) for c in classes)]
+            if found:
+                return tuple(found)
+        matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
+        best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
+        return tuple(best)
+
+    def is_group(self, noun: str) -> bool:
+        """Whether a noun means all things of some classes."""
+        return noun in WHOLES or noun in self.table.groups
+
+    def _kinds(self, name: str) -> tuple[str, ...]:
+        return (*self.world.mentions.types.get(name, ()), self.world.mentions.kinds.get(name, ""), name)
+
+    def constants(self, noun: str, types: tuple[str, ...], state: Bits) -> tuple[str, ...]:
+        """The constants of ``types`` that ``noun`` may mean, or what the things it names contain at first."""
+        ranked = [m for m in self.world.mentions.ranked(noun) if m.name in self.world.profiles.constants]
+        fitting = [m for m in ranked if self.grounder.is_a(m.name, types)]
+        named = [m.name for m in fitting if m.how == NAME and m.score == fitting[0].score]
+        if named:
+            return tuple(named)
+        aliases = [m.name for m in fitting if m.how == ALIAS or (self.guess and m.how == WORDNET)]
+        if aliases:
+            later = {other for one in aliases for other in self.turns_into(one)}
+            return tuple(name for name in aliases if name not in later) or tuple(aliases)
+        contents: dict[str, None] = {}
+        for thing in self.things(noun, state):
+            contents.update(dict.fromkeys(c for c in self.contents(thing, state) if self.grounder.is_a(c, types)))
+        return tuple(contents)
+
+    def facts_about(self, name: str) -> tuple[GroundAtom, ...]:
+        """The atoms that may hold in which ``name`` stands."""
+        return self._of_object.get(name, ())
+
+    def turns_into(self, constant: str) -> tuple[str, ...]:
+        """The constants that a fact that never changes leads to from ``constant``: what ramen cooks into."""
+        return tuple(
+            atom.args[1]
+            for atom in self._of_object.get(constant, ())
+            if atom in self.world.task.static and len(atom.args) == 2 and atom.args[0] == constant
+        )
+
+    def contents(self, thing: str, state: Bits) -> tuple[str, ...]:
+        """The constants that stand beside ``thing`` in facts of two that hold now and may change."""
+        found: dict[str, None] = {}
+        changing = {atom.predicate for atom in self.world.task.atoms}
+        for atom in self._of_object.get(thing, ()):
+            pair = len(atom.args) == 2 and atom.args[0] == thing and atom.args[1] in self.world.profiles.constants
+            if pair and atom.predicate in changing and self.grounder.holds(atom, state):
+                found[atom.args[1]] = None
+        return tuple(found)
+
+    def attribute(self, word: str, name: str, moments: Moments) -> Formula | None:
+        """That ``name`` is as an adjective says; ``None`` for an adjective that nothing here explains."""
+        if word.startswith("not_"):
+            inner = self.attribute(word.removeprefix("not_"), name, moments)
+            return None if inner is None else negation(inner)
+        if word in self.table.attributes:
+            return self.grounder.ground(self.table.attributes[word], {"?x": name}, ("?x",), moments)
+        return self.state_of(state_words(word), name)
+
+    def state_of(self, words: Iterable[str], name: str) -> Formula | None:
+        """That ``name`` is in a state for which one of ``words`` stands in a predicate or is a constant.
+
+        Words with a minus say that it is not in such a state. ``None`` where no fact here has such a word.
+        """
+        listed = list(words)
+        plain = [word for word in listed if not word.startswith("-")]
+        contrary = [word[1:] for word in listed if word.startswith("-")]
+        for candidate in (name, *self._relatives(name)):
+            for wanted, positive in ((plain, True), (contrary, False)):
+                for word in wanted:
+                    atoms = [a for a in self._of_object.get(candidate, ()) if self._says_state(a, word, candidate)]
+                    changing = [a for a in atoms if a in self.world.task.index]
+                    if changing:
+                        found = disjunction(Atom(a.predicate, a.args) for a in changing)
+                        return found if positive else negation(found)
+        return None
+
+    def _relatives(self, name: str) -> tuple[str, ...]:
+        return tuple(other for level in range(2) for other in self.grounder.relatives(name, level))
+
+    def _says_state(self, atom: GroundAtom, word: str, name: str) -> bool:
+        others = [a for a in atom.args if a != name]
+        if word in others and word in self.world.profiles.constants and len(others) == 1:
+            return True
+        named = word == atom.predicate or word in atom.predicate.split("_")
+        return named and all(a in self.world.profiles.constants for a in others)
+
+    def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
+        """That ``name`` stands in a relation to ``target``: as the table says it, or as the facts themselves do."""
+        if relation in _INVERSE and not self._declared(relation):
+            return self.related(_INVERSE[relation], target, name, moments)
+        for row in self.table.of("be"):
+            direct, places = row.direct, row.places
+            if direct is None or len(places) != 1:
+                continue
+            said = relations_said(relation, places[0].prepositions)
+            if not said:
+                continue
+            found = disjunction(
+                self.grounder.ground(
+                    row.condition,
+                    {direct.variable: name, places[0].variable: target, RELATION: one},
+                    (direct.variable, places[0].variable),
+                    moments,
+                )
+                for one in said
+            )
+            if found != FALSE:
+                return found
+        return self._related_by_facts(relation, name, target)
+
+    def _declared(self, relation: str) -> bool:
+        return any(relations_said(relation, s.prepositions) for row in self.table.of("be") for s in row.places)
+
+    def _related_by_facts(self, relation: str, name: str, target: str) -> Formula:
+        """Facts that have both, and the relation's name as a constant or in the predicate."""
+        words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
+        places = words & {"from", "where", "to", "at"}
+        ends = (target, *(other for level in range(3) for other in self.grounder.relatives(target, level)))
+        for end in ends:
+            found = []
+            for atom in self._of_object.get(name, ()):
+                if end not in atom.args or atom not in self.world.task.index and atom not in self.world.task.static:
+                    continue
+                if atom.predicate in self.grounder.reflexive:
+                    continue
+                if self._names_relation(atom, words, places=bool(places), name=name, end=end):
+                    found.append(atom)
+            if found:
+                return disjunction(Atom(a.predicate, a.args) for a in found)
+        return FALSE
+
+    def _names_relation(self, atom: GroundAtom, words: set[str], *, places: bool, name: str, end: str) -> bool:
+        others = [a for a in atom.args if a not in (name, end)]
+        if any(a in PREPOSITIONS for a in others):
+            return places or any(a in words for a in others)
+        parts = set(atom.predicate.split("_")) | {atom.predicate}
+        synonyms = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
+        if parts & synonyms:
+            return True
+        known = {w for members in PREPOSITIONS.values() for w in members}
+        if parts & known:
+            return places
+        contents = end in self.world.profiles.constants or name in self.world.profiles.constants
+        if words & _CONTENTS:
+            return contents and not others
+        return places and atom in self.world.task.index
+
+    def narrowed(self, referent: Referent, phrase: NounPhrase, state: Bits, moments: Moments) -> tuple[Referent, list[str]]:
+        """The referent without candidates that the adjectives leave out; and the adjectives that nothing explains."""
+        names = referent.names
+        unknown: list[str] = []
+        for word in phrase.attributes:
+            said = {name: self.attribute(word, name, moments) for name in names}
+            if all(formula is None for formula in said.values()):
+                named = tuple(n for n in names if word in n.split("_"))
+                names = named or names
+                if not named:
+                    unknown.append(word)
+                continue
+            names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
+        return replace(referent, names=names), unknown
+
+    def related_now(self, referent: Referent, relation: str, targets: Sequence[str], state: Bits, moments: Moments) -> tuple[str, ...]:
+        """The candidates that stand in a relation to one of ``targets`` now."""
+        return tuple(
+            name
+            for name in referent.names
+            if any(
+                name != target and self.grounder.truth(self.related(relation, name, target, moments), state)
+                for target in targets
+            )
+        )
+
+
+def relations_said(relation: str, allowed: Sequence[str]) -> tuple[str, ...]:
+    """The prepositions of a pattern that a said one stands for; *to* and *at* leave open which."""
+    exact = tuple(p for p in allowed if relation in PREPOSITIONS[p])
+    if exact:
+        return exact
+    if relation in PREPOSITIONS["to"]:
+        return tuple(p for p in allowed if p in ("in", "on"))
+    return ()
+
+
+def mode_of(phrase: NounPhrase, *, group: bool, thing: bool) -> tuple[Mode, int]:
+    """How many are meant: plurals and groups of things mean all of them, unless *some* was said."""
+    match phrase.quantifier:
+        case Quantifier.ALL:
+            return Mode.ALL, 0
+        case Quantifier.NUMBER:
+            return (Mode.NUMBER, phrase.number or 1) if thing else (Mode.ANY, 1)
+        case Quantifier.NONE:
+            return Mode.NONE, 0
+        case Quantifier.SOME:
+            return Mode.ANY, 1
+    many = (phrase.plural or group) and thing
+    return (Mode.ALL, 0) if many else (Mode.ANY, 1)

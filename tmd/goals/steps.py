@@ -1,0 +1,65 @@
+"""The clauses of a text in the order of doing, with the conditions they depend on."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from tmd.language.clause import Clause, Condition, Mood
+
+GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})
+EARLIER = frozenset({"when", "once", "after", "whenever", "as_soon_as", "now_that", "by_the_time", "the_moment", "since"})
+LATER = frozenset({"before", "until", "till", "to"})
+
+
+class Role(StrEnum):
+    """What a step is to the clause it comes from."""
+
+    MAIN = "main"
+    EARLIER = "earlier"
+    """Done first: *when you have taken the cup out*."""
+    LATER = "later"
+    """Done afterwards: *before you put the noodles in*, *until it is hot*, *to warm it up*."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One thing to be done.
+
+    Attributes:
+        clause: What.
+        number: The clause of the text that it belongs to, counted from 0.
+        role: What it is to that clause.
+        guards: Conditions of which it depends whether it is done.
+        otherwise: It is done where the guards of the step before it did not hold.
+        optional: It may be left out where it is not understood: *when they are done*.
+    """
+
+    clause: Clause
+    number: int
+    role: Role = Role.MAIN
+    guards: tuple[Condition, ...] = ()
+    otherwise: bool = False
+    optional: bool = False
+
+
+def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
+    """The steps of a text in the order of doing; what is to be kept is no step."""
+    return tuple(step for number, clause in enumerate(clauses) for step in _steps(clause, number))
+
+
+def _steps(clause: Clause, number: int) -> Iterator[Step]:
+    guards = tuple(c for c in clause.conditions if c.word in GUARDS)
+    if clause.mood is Mood.KEEP:
+        return
+    for condition in clause.conditions:
+        if condition.word in EARLIER and not condition.negated:
+            for inner in condition.clauses:
+                yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True)
+    yield Step(clause, number, Role.MAIN, guards, clause.otherwise)
+    for condition in clause.conditions:
+        if condition.word in LATER and not condition.negated:
+            for inner in condition.clauses:
+                optional = condition.word != "before"
+                yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional)

@@ -1,0 +1,143 @@
+"""Requests that are no imperatives, as imperatives: wishes, statements of where things belong, bare noun phrases.
+
+*I'd like a cup of tea* and *A cup of tea, please* become a clause with the verb ``have``; *The mug should go on the
+shelf* and *Both wrappers belong in the bin* become one with ``put``. The new verb stands where the words it replaces do.
+"""
+
+from __future__ import annotations
+
+from tmd.language.chunking import ALSO
+from tmd.language.tokens import IMPLIED, Kind, Token
+from tmd.language.words import section
+
+HAVE, PUT = "have", "put"
+_WISHES = frozenset({"like", "love", "want", "wants", "prefer", "fancy", "fancies"})
+_NEEDS = frozenset({"need", "needs", "have"})
+_MAY = frozenset({"can", "could", "may", "might"})
+_SPEAKERS = frozenset({"i", "we", "i'd", "we'd", "i'll", "we'll", "i'm", "we're", "me", "us"})
+_NOUN_PHRASE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON})
+_BELONG = frozenset({"go", "goes", "belong", "belongs", "live", "lives"})
+_DUTIES = frozenset({"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"})
+_INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
+_ENDS = frozenset({Kind.STOP})
+
+
+def rewrite_requests(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with every such request as an imperative."""
+    result: list[Token] = []
+    sentence: list[Token] = []
+    count = 1 + sum(t.kind is Kind.STOP and t is not tokens[-1] for t in tokens)
+    for token in tokens:
+        sentence.append(token)
+        if token.kind is Kind.STOP:
+            result += _sentence(sentence, count)
+            sentence = []
+    return result + _sentence(sentence, count)
+
+
+def _sentence(tokens: list[Token], count: int) -> list[Token]:
+    """One sentence: each request in it, cut at commas and conjunctions before a new subject."""
+    if not any(t.kind in (Kind.N, Kind.PRON) for t in tokens):
+        return tokens
+    rewritten = _belonging(_wish(tokens))
+    return _bare(rewritten, alone=count == 1)
+
+
+def _verb(stem: str, *sources: Token) -> Token:
+    first, *rest = (t.span for t in sources)
+    return Token(Kind.V, stem, first, stem=stem, form=IMPLIED, strength=3, parts=list(rest))
+
+
+def _wish(tokens: list[Token]) -> list[Token]:
+    """Read "I'd like some tea", "Grandma would like some tea", "can I have some tea" as "have some tea"."""
+    for at, token in enumerate(tokens):
+        lead = [t for t in tokens[:at] if t.kind not in (Kind.ADV, Kind.FILLER)]
+        if not lead or token.text not in _WISHES | _NEEDS | {"get"} or not _names_thing(tokens, at + 1):
+            continue
+        words = [t.text for t in lead]
+        would = any(w in ("would", "'d") or w.endswith("'d") for w in words)
+        somebody = all(t.kind in (*_NOUN_PHRASE, Kind.SUBJECT, Kind.AUX, Kind.P) for t in lead)
+        asks = words[0] in _MAY and any(w in _SPEAKERS for w in words[1:]) and token.text in ("have", "get")
+        wish = token.text in _WISHES and (would or any(w in _SPEAKERS for w in words) or token.text.endswith("s"))
+        need = token.text in ("need", "needs") and words[-1] in _SPEAKERS
+        if asks or ((wish or need) and somebody and not any(t.kind is Kind.V for t in lead)):
+            return [_verb(HAVE, token, *tokens[:at]), *tokens[at + 1 :]]
+    return tokens
+
+
+def _names_thing(tokens: list[Token], at: int) -> bool:
+    """Tell whether a noun phrase begins here that is no subject of a verb: "you to go"."""
+    while at < len(tokens) and tokens[at].kind is Kind.ADV:
+        at += 1
+    if at >= len(tokens) or tokens[at].kind not in _NOUN_PHRASE or tokens[at].text in ("you", "him", "her", "them", "it"):
+        return False
+    end = at
+    while end < len(tokens) and tokens[end].kind in _NOUN_PHRASE:
+        end += 1
+    nouns = any(t.kind is Kind.N or t.text in ("something", "anything", "one") for t in tokens[at:end])
+    return nouns and not (end < len(tokens) and tokens[end].kind is Kind.TO and tokens[end].form == "inf" and
+                          any(t.text in ("something", "anything") for t in tokens[at:end]))
+
+
+def _belonging(tokens: list[Token]) -> list[Token]:
+    """Read "the mug should go on the shelf", "both books belong on it" as "put the mug on the shelf"."""
+    for at, token in enumerate(tokens):
+        if token.text not in _BELONG or at + 1 >= len(tokens):
+            continue
+        place = at + 1
+        while place < len(tokens) and tokens[place].kind is Kind.ADV and tokens[place].text not in ("back", "away"):
+            place += 1
+        if place >= len(tokens) or not (tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away")):
+            continue
+        begin = _subject_start(tokens, at)
+        if begin is None:
+            continue
+        duties = [t for t in tokens[begin:at] if t.text in _DUTIES and t.kind not in (Kind.DET, Kind.N)]
+        subject = [t for t in tokens[begin:at] if t not in duties]
+        bare = token.text in ("go", "live") and not duties
+        plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
+        if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
+            verb = _verb(PUT, token, *duties)
+            verb.form = "base"
+            if any(t.kind is Kind.P for t in subject):
+                tokens[place].form = ALSO  # said of what the sentence is about, not of the noun before it
+            return [*tokens[:begin], verb, *subject, *_belonging(tokens[at + 1 :])]
+    return tokens
+
+
+def _negated(duties: list[Token]) -> bool:
+    return any(t.kind is Kind.NEG or t.text.endswith("n't") for t in duties)
+
+
+def _subject_start(tokens: list[Token], at: int) -> int | None:
+    """Return where the noun phrase that a verb is said of begins; ``None`` where an instruction comes before it."""
+    begin = at
+    while begin > 0:
+        token = tokens[begin - 1]
+        duty = token.kind in (Kind.AUX, Kind.TO) or token.text in _DUTIES
+        if not duty and token.kind not in _INSIDE | {Kind.SUBJECT, Kind.PARTICIPLE, Kind.REL}:
+            break
+        begin -= 1
+    while begin < at and tokens[begin].kind in (Kind.CC, Kind.ADV):
+        begin += 1
+    if begin > 0 and tokens[begin - 1].kind not in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.MOD):
+        return None
+    return begin if begin < at else None
+
+
+def _bare(tokens: list[Token], *, alone: bool) -> list[Token]:
+    """Read "Two scoops of ice cream, please." as "have two scoops of ice cream"."""
+    spoken = {Kind.V, Kind.AUX, Kind.FINITE, Kind.LET, Kind.ENSURE, Kind.NEG, Kind.SUB, Kind.TO, Kind.SUBJECT, Kind.ING}
+    if any(t.kind in spoken for t in tokens):
+        return tokens
+    first = next((i for i, t in enumerate(tokens) if t.kind in (*_NOUN_PHRASE, Kind.REL)), None)
+    if first is None or not any(t.kind is Kind.N and not t.text.isdigit() for t in tokens):
+        return tokens
+    ahead = [t for t in tokens[:first] if t.kind is not Kind.ADV and t.kind is not Kind.FILLER]
+    polite = any(t.text in ("please", "pls", "plz") for t in tokens)
+    counted = tokens[first].kind is Kind.NUM or (tokens[first].kind is Kind.DET and tokens[first].text in ("a", "an", "some"))
+    if ahead or not (polite or counted or (alone and len(tokens) > 1)):
+        return tokens
+    place = tokens[first]
+    verb = Token(Kind.V, HAVE, place.span._replace(end=place.span.start), stem=HAVE, form=IMPLIED, strength=3)
+    return [*tokens[:first], verb, *tokens[first:]]
