@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
-from tmd.goals.grounder import TRUE, atoms_of
-from tmd.goals.nouns import Memory
+from tmd.goals.grounder import TRUE, Moments, atoms_of
+from tmd.goals.nouns import Memory, Referent
 from tmd.goals.reading import ClauseGoal, GoalReader, Refused, Why, bindings_of
 from tmd.goals.steps import Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
+from tmd.language.pronouns import is_pronoun
 from tmd.pddl.task import Bits, Cube, Task
 
 _NEVER = frozenset({"use", "touch"})
@@ -178,7 +179,7 @@ class Follower:
             names |= found[1]
             kept += found[2]
         for number, clause in enumerate(parsed.clauses):
-            if clause.mood is Mood.KEEP:
+            if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions):
                 preserved = self._preserved(clause, number, state, memory)
                 if isinstance(preserved, Refused):
                     return preserved
@@ -197,13 +198,18 @@ class Follower:
             for name in tuple(names):
                 names.update(self.reader.grounder.relatives(name, 0))
             return 0, names, []
-        goal = self.reader.read(replace(clause, mood=Mood.DO), state, memory)
+        final = clause.implied or bool(clause.result)
+        goal = self.reader.read(replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory)
         if isinstance(goal, Refused):
             return (0, set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
         forbidden: Bits = 0
         kept: list[Kept] = []
         for atom in atoms_of(goal.formula):
             bit = 1 << self.task.index[atom]
+            if final:
+                stands = any(cube.positive & bit for cube in goal.cubes)
+                kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
+                continue
             stands = any(cube.positive & bit for cube in goal.cubes)
             if stands and not state & bit and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes):
                 forbidden |= bit
@@ -214,6 +220,18 @@ class Follower:
     def _declared(self, verb: str) -> bool:
         return any(table.of(verb) for table in self.reader.tables)
 
+    def _kept_things(self, clause: Clause, noun: str, state: Bits) -> tuple[str, ...]:
+        """The things that a noun, or a pronoun with what was said of it, names."""
+        nouns = self.reader.nouns
+        meant = clause.antecedents.get(noun, ())[: clause.together.get(noun, 1)] if is_pronoun(noun) else (noun,)
+        names = tuple(dict.fromkeys(n for one in meant for n in nouns.things(one, state)))
+        for relation in clause.relations:
+            if relation.source == noun and relation.relation != "where":
+                targets = nouns.things(relation.target, state)
+                referent = Referent(noun, names)
+                names = nouns.related_now(referent, relation.relation, targets, state, Moments(state, state)) or names
+        return names
+
     def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
         """*Leave the door open* keeps that; *leave the cup where it is* keeps what holds of it and of something else."""
         if clause.result and clause.result not in ("alone",):
@@ -221,9 +239,9 @@ class Follower:
             if isinstance(goal, Refused):
                 return goal
             return [Kept((c,), number, hard=True) for cube in goal.cubes[:1] for c in _single(cube)]
-        names = [n for noun in clause.direct for n in self.reader.nouns.things(noun, state)]
+        names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
         if not names:
-            return self.reader.missing(clause)
+            return self.reader.missing(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
         constants = self.reader.world.profiles.constants
         found = []
         for atom in self.task.names(state):

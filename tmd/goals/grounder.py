@@ -41,6 +41,8 @@ class Grounder:
         self.task = world.task
         self._objects = universe(world.task.problem)
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
+        self.live = 0
+        """How many atoms of the conditions ground last may hold, counted by who asks."""
 
     def can_hold(self, atom: GroundAtom) -> bool:
         """Whether an atom may hold at all, as far as relaxed reachability tells."""
@@ -109,6 +111,7 @@ class Grounder:
         predicate, operator = split_predicate(formula.predicate)
         atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
         meant = self._standing_in(atom, [place for place, term in enumerate(formula.terms) if term in slots])
+        self.live += len(meant)
         if operator:
             state = moments.now if operator == WAS else moments.first
             assert operator in (WAS, FIRST)

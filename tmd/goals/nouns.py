@@ -221,7 +221,8 @@ class Nouns:
     def _related_by_facts(self, relation: str, name: str, target: str) -> Formula:
         """Facts that have both, and the relation's name as a constant or in the predicate."""
         words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
-        places = words & {"from", "where", "to", "at"}
+        things = target not in self.world.profiles.constants and name not in self.world.profiles.constants
+        places = words & {"from", "where", "to", "at"} or (words & _CONTENTS and things)
         ends = (target, *(other for level in range(3) for other in self.grounder.relatives(target, level)))
         for end in ends:
             found = []

@@ -10,7 +10,7 @@ from itertools import combinations, islice
 from tmd.errors import TmdError
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, atoms_of, conjunction, disjunction, negation, only_negative
 from tmd.goals.nouns import Bound, Memory, Mode, Nouns, Referent, mode_of, relations_said
-from tmd.goals.senses import family, words_of
+from tmd.goals.senses import family, results, words_of
 from tmd.goals.table import RELATION, GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.why import why_impossible
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier, Relation
@@ -96,7 +96,8 @@ class _Reading:
     meant: dict[str, tuple[str, ...]] = field(default_factory=dict)
     approach: list[Formula] = field(default_factory=list)
     released: list[str] = field(default_factory=list)
-    failures: list[Refused] = field(default_factory=list)
+    strict: bool = False
+    """Every place that was said must have a slot."""
 
 
 class GoalReader:
@@ -135,12 +136,20 @@ class GoalReader:
         if (clause.verb == BE or clause.result) and not self._rows_with(clause):
             return self._state(reading)
         failure: Refused | None = None
-        for verb in self._verbs(clause.verb):
-            for rows in self._sources(verb, clause):
-                found = self._by_rows(rows, reading)
-                if isinstance(found, ClauseGoal):
-                    return found
-                failure = failure or found
+        own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
+        plain = clause.verb.partition("_")[0]
+        if plain != clause.verb:
+            own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
+        for strict, verbs in ((True, own), (False, own), (False, self._family(own))):
+            for verb in verbs:
+                for rows in self._sources(verb, clause):
+                    found = self._by_rows(rows, replace_reading(reading, strict))
+                    if isinstance(found, ClauseGoal):
+                        return found
+                    if failure is None or failure.why is Why.NOT_UNDERSTOOD:
+                        failure = found
+            if failure is not None and failure.why is not Why.NOT_UNDERSTOOD and not strict:
+                return failure
         return failure or self._unknown(clause)
 
     def _rows_with(self, clause: Clause) -> bool:
@@ -152,16 +161,9 @@ class GoalReader:
         canonical = self.lexicon.canonical_verb(verb)
         return (canonical,) if canonical != verb else ()
 
-    def _verbs(self, verb: str) -> Iterator[str]:
-        """The verb, what the domain says it stands for, and then, where nothing is known of these, its family."""
-        own = list(dict.fromkeys((verb, *self._synonyms(verb))))
-        yield from own
-        if not any(table.of(name) for table in self.tables for name in own):
-            plain, _, particle = verb.partition("_")
-            others = dict.fromkeys(name for one in own for name in family(one))
-            if particle in _PARTICLES or particle in ("up", "down", "away", "over"):
-                others.update(dict.fromkeys((plain, *family(plain))))
-            yield from others
+    def _family(self, own: Sequence[str]) -> list[str]:
+        """Verbs that ask for the same as ``own`` in English, whatever the domain."""
+        return [verb for verb in dict.fromkeys(name for one in own for name in family(one)) if verb not in own]
 
     def _sources(self, verb: str, clause: Clause) -> Iterator[tuple[GoalRow, ...]]:
         for table in self.tables:
@@ -246,15 +248,27 @@ class GoalReader:
 
     def _relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
         found = [(r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)]
+        if clause.setting and name in (*clause.direct, ""):
+            found.append(("to", clause.setting.split()[-1]))
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def _unit(self, rows: Sequence[GoalRow], unit: _Unit, reading: _Reading) -> tuple[Formula, GoalRow] | Refused:
         """The goal of one thing by the row with the most slots that fits and can hold."""
         failure: Refused | None = None
-        fitting = sorted((r for r in rows if self._fits(r, unit, reading)), key=lambda row: -len(row.slots))
-        for row in fitting:
+        counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
+        fitting = sorted(
+            (r for r in rows if self._fits(r, unit, reading)),
+            key=lambda row: (-len(row.slots) - (row.noun is not None), counted and not self._takes_things(row, unit, reading)),
+        )
+        for place, row in enumerate(fitting):
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
+            if not isinstance(found, Refused) and self.grounder.truth(found, reading.state):
+                # what holds already told which thing is meant, if the verb can do without it
+                shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
+                other = self._unit(shorter, unit, reading) if shorter else None
+                if other is not None and not isinstance(other, Refused):
+                    return other
             if not isinstance(found, Refused):
                 return found, row
             failure = failure or found
@@ -265,21 +279,46 @@ class GoalReader:
         known = "; ".join(dict.fromkeys(row.pattern for row in rows))
         return Refused(Why.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}")
 
+    def _takes_things(self, row: GoalRow, unit: _Unit, reading: _Reading) -> bool:
+        """Whether what the verb acts on may be an object, not only something that objects contain."""
+        if row.direct is None or unit.direct is None:
+            return False
+        types = slot_types(row.condition, row.direct.variable, self.domain)
+        return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
+
     def _fits(self, row: GoalRow, unit: _Unit, reading: _Reading) -> bool:
         if (row.result or None) != (reading.clause.result if row.result else None):
             return False
-        if row.direct is not None and unit.direct is None or row.direct is None and unit.direct is not None:
+        if row.noun is not None and row.noun != unit.direct:
+            return False
+        if row.noun is None and (row.direct is None) != (unit.direct is None):
             return False
         return all(self._fillers(slot, unit, reading) for slot in row.places)
 
     def _fillers(self, slot: Slot, unit: _Unit, reading: _Reading) -> list[tuple[str, str | None]]:
         """What was said in a slot: relation and noun; a particle alone leaves the noun to what was spoken of."""
         said = [(r, t) for r, t in unit.relations if relations_said(r, slot.prepositions)]
+        if len({r for r, _ in said}) > 1 or len(said) > 1:
+            # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
+            said = [pair for pair in said if not self._tells_which(unit, *pair, reading)] or said[-1:]
         if said:
             first = said[0][0]
             return [(r, t) for r, t in said if r == first]
         particle = _PARTICLES.get(reading.clause.verb.rpartition("_")[2])
         return [(particle, None)] if particle in slot.prepositions and reading.memory.recent else []
+
+    def _unplaced(self, unit: _Unit, relation: str, target: str, reading: _Reading) -> bool:
+        """Whether a relation says a place where what is acted on is not yet."""
+        place = relation in ("in", "into", "inside", "on", "onto", "to", "next_to", "on_top_of", "over", "beside")
+        return place and bool(self._targets(target, reading)) and not self._tells_which(unit, relation, target, reading)
+
+    def _tells_which(self, unit: _Unit, relation: str, target: str, reading: _Reading) -> bool:
+        """Whether a relation of what is acted on holds now of one of its candidates."""
+        if not unit.direct:
+            return False
+        referent = Referent(unit.direct, self.nouns.things(unit.direct, reading.state))
+        names = self._targets(target, reading)
+        return bool(self.nouns.related_now(referent, relation, names, reading.state, reading.moments))
 
     # ------------------------------------------------------------------ one row
 
@@ -294,6 +333,8 @@ class GoalReader:
             alternatives = alternatives or any(t and reading.clause.phrase(t).either for _, t in fillers)
             choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]
         leftover = [pair for pair in unit.relations if pair not in consumed]
+        if reading.strict and any(self._unplaced(unit, *pair, reading) for pair in leftover):
+            return Refused(Why.NOT_UNDERSTOOD, f"'{print_clause_text(reading.clause)}' says a place that nothing is known of")
         formulas = []
         for choice in choices:
             found = self._combination(row, unit.direct, choice, leftover, reading)
@@ -354,6 +395,7 @@ class GoalReader:
         def leaf(binding: Mapping[str, str]) -> Formula:
             if len(set(binding.values())) < len(binding):
                 return FALSE
+            self.grounder.live = 0
             return disjunction(
                 self.grounder.ground(row.condition, {**binding, RELATION: one}, variables, reading.moments) for one in said
             )
@@ -362,8 +404,8 @@ class GoalReader:
 
         def whole(binding: Mapping[str, str]) -> Formula:
             formula = leaf(binding)
-            if formula == FALSE or (not atoms_of(formula) and not row.traceless and formula != TRUE):
-                return FALSE
+            if formula == FALSE or not (self.grounder.live or row.traceless):
+                return FALSE  # what can never be so is not "not so already"
             return conjunction((formula, *(extra(binding) for extra in further))) if further else formula
 
         each = [p for p in pairs if p[1].each]
@@ -428,6 +470,9 @@ class GoalReader:
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue
+                tool = noun == direct and relation in ("with", "using", "by", "via", "through")
+                if tool and self._tool(names, reading):
+                    continue
                 if noun == direct and relation not in _RESTRICTING and row.places != ():
                     self._approach(referent, relation, names, reading)
                     continue
@@ -461,6 +506,19 @@ class GoalReader:
         if formula not in (FALSE, TRUE):
             reading.approach.append(formula)
         reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
+
+    def _tool(self, names: Sequence[str], reading: _Reading) -> bool:
+        """Whether things are said to be used: they are taken first, where they can be."""
+        if any(name in self.world.profiles.constants for name in names):
+            return False
+        contents = [n for n in names if self.nouns.contents(n, reading.state)]
+        held = [self.nouns.state_of(results("hold"), name) for name in names]
+        formula = disjunction(f for f in held if f is not None)
+        if formula in (FALSE, TRUE):
+            return not contents
+        reading.approach.append(formula)
+        reading.meant.setdefault(f"with {names[0]}", tuple(names))
+        return True
 
     def _without(
         self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], names: Sequence[str], reading: _Reading
@@ -533,6 +591,10 @@ class GoalReader:
         many = pronoun in ("them", "they", "these", "those", "both", "all")
         if bound is not None:
             names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
+            if not names:
+                inside = (c for n in (*bound.names, *bound.containers) for c in self.nouns.contents(n, reading.state))
+                names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+                return Referent(antecedent, names)
             mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
             return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
         return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
@@ -555,6 +617,8 @@ class GoalReader:
             mode, number = mode_of(phrase, group=False, thing=False)
             return Referent(noun, wanted_constants, mode, number, phrase.definite)
         mode, number = mode_of(phrase, group=group, thing=True)
+        if mode is not Mode.ANY and not group:
+            objects, group = self._all_kinds(noun, objects, types, reading)
         referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
         referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
         reading.notes += [f"'{word}' says nothing here that could be checked" for word in unknown]
@@ -566,11 +630,21 @@ class GoalReader:
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
 
+    def _all_kinds(
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: _Reading
+    ) -> tuple[tuple[str, ...], bool]:
+        """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
+        matches = self.world.mentions.of(noun, reading.state)
+        if not matches or matches[0].how != "alias":
+            return objects, False
+        names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
+        return tuple(n for n in names if self.grounder.is_a(n, types)), True
+
     def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: _Reading) -> Referent:
         """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
         for relation, target in relations:
             names = self._targets(target, reading)
-            if relation in ("except", "besides", "without") and relation != "without":
+            if relation in ("except", "besides", "apart_from"):
                 referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
                 continue
             if relation in ("without", "for") or not names:
@@ -698,7 +772,7 @@ class GoalReader:
         if known and phrase.attributes:
             return Refused(Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}")
         if known:
-            return Refused(Why.IMPOSSIBLE, f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here")
+            return Refused(Why.NOT_UNDERSTOOD, f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here")
         return Refused(Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses")
 
     def _impossible(
@@ -738,6 +812,11 @@ def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory
     recent.update(dict.fromkeys(a for a in mentioned if a not in constants))
     recent.update(dict.fromkeys(memory.recent))
     return replace(memory, bound=bound, recent=tuple(recent))
+
+
+def replace_reading(reading: _Reading, strict: bool) -> _Reading:
+    """A fresh reading of the same clause."""
+    return _Reading(reading.clause, reading.state, reading.moments, reading.memory, strict=strict)
 
 
 def print_clause_text(clause: Clause) -> str:

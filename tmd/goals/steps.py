@@ -46,7 +46,8 @@ class Step:
 
 def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
     """The steps of a text in the order of doing; what is to be kept is no step."""
-    return tuple(step for number, clause in enumerate(clauses) for step in _steps(clause, number))
+    ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
+    return tuple(step for number, clause in ordered for step in _steps(clause, number))
 
 
 def _steps(clause: Clause, number: int) -> Iterator[Step]:
@@ -57,7 +58,7 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
         if condition.word in EARLIER and not condition.negated:
             for inner in condition.clauses:
                 yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True)
-    yield Step(clause, number, Role.MAIN, guards, clause.otherwise)
+    yield Step(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
     for condition in clause.conditions:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:

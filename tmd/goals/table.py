@@ -39,14 +39,14 @@ _WORD = re.compile(r"[a-z][a-z0-9_]*\Z")
 PREPOSITIONS: Mapping[str, tuple[str, ...]] = {
     "in": ("in", "into", "inside", "inside_of", "within"),
     "on": ("on", "onto", "on_to", "on_top_of", "upon", "over", "atop"),
-    "next_to": ("next_to", "beside", "by", "near", "close_to", "alongside", "with"),
+    "next_to": ("next_to", "beside", "by", "near", "close_to", "alongside"),
     "under": ("under", "underneath", "below", "beneath"),
     "behind": ("behind",),
     "above": ("above",),
     "to": ("to", "at", "towards"),
     "from": ("from", "out_of", "off", "off_of", "out"),
     "of": ("of", "containing"),
-    "with": ("with", "using", "in", "by"),
+    "with": ("with", "using"),
     "for": ("for",),
     "through": ("through", "via"),
     "between": ("between",),
@@ -71,6 +71,7 @@ class GoalRow:
         slots: Its slots.
         condition: What shall hold.
         pattern: It as it was written.
+        noun: The noun that it is for, where that is no slot: ``make affogato``.
         result: The word for a state at its end.
         source: Where it comes from.
         probability: How sure it is.
@@ -82,6 +83,7 @@ class GoalRow:
     slots: tuple[Slot, ...]
     condition: Formula
     pattern: str
+    noun: str | None = None
     result: str | None = None
     source: str = DECLARED
     probability: float = 1.0
@@ -175,14 +177,14 @@ def read_row(entry: Declared, domain: Domain, source: str = DECLARED) -> GoalRow
     Raises:
         TmdError: Its pattern or its condition is wrong; with its place.
     """
-    verbs, slots, result = read_pattern(entry)
+    verbs, noun, slots, result = read_pattern(entry)
     known = {slot.variable for slot in slots} | ({RELATION} if any(s.prepositions for s in slots) else set())
     condition = read_row_condition(entry, known, domain)
-    return GoalRow(verbs, slots, condition, entry.pattern, result, source, location=entry.location)
+    return GoalRow(verbs, slots, condition, entry.pattern, noun, result, source, location=entry.location)
 
 
-def read_pattern(entry: Declared) -> tuple[tuple[str, ...], tuple[Slot, ...], str | None]:
-    """Read a pattern: its verbs, its slots, and the word for a state.
+def read_pattern(entry: Declared) -> tuple[tuple[str, ...], str | None, tuple[Slot, ...], str | None]:
+    """Read a pattern: its verbs, its noun if it has one, its slots, and the word for a state.
 
     Raises:
         TmdError: It is no pattern.
@@ -195,7 +197,7 @@ def read_pattern(entry: Declared) -> tuple[tuple[str, ...], tuple[Slot, ...], st
         raise _wrong(entry, f"'{words[0]}' is not a verb", "write verbs in lower case: open, turn_on, put|place")
     slots: list[Slot] = []
     waiting: tuple[str, ...] = ()
-    result: str | None = None
+    noun = result = None
     for place, word in enumerate(words[1:], 1):
         if _SLOT.match(word):
             variable = f"?{word.lower()}"
@@ -205,6 +207,8 @@ def read_pattern(entry: Declared) -> tuple[tuple[str, ...], tuple[Slot, ...], st
             waiting = ()
         elif all(part in PREPOSITIONS for part in word.split("|")):
             waiting = tuple(word.split("|"))
+        elif place == 1 and _WORD.match(word):
+            noun = word
         elif place == len(words) - 1 and _WORD.match(word) and not waiting:
             result = word
         else:
@@ -212,9 +216,9 @@ def read_pattern(entry: Declared) -> tuple[tuple[str, ...], tuple[Slot, ...], st
             raise _wrong(entry, f"'{word}' is neither a slot nor a preposition", hint or "slots are single capitals")
     if waiting:
         raise _wrong(entry, f"no slot follows '{'|'.join(waiting)}'", "write a capital behind it: in Y")
-    if sum(not slot.prepositions for slot in slots) > 1:
+    if sum(not slot.prepositions for slot in slots) + (noun is not None) > 1:
         raise _wrong(entry, "two slots follow each other", "write a preposition between them")
-    return verbs, tuple(slots), result
+    return verbs, noun, tuple(slots), result
 
 
 def _wrong(entry: Declared, message: str, hint: str | None = None) -> TmdError:

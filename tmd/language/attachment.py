@@ -149,6 +149,8 @@ class Draft:
             otherwise=self.verb.otherwise,
             implied=self.verb.form == IMPLIED,
             alternative=self.verb.form == CHOICE,
+            setting=self._folded(text, "setting"),
+            heading=self.verb.heading,
             condition=self._folded(text, "condition"),
             duration=self._folded(text, "duration"),
             purpose=self._folded(text, "purpose"),
@@ -279,8 +281,11 @@ class _Attachment:
             return
         if preposition.form == "also":
             self.host, self.behind = self.earlier
+        if name_of(preposition) == "except":
+            wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
+            self.host, self.behind = wholes or self.host, ""
         self.earlier = self.host, self.behind
-        name = preposition.text
+        name = name_of(preposition)
         targets = _phrases(groups[0])
         within = self.behind == "with" and len(targets) == 1 and targets[0].name in ("it", "them")
         if within and name in ("in", "on", "inside"):
@@ -335,6 +340,8 @@ class _Attachment:
             return False
         if name == "with":
             return stem.partition("_")[0] not in section("with_verbs") or self.instrument
+        if name == "except":
+            return True
         if name not in section("static") and name != "of":
             return False
         return not (self.behind in _ORIGIN and stem in section("placing"))
@@ -347,6 +354,11 @@ class _Attachment:
         for name, targets in self.pending:
             self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
         self.pending.clear()
+
+
+def name_of(preposition: Token) -> str:
+    """The preposition that *except for* and the like stand for."""
+    return "except" if preposition.text in ("except", "except_for", "apart_from", "other_than") else preposition.text
 
 
 def _is_tool(name: str) -> bool:

@@ -105,12 +105,15 @@ def _is_state(tokens: list[Token], at: int, verb: Token) -> bool:
 def _sentences(tokens: list[Token]) -> None:
     """Number the sentences that verbs stand in, and mark those after "otherwise"."""
     number, otherwise = 0, False
-    for token in tokens:
+    last: Token | None = None
+    for at, token in enumerate(tokens):
         if token.kind is Kind.STOP and token.text[:1] in ".!?":
-            number += 1
+            number, last = number + 1, None
+        if token.kind is Kind.STOP and token.text == ":" and last is not None:
+            last.heading = any(t.kind is Kind.V for t in tokens[at + 1 :])
         otherwise = otherwise or token.text in ("otherwise", "else", "if_not")
         if token.kind is Kind.V:
-            token.sentence, token.otherwise, otherwise = number, otherwise, False
+            token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token
 
 
 def _following(tokens: list[Token], at: int) -> Token | None:
@@ -205,6 +208,12 @@ def _join_multiword(tokens: list[Token], at: int) -> bool:
     for end, token in enumerate(tokens[at + 1 : at + 15], at + 1):
         if token.kind in (Kind.V, Kind.STOP, Kind.SEP):
             break
+        boils = token.text in ("boil", "simmer") and verb.stem == "bring" and tokens[end - 1].text in ("to", "the", "a")
+        if boils:
+            to = next((t for t in reversed(tokens[at + 1 : end]) if t.text == "to"), None)
+            if to is not None:
+                _absorb(verb, [to, *tokens[tokens.index(to) + 1 : end + 1]], "bring_to_boil")
+                return True
         if token.text == "ready" and f"{verb.stem}_ready" in section("verb_of"):
             _absorb(verb, tokens[end : end + 1], f"{verb.stem}_ready")
             return True

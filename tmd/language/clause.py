@@ -129,6 +129,8 @@ class Clause:
         mood: Whether it is to be done, or avoided, or things are to be kept.
         implied: The verb was not said: *A glass of milk, please.*
         alternative: It need not be done where the clause before it was: *or throw it away*.
+        setting: A setting, as written: *to low*.
+        heading: What follows says how: *make ramen: fill the pot, …*.
     """
 
     verb: str
@@ -150,6 +152,8 @@ class Clause:
     mood: Mood = field(default=Mood.DO, compare=False)
     implied: bool = field(default=False, compare=False)
     alternative: bool = field(default=False, compare=False)
+    setting: str | None = field(default=None, compare=False)
+    heading: bool = field(default=False, compare=False)
 
     def phrase(self, name: str) -> NounPhrase:
         """How one of its language-objects was said."""

@@ -80,6 +80,15 @@ def positive(word: str) -> str:
     return root
 
 
+def comparative_root(word: str) -> tuple[str, ...]:
+    """Return the adjectives that a comparative may come from: ``louder`` gives ``loud`` and ``loude``."""
+    if not word.endswith("er") or len(word) < 5:
+        return ()
+    root = word[:-2]
+    undoubled = (root[:-1],) if root[-1] == root[-2] else ()
+    return (f"{root[:-1]}y",) if root.endswith("i") else (root, f"{root}e", *undoubled)
+
+
 def is_plural(noun: str) -> bool:
     """Tell whether a noun is a plural form."""
     return singular(noun) != noun or noun.rpartition("_")[2] in ("scissors", "tongs", "clothes", "people")

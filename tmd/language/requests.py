@@ -17,9 +17,9 @@ _MAY = frozenset({"can", "could", "may", "might"})
 _SPEAKERS = frozenset({"i", "we", "i'd", "we'd", "i'll", "we'll", "i'm", "we're", "me", "us"})
 _NOUN_PHRASE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON})
 _BELONG = frozenset({"go", "goes", "belong", "belongs", "live", "lives"})
+_OUGHT = frozenset({"should", "must", "need", "needs", "ought", "has", "have", "like", "want"})
 _DUTIES = frozenset({"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
-_ENDS = frozenset({Kind.STOP})
 
 
 def rewrite_requests(tokens: list[Token]) -> list[Token]:
@@ -61,6 +61,12 @@ def _wish(tokens: list[Token]) -> list[Token]:
         wish = token.text in _WISHES and (would or any(w in _SPEAKERS for w in words) or token.text.endswith("s"))
         need = token.text in ("need", "needs") and words[-1] in _SPEAKERS
         if asks or ((wish or need) and somebody and not any(t.kind is Kind.V for t in lead)):
+            later = next((i for i in range(at + 1, len(tokens) - 1) if tokens[i].kind is Kind.TO and tokens[i + 1].text == "be"), None)
+            if later is not None:
+                for lead_token in tokens[: at + 1]:
+                    lead_token.kind = Kind.FILLER
+                shall = Token(Kind.AUX, "should", tokens[later].span)
+                return [*tokens[: at + 1], *tokens[at + 1 : later], shall, *tokens[later + 1 :]]
             return [_verb(HAVE, token, *tokens[:at]), *tokens[at + 1 :]]
     return tokens
 
@@ -82,12 +88,16 @@ def _names_thing(tokens: list[Token], at: int) -> bool:
 def _belonging(tokens: list[Token]) -> list[Token]:
     """Read "the mug should go on the shelf", "both books belong on it" as "put the mug on the shelf"."""
     for at, token in enumerate(tokens):
-        if token.text not in _BELONG or at + 1 >= len(tokens):
+        be = token.text == "be" and any(t.text in _OUGHT for t in tokens[max(0, at - 4) : at])
+        if not (token.text in _BELONG or be) or at + 1 >= len(tokens):
             continue
         place = at + 1
         while place < len(tokens) and tokens[place].kind is Kind.ADV and tokens[place].text not in ("back", "away"):
             place += 1
-        if place >= len(tokens) or not (tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away")):
+        goes = place < len(tokens) and (tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away"))
+        switch = be and place < len(tokens) and tokens[place].text in ("on", "off") and not _names_thing(tokens, place + 1)
+        state = be and place < len(tokens) and tokens[place].kind is Kind.ADJ and tokens[place].form not in ("ed", "base")
+        if not (goes or state) or switch:
             continue
         begin = _subject_start(tokens, at)
         if begin is None:
@@ -97,8 +107,10 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         bare = token.text in ("go", "live") and not duties
         plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
-            verb = _verb(PUT, token, *duties)
+            verb = _verb("be" if state else PUT, token, *duties)
             verb.form = "base"
+            if state:
+                verb.lead = [tokens[place].text]
             if any(t.kind is Kind.P for t in subject):
                 tokens[place].form = ALSO  # said of what the sentence is about, not of the noun before it
             return [*tokens[:begin], verb, *subject, *_belonging(tokens[at + 1 :])]
@@ -115,18 +127,23 @@ def _subject_start(tokens: list[Token], at: int) -> int | None:
     while begin > 0:
         token = tokens[begin - 1]
         duty = token.kind in (Kind.AUX, Kind.TO) or token.text in _DUTIES
-        if not duty and token.kind not in _INSIDE | {Kind.SUBJECT, Kind.PARTICIPLE, Kind.REL}:
+        listed = token.kind is Kind.COMMA and all(t.kind in _INSIDE | {Kind.COMMA} for t in tokens[:begin])
+        if not duty and not listed and token.kind not in _INSIDE | {Kind.SUBJECT, Kind.PARTICIPLE, Kind.REL, Kind.ING}:
             break
         begin -= 1
     while begin < at and tokens[begin].kind in (Kind.CC, Kind.ADV):
         begin += 1
-    if begin > 0 and tokens[begin - 1].kind not in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.MOD):
+    if begin > 0 and tokens[begin - 1].kind not in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.MOD, Kind.FILLER):
         return None
     return begin if begin < at else None
 
 
 def _bare(tokens: list[Token], *, alone: bool) -> list[Token]:
     """Read "Two scoops of ice cream, please." as "have two scoops of ice cream"."""
+    subordinate = next((i for i, t in enumerate(tokens) if t.kind is Kind.SUB), len(tokens))
+    if subordinate < len(tokens) and any(t.kind is Kind.N for t in tokens[:subordinate]):
+        head = _bare(tokens[:subordinate], alone=alone)
+        return [*head, *tokens[subordinate:]]
     spoken = {Kind.V, Kind.AUX, Kind.FINITE, Kind.LET, Kind.ENSURE, Kind.NEG, Kind.SUB, Kind.TO, Kind.SUBJECT, Kind.ING}
     if any(t.kind in spoken for t in tokens):
         return tokens

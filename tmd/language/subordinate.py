@@ -179,11 +179,12 @@ def read_prohibition(words: Sequence[str], before: Clause | None, lexicon: Lexic
         return _said(["any", *rest] if parts[at] in ("no", "neither") else rest, lexicon, read)
     if rest[0] in section("prepositions") and before is not None:
         objects = [f"the {name.replace('_', ' ')}" for name in before.direct] or ["it"]
-        return read(" ".join([_imperative(before.verb), " and ".join(objects), *rest]))
+        said = read(" ".join([_imperative(before.verb), " and ".join(objects), *rest]))
+        return tuple(replace(clause, implied=True) for clause in said)
     if found is not None and found[2] > 0 and rest[0] not in _DETERMINED and parts[at] != "no":
         return read(" ".join([_imperative(found[0]), *rest[1:]]))
     if before is not None:
-        return read(" ".join([_imperative(before.verb), *rest]))
+        return tuple(replace(clause, implied=True) for clause in read(" ".join([_imperative(before.verb), *rest])))
     return ()
 
 
@@ -207,10 +208,14 @@ def read_relative(token: Token, lexicon: Lexicon, read: Reader) -> tuple[list[st
         if last and last[0] not in section("prepositions"):
             word = f"not_{last[-1]}" if "not" in rest else last[-1]
             return [word], [], None
+    copula = next((i for i, w in enumerate(rest) if i and w in _BE), None)
+    if copula is not None and rest[-1] in section("prepositions"):
+        found = read(" ".join(["find", *rest[:copula]]))
+        return ([], [("where", found[0].objects[0])], found[0]) if found and found[0].objects else ([], [], None)
     if rest and rest[0] in _HAVE | {"contains", "contain", "holds", "hold"} and len(rest) > 1:
         found = read(" ".join(["find", *rest[1:]]))
         return ([], [("with", found[0].objects[0])], found[0]) if found and found[0].objects else ([], [], None)
-    return [], [], None
+    return ["_".join(words)], [], None
 
 
 def condition_words(token: Token) -> list[str]:

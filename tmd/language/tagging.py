@@ -7,7 +7,7 @@ from itertools import pairwise
 
 from tmd.language.clause import Span
 from tmd.language.lexicon import Lexicon
-from tmd.language.morphology import positive, singular
+from tmd.language.morphology import comparative_root, positive, singular
 from tmd.language.tokens import NAME, Kind, Token
 from tmd.language.words import phrases, section, slips
 
@@ -214,6 +214,8 @@ def _closed(word: str) -> Kind:
     if word in section("drop_adjectives") and word not in section("verbs") | section("noun_verbs"):
         return Kind.ADJ
     if positive(word) != word and {positive(word), positive(word) + "e"} & section("drop_adjectives"):
+        return Kind.ADJ
+    if any(root in section("drop_adjectives") for root in comparative_root(word)) and word not in section("nouns"):
         return Kind.ADJ
     if word in section("prepositions"):
         return Kind.P

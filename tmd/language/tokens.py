@@ -79,6 +79,7 @@ class Token:
         lead: The determiners, numerals and adjectives before a noun; for a verb, the word for the state it asks for.
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
+        heading: For a verb: what follows a colon says how it is done.
     """
 
     kind: Kind
@@ -94,6 +95,7 @@ class Token:
     lead: list[str] = field(default_factory=list)
     sentence: int = 0
     otherwise: bool = False
+    heading: bool = False
 
 
 _TOKEN = re.compile(
