@@ -38,6 +38,7 @@ $(STAMP):
 	@$(BIN)/python -c '' 2>/dev/null || $(PYTHON) -m venv --clear $(VENV)
 	@echo "installing into $(VENV)/ …"
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[fast,dev]'
+	@$(BIN)/python -m tmd.planning || true
 	@cp pyproject.toml $@
 
 experiment: setup ## Run the main job: train, predict, score, print the table.

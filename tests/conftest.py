@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import atexit
 import os
+import shutil
+import subprocess
+import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -10,11 +15,17 @@ from pathlib import Path
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
+# the cache of whoever runs the tests is left alone; the processes of one run share one of their own
+if "PYTEST_XDIST_WORKER" not in os.environ:
+    os.environ["XDG_CACHE_HOME"] = tempfile.mkdtemp(prefix="tmd-tests-")
+    atexit.register(shutil.rmtree, os.environ["XDG_CACHE_HOME"], ignore_errors=True)
+
 import pytest
 from hypothesis import settings
 
 from tmd.learned.knowledge import study
 from tmd.learned.store import place, save
+from tmd.planning.compiled import digest
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
@@ -26,6 +37,14 @@ settings.load_profile("untimed")
 
 
 LEARNED = ("living_room", "kitchen")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile the searches first: the command that did so would say so, where its test expects nothing."""
+    if hasattr(config, "workerinput") or os.environ.get("NUMBA_CACHE_DIR"):
+        return
+    if not list((ROOT / "tmd" / "planning" / "__pycache__").glob(f"greedy.search_any_{digest()}-*.nbc")):
+        subprocess.run([sys.executable, "-m", "tmd.planning"], cwd=ROOT, capture_output=True, check=True)
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 from pathlib import Path
 
 from tmd.energy.config import DEFAULT, preset
@@ -17,6 +18,7 @@ from tmd.export.strips import restored
 from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
 from tmd.ground import Grounded
 from tmd.ground import ground as ground_text
+from tmd.learned.knowledge import Knowledge
 from tmd.learned.store import known
 from tmd.pddl.goal import with_goal
 from tmd.pddl.model import Instruction, Problem
@@ -121,16 +123,20 @@ class DomainKit:
         Raises:
             TmdError: There is no such environment, planner or model, or a file of the domain is wrong.
         """
-        knowledge = known(self._corpus, self._learned)
         return ground_text(
             text,
             self._world(environment),
-            knowledge.library,
-            reward=knowledge.reward,
+            self._knowledge.library,
+            reward=self._knowledge.reward,
             config=preset(model),
             planner=planner,
             top=top,
         )
+
+    @cached_property
+    def _knowledge(self) -> Knowledge:
+        """What the demonstrations teach, asked for once."""
+        return known(self._corpus, self._learned)
 
     def _world(self, environment: str | Path) -> World:
         path = Path(environment)
@@ -154,7 +160,7 @@ def load_domain(
         domains: The directory of all domains; ``./domains`` or the packaged one by default.
         problems: The directory of all problems; ``./problems`` or the packaged one by default.
         learned: Where ``tmd learn --out`` saved; ``$TMD_LEARNED``, or else beside the demonstrations, by default. What
-            is not saved is learned when a text is first grounded.
+            is not saved is learned when a text is first grounded, and kept in the user's cache directory.
 
     Raises:
         TmdError: There is none.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,10 +11,13 @@ from tmd.energy.weights import Weights
 from tmd.policy.learn import learn_policy
 from tmd.policy.policy import Reward
 from tmd.veil.corpus import Corpus
+from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import Library, learn
 
 _SEED = 0
 """The policy's own: the same demonstrations teach the same."""
+_LIBRARY = 0.15
+"""The share of the work that the library is, roughly; the policy is the rest."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,14 +40,30 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
 
     Args:
         corpus: The domain.
-        tell: Is told which share of the policy, which takes the longest, is learned.
+        tell: Is told which share of the work is done.
 
     Raises:
         TmdError: A demonstration is wrong, or cannot be executed in its environment.
     """
     demonstrations = corpus.demonstrations()
-    library = learn(demonstrations, corpus.world, corpus.lexicon)
+    told = tell or _nobody
+    library = learn(_counted(demonstrations, told), corpus.world, corpus.lexicon)
     if not len(library):
         return Knowledge(library)
     random = np.random.default_rng(_SEED)
-    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=tell))
+
+    def on(share: float) -> None:
+        told(_LIBRARY + (1 - _LIBRARY) * share)
+
+    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=on))
+
+
+def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
+    """The demonstrations; ``tell`` is told how far they are taken."""
+    for number, demonstration in enumerate(demonstrations):
+        tell(_LIBRARY * number / len(demonstrations))
+        yield demonstration
+
+
+def _nobody(share: float) -> None:
+    """Nobody wants to know."""

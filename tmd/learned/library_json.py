@@ -9,8 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from tmd.language.clause import Clause, Relation, Span
+from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
+from tmd.learned.plain import plain, restored
 from tmd.pddl.model import Instruction
 from tmd.veil.library import Library
 from tmd.veil.states import Profile
@@ -59,7 +60,7 @@ def _profile(lines: Sequence[Sequence[Any]]) -> Profile:
 def _template(template: Template, profiles: _Profiles) -> dict[str, Any]:
     return {
         "source": template.source,
-        "clause": _clause(template.clause),
+        "clause": plain(template.clause),
         "environment": template.environment,
         "instructions": [[i.name, *i.args] for i in template.instructions],
         "variables": {
@@ -77,7 +78,7 @@ def _read_template(data: Mapping[str, Any], profiles: Sequence[Profile]) -> Temp
     variables = data["variables"]
     return Template(
         source=data["source"],
-        clause=_read_clause(data["clause"]),
+        clause=restored(Clause, data["clause"]),
         environment=data["environment"],
         instructions=tuple(Instruction(name, tuple(args)) for name, *args in data["instructions"]),
         grounding={z: entry[0] for z, entry in variables.items()},
@@ -88,35 +89,4 @@ def _read_template(data: Mapping[str, Any], profiles: Sequence[Profile]) -> Temp
         mentions=dict(data["mentions"]),
         ends={z: profiles[entry[3]] for z, entry in variables.items()},
         subjects=tuple((kind, profiles[number]) for kind, number in data["subjects"]),
-    )
-
-
-def _clause(clause: Clause) -> dict[str, Any]:
-    return {
-        "verb": clause.verb,
-        "objects": list(clause.objects),
-        "relations": [[r.relation, r.source, r.target] for r in clause.relations],
-        "span": [clause.span.start, clause.span.end],
-        "text": clause.text,
-        "antecedents": {name: list(meant) for name, meant in clause.antecedents.items()},
-        "together": dict(clause.together),
-        "quantities": dict(clause.quantities),
-        "asides": [clause.condition, clause.duration, clause.purpose],
-    }
-
-
-def _read_clause(data: Mapping[str, Any]) -> Clause:
-    condition, duration, purpose = data["asides"]
-    return Clause(
-        verb=data["verb"],
-        objects=tuple(data["objects"]),
-        relations=tuple(Relation(*relation) for relation in data["relations"]),
-        span=Span(*data["span"]),
-        text=data["text"],
-        antecedents={name: tuple(meant) for name, meant in data["antecedents"].items()},
-        together=dict(data["together"]),
-        quantities=dict(data["quantities"]),
-        condition=condition,
-        duration=duration,
-        purpose=purpose,
     )

@@ -1,11 +1,12 @@
 """The search kernel compiled by numba: the same code as :mod:`tmd.planning.kernel`, over arrays.
 
-numba is optional (the extra ``fast``). Compiling takes some seconds once per machine; the result is cached on
-disk beside the source.
+numba is optional (the extra ``fast``). Compiling takes half a minute once per machine; the result is cached on
+disk beside the source. ``python -m tmd.planning`` does it, and so does the first search; then standard error says so.
 """
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from functools import cache
 from hashlib import sha256
@@ -58,6 +59,7 @@ def compiled() -> Functions:
         new[: len(old)] = old
         return new
 
+    _announce_compiling()
     namespace: dict[str, Any] = {}
     for module in MODULES:
         namespace.update(vars(module))
@@ -70,6 +72,26 @@ def compiled() -> Functions:
                 twin.__module__, twin.__qualname__ = module.__name__, f"{name}_{version}"
                 namespace[name] = jit(twin)
     return Functions(namespace["prepared"], namespace["search"], namespace["search_any"])
+
+
+class _Announcement:
+    """Says once that numba compiles the kernel; loading what was compiled before is no event."""
+
+    said = False
+
+    def notify(self, event: Any) -> None:  # noqa: ANN401 - numba has no types
+        """Hear of an event of numba."""
+        function = event.data["dispatcher"].py_func
+        if event.is_start and not self.said and function.__module__.startswith("tmd.planning."):
+            self.said = True
+            print("compiling the search for this machine, once; this takes about half a minute …", file=sys.stderr)
+
+
+def _announce_compiling() -> None:
+    from numba.core import event
+
+    event.Listener.register(_Announcement)
+    event.register("numba:compile", _Announcement())  # type: ignore[no-untyped-call]
 
 
 def digest() -> str:

@@ -129,9 +129,10 @@ class Policy:
     def _read(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
         """The choices, the clause's words, and how far it mentions things; that of the last clause is remembered."""
         key = tuple((c.text, c.verb, c.resolved()) for c in (clause, *earlier))
-        if self._last is None or self._last[0] != key:
-            self._last = key, self._reading(clause, earlier)
-        return self._last[1]
+        last = self._last
+        if last is None or last[0] != key:
+            last = self._last = key, self._reading(clause, earlier)
+        return last[1]
 
     def _reading(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
         words = self.reward.features.known(bag(clause, grounded=self.grounded))

@@ -20,7 +20,7 @@ from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 _SHARE = 0.95
-"""The share of the work that learning a policy is, roughly."""
+"""The share of the work that learning is, roughly; the rest is saving."""
 
 
 @dataclass(frozen=True, slots=True)
