@@ -238,7 +238,8 @@ class Follower:
             goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
             if isinstance(goal, Refused):
                 return goal
-            return [Kept((c,), number, hard=True) for cube in goal.cubes[:1] for c in _single(cube)]
+            held = [cube for cube in goal.cubes if cube.holds(state)]
+            return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
         if not names:
             return self.reader.missing(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []

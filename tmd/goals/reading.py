@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
-from itertools import combinations, islice
+from itertools import combinations, islice, pairwise
 
 from tmd.errors import TmdError
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, atoms_of, conjunction, disjunction, negation, only_negative
@@ -98,6 +98,9 @@ class _Reading:
     released: list[str] = field(default_factory=list)
     strict: bool = False
     """Every place that was said must have a slot."""
+    pronoun: str | None = None
+    antecedent: int | None = None
+    """Which of what ``pronoun`` may mean is tried."""
 
 
 class GoalReader:
@@ -244,6 +247,10 @@ class GoalReader:
             if unit.direct in words_of("measures") and measured is not None:
                 unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self._relations_of(measured, clause)
                 unit.direct = measured
+        if clause.implied:
+            # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
+            for unit, following in reversed(list(pairwise(units))):
+                unit.relations = unit.relations or list(following.relations)
         return units or [_Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
 
     def _relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
@@ -253,6 +260,32 @@ class GoalReader:
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def _unit(self, rows: Sequence[GoalRow], unit: _Unit, reading: _Reading) -> tuple[Formula, GoalRow] | Refused:
+        """The goal of one thing; a pronoun is what it most likely means of that which a row fits."""
+        if unit.direct is None or not self._points_back(unit.direct):
+            return self._with_rows(rows, unit, reading)
+        failure: Refused | None = None
+        reading.pronoun = unit.direct
+        for reading.antecedent in range(len(self._antecedents(unit.direct, reading)) or 1):
+            found = self._with_rows(rows, unit, reading)
+            if not isinstance(found, Refused):
+                return found
+            failure = failure or found
+        assert failure is not None
+        return failure
+
+    def _points_back(self, noun: str) -> bool:
+        return not noun or is_pronoun(noun) or noun in words_of("anaphors")
+
+    def _antecedents(self, noun: str, reading: _Reading) -> list[tuple[str, bool]]:
+        """What a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
+        clause, memory = reading.clause, reading.memory
+        if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
+            return [(noun, False)]
+        nouns = [(name, False) for name in clause.antecedents.get(noun, ())]
+        seen = {n for name, _ in nouns for n in (memory.bound[name].names if name in memory.bound else ())}
+        return [*nouns, *((name, True) for name in memory.recent if name not in seen)]
+
+    def _with_rows(self, rows: Sequence[GoalRow], unit: _Unit, reading: _Reading) -> tuple[Formula, GoalRow] | Refused:
         """The goal of one thing by the row with the most slots that fits and can hold."""
         failure: Refused | None = None
         counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
@@ -266,7 +299,7 @@ class GoalReader:
             if not isinstance(found, Refused) and self.grounder.truth(found, reading.state):
                 # what holds already told which thing is meant, if the verb can do without it
                 shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
-                other = self._unit(shorter, unit, reading) if shorter else None
+                other = self._with_rows(shorter, unit, reading) if shorter else None
                 if other is not None and not isinstance(other, Refused):
                     return other
             if not isinstance(found, Refused):
@@ -570,19 +603,24 @@ class GoalReader:
     ) -> list[Referent]:
         """What may stand in a slot, likeliest first: one reading for a noun, one for each antecedent of a pronoun."""
         types = slot_types(row.condition, slot.variable, self.domain)
-        clause, memory = reading.clause, reading.memory
+        clause = reading.clause
         phrase = clause.phrase(noun)
-        if noun and not is_pronoun(noun) and noun not in words_of("anaphors"):
+        if not self._points_back(noun):
             return [self._named(noun, phrase, types, list(relations), reading)]
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+        options = self._antecedents(noun, reading)
+        if reading.antecedent is not None and noun == reading.pronoun:
+            options = options[reading.antecedent : reading.antecedent + 1]
         found = []
-        for antecedent in clause.antecedents.get(noun, ()):
-            found.append(self._antecedent(antecedent, noun, types, reading))
-        named = {name for referent in found for name in referent.names}
-        for name in memory.recent:
-            if name not in named and self.grounder.is_a(name, types):
+        for name, is_object in options:
+            if not is_object:
+                found.append(self._antecedent(name, noun, types, reading))
+            elif self.grounder.is_a(name, types):
                 found.append(Referent(noun or "it", (name,), definite=True))
+            else:
+                inside = tuple(c for c in self.nouns.contents(name, reading.state) if self.grounder.is_a(c, types))
+                found.append(Referent(noun or "it", inside))
         return [referent for referent in found if referent.names] or [Referent(noun or "it", ())]
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: _Reading) -> Referent:
@@ -621,7 +659,9 @@ class GoalReader:
             objects, group = self._all_kinds(noun, objects, types, reading)
         referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
         referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
-        reading.notes += [f"'{word}' says nothing here that could be checked" for word in unknown]
+        if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
+            referent = replace(referent, names=())
+        reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
         referent = self._restricted(referent, relations, reading)
         bound = reading.memory.bound.get(noun)
         if bound is not None and phrase.quantifier is Quantifier.OTHER:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from tmd.language.clause import Clause, Condition, Mood
 
 GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})
 EARLIER = frozenset({"when", "once", "after", "whenever", "as_soon_as", "now_that", "by_the_time", "the_moment", "since"})
-LATER = frozenset({"before", "until", "till", "to"})
+LATER = frozenset({"before", "until", "till", "to", "with"})
 
 
 class Role(StrEnum):
@@ -46,6 +46,9 @@ class Step:
 
 def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
     """The steps of a text in the order of doing; what is to be kept is no step."""
+    heading = next((clause for clause in clauses if clause.heading), None)
+    if heading is not None and not heading.implied:
+        clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
     return tuple(step for number, clause in ordered for step in _steps(clause, number))
 
@@ -53,6 +56,8 @@ def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
 def _steps(clause: Clause, number: int) -> Iterator[Step]:
     guards = tuple(c for c in clause.conditions if c.word in GUARDS)
     if clause.mood is Mood.KEEP:
+        if clause.result and clause.result != "alone":
+            yield Step(replace(clause, verb="be", mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
         return
     for condition in clause.conditions:
         if condition.word in EARLIER and not condition.negated:
@@ -62,5 +67,5 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
     for condition in clause.conditions:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:
-                optional = condition.word != "before"
+                optional = condition.word not in ("before", "with")
                 yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional)

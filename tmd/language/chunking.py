@@ -44,7 +44,7 @@ _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.S
 def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the tokens the grammar sees, in order."""
     _exceptions(tokens)
-    tokens = _settings(_ones(_numbered(_partitives(tokens))))
+    tokens = _settings(_with_states(_ones(_numbered(_partitives(tokens)))))
     _particles(tokens, lexicon)
     _leads(tokens)
     _sentences(tokens)
@@ -64,6 +64,25 @@ def _exceptions(tokens: list[Token]) -> None:
             token.kind, token.text = Kind.P, "except"
             if tokens[at + 1].text == "for":
                 tokens[at + 1].kind = Kind.FILLER
+
+
+def _with_states(tokens: list[Token]) -> list[Token]:
+    """Fold "with the door shut", which says how something shall be besides."""
+    result: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        end = at + 1
+        while end < len(tokens) and tokens[end].kind in (Kind.DET, Kind.N, Kind.NUM):
+            end += 1
+        noun = end > at + 1 and tokens[end - 1].kind is Kind.N
+        last = end + 1 == len(tokens) or (end < len(tokens) and tokens[end + 1].kind in (Kind.STOP, Kind.CC, Kind.COMMA))
+        if tokens[at].text == "with" and noun and end < len(tokens) and tokens[end].text in _STATES and last:
+            result.append(fold(tokens[at : end + 1], Kind.MOD, " ", "condition"))
+            at = end + 1
+        else:
+            result.append(tokens[at])
+            at += 1
+    return result
 
 
 def _leads(tokens: list[Token]) -> None:
@@ -353,7 +372,8 @@ def _opens_clause(tokens: list[Token], at: int) -> bool:
 
 def _fronts(tokens: list[Token], at: int) -> bool:
     """Tell whether a condition belongs to the verb after it: "take the cup and, if it is dirty, wash it"."""
-    if at >= len(tokens) or tokens[at].kind is not Kind.MOD or tokens[at].form != "condition":
+    said = at < len(tokens) and tokens[at].kind is Kind.MOD and tokens[at].form == "condition"
+    if not said or tokens[at].text.startswith("with "):
         return False
     end = at + 1
     while end < len(tokens) and tokens[end].kind in _LINKS:

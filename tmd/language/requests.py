@@ -26,13 +26,14 @@ def rewrite_requests(tokens: list[Token]) -> list[Token]:
     """Return the tokens with every such request as an imperative."""
     result: list[Token] = []
     sentence: list[Token] = []
+    explains = False
     count = 1 + sum(t.kind is Kind.STOP and t is not tokens[-1] for t in tokens)
     for token in tokens:
         sentence.append(token)
         if token.kind is Kind.STOP:
-            result += _sentence(sentence, count)
-            sentence = []
-    return result + _sentence(sentence, count)
+            result += _sentence(sentence, 1 if explains else count)
+            sentence, explains = [], token.text == ":"
+    return result + _sentence(sentence, 1 if explains else count)
 
 
 def _sentence(tokens: list[Token], count: int) -> list[Token]:

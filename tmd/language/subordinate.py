@@ -39,6 +39,8 @@ def read_condition(words: Sequence[str], lexicon: Lexicon, read: Reader) -> Cond
         lexicon: The words of the domain.
         read: The parser.
     """
+    if words[0] == "with" and len(words) > 2:
+        return Condition("with", _state(list(words[1:-1]), [words[-1]], lexicon, read), False, " ".join(words))
     opener, rest = words[0], [w for w in words[1:] if w not in ("that", ",")]
     text = " ".join(words)
     rest = [part for word in rest for part in _expanded(word)]
