@@ -27,6 +27,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
     """
     document = parse(text, file)
     source = document.source
+    document.check_depth()
     if len(document.groups) != 1:
         place = Location(file, 1, 1)
         raise source.error("a goal is one condition", place, "write (and (…) (…)) for several")

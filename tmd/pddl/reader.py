@@ -35,7 +35,6 @@ from tmd.pddl.read_sections import (
 )
 from tmd.pddl.syntax import Document, Group, Report, Source, Word, nearest, read_text
 
-_DEEPEST = 100
 _UNSUPPORTED_SECTIONS = {
     ":derived": "derived predicates",
     ":durative-action": "durative actions",
@@ -193,9 +192,7 @@ def _definition(document: Document, kind: str) -> tuple[Word, list[Group]]:
         hint = f"write (define ({kind} name) ...)"
         raise source.error(f"there is no {kind} here", Location(source.file, 1, 1), hint, "empty-file")
     first = document.groups[0]
-    if document.deepest is not None and document.deepest.depth > _DEEPEST:
-        place = document.deepest.location
-        raise source.error(f"nested more than {_DEEPEST} levels deep", place, None, "nested-too-deeply")
+    document.check_depth()
     if len(document.groups) > 1:
         source.fault(
             source.error(

@@ -18,6 +18,7 @@ from typing import ParamSpec, TypeAlias, TypeVar
 from tmd.errors import Location, TmdError
 
 TOKEN = re.compile(r"[()]|[^\s();]+")
+_DEEPEST = 100
 _LONGEST_LIST_IN_HINT = 8
 _MOST_COMPARED = 500
 
@@ -138,6 +139,16 @@ class Document:
     groups: tuple[Group, ...]
     comments: dict[int, str]
     deepest: Group | None
+
+    def check_depth(self) -> None:
+        """Make sure that what reads groups within groups comes to an end.
+
+        Raises:
+            TmdError: They nest more deeply than anything that people write.
+        """
+        if self.deepest is not None and self.deepest.depth > _DEEPEST:
+            message = f"nested more than {_DEEPEST} levels deep"
+            raise self.source.error(message, self.deepest.location, None, "nested-too-deeply")
 
 
 def nearest(name: str, declared: Sequence[str], *, what: str = "declared") -> str | None:
