@@ -1,5 +1,6 @@
 """Play every demonstration of every corpus and say which do not work: ``python experiments/check_demonstrations.py``.
 
+A demonstration works if every instruction is executable in its turn, and the stated end and the goal hold at the end.
 Arguments: corpus files (default: every ``problems/*/*/demonstrations.jsonl``).
 """
 
@@ -11,6 +12,7 @@ from pathlib import Path
 
 from tmd.errors import TmdError
 from tmd.pddl.model import Problem
+from tmd.pddl.reader import read_problem
 from tmd.veil.demonstration import read_demonstrations
 from tmd.veil.replay import replay
 from tmd.world.compile import compile_problem
@@ -21,10 +23,18 @@ ROOT = Path(__file__).resolve().parents[1]
 
 
 @cache
-def compiled(environment: Path) -> Problem:
-    """The problem of ``problems/DOMAIN/environments/NAME.yaml``."""
-    folder = DomainFolder(ROOT / "domains" / environment.parent.parent.name)
-    return compile_problem(load_environment(environment), folder)
+def domain(name: str) -> DomainFolder:
+    """The domain of that name."""
+    return DomainFolder(ROOT / "domains" / name)
+
+
+@cache
+def opened(directory: Path, name: str) -> Problem:
+    """The environment of that name in ``problems/DOMAIN``: the YAML file, or the PDDL problem where there is none."""
+    folder, place = domain(directory.name), directory / "environments" / f"{name}.yaml"
+    if not place.exists() and place.with_suffix(".pddl").exists():
+        return read_problem(place.with_suffix(".pddl"), folder.domain)
+    return compile_problem(load_environment(place), folder)
 
 
 def check(path: Path) -> int:
@@ -32,9 +42,8 @@ def check(path: Path) -> int:
     failures = 0
     demonstrations = read_demonstrations(path)
     for demonstration in demonstrations:
-        place = path.resolve().parent.parent / "environments" / f"{demonstration.environment}.yaml"
         try:
-            replay(demonstration, compiled(place))
+            replay(demonstration, opened(path.resolve().parent.parent, demonstration.environment))
         except TmdError as error:
             failures += 1
             print(f"{path}: {demonstration.id}: {error}")

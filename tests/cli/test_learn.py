@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.cli.conftest import ROOT, Tmd
+from tests.cli.conftest import ROOT, Ended, Tmd
 from tmd.errors import ExitCode
 from tmd.learned.knowledge import Knowledge, study
 from tmd.learned.store import MANIFEST, place, recall, save
@@ -132,3 +133,20 @@ def test_where_nothing_can_be_written_one_line_says_so(tmd: Tmd, tmp_path: Path)
     done = tmd("learn", "02_table", "--out", "file", "--no-weights")
     assert done.code == ExitCode.CANNOT_WRITE
     assert len(done.err.splitlines()) <= 2
+
+
+def test_goals_are_counted_and_one_that_is_not_reached_teaches_nothing(lab: Corpus, tmd: Tmd) -> None:
+    (file,) = lab.directory.glob("*/demonstrations.jsonl")
+    lines = [json.loads(line) for line in file.read_text(encoding="utf-8").splitlines()]
+
+    def learn(goal: str | None) -> Ended:
+        said = [{**line, "goal": goal if number == 1 else "(and)"} for number, line in enumerate(lines)]
+        file.write_text("".join(json.dumps(line) + "\n" for line in said), encoding="utf-8")
+        return tmd("learn", "lab_bench", "--no-weights", "--json")
+
+    assert json.loads(learn(None).out)["goals"] == len(lines) - 1
+    for wrong, why in (("(not (and))", "is not reached"), ("(and (", "never closed"), ("(shiny tube1)", "shiny")):
+        done = learn(wrong)
+        assert done.code == ExitCode.BAD_INPUT
+        assert re.search(rf"demonstrations\.jsonl:2:\d+: .*the goal of '{lines[1]['id']}'", done.err)
+        assert why in done.err

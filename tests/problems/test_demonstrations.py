@@ -1,4 +1,4 @@
-"""Every demonstration in ``problems/`` works: it replays in its environment and reaches its stated end."""
+"""Every demonstration in ``problems/`` works: it replays in its environment, reaches its stated end and its goal."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ CORPORA = sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))
 ENVIRONMENTS = sorted(p for p in (ROOT / "problems").glob("*/environments/*") if p.suffix in (".yaml", ".pddl"))
 # what experiments are run on: ten texts for each environment, and a page that counts them
 LARGE = [path for path in CORPORA if path.with_name("README.md").is_file()]
-KEYS = {"id", "task", "environment", "text", "segments", "end_state"}
+KEYS = {"id", "task", "environment", "text", "segments", "end_state", "goal"}
 PER_ENVIRONMENT = 10
 # what may stand between two segments of a text: words that join clauses, and thanks
 JOINTS = {"an", "adn", "and", "then", "after", "that", "meanwhile", "so", "first", "thank", "you"}

@@ -58,6 +58,7 @@ _ERRORS = {
     "bad-demonstration": "a line that is no demonstration",
     "unknown-environment": "an environment that is not there",
     "not-executable": "a demonstration that cannot be executed",
+    "goal-not-reached": "a goal that does not hold at the end of its demonstration",
     # meaning of PDDL
     "duplicate-name": "a name that is declared twice, up to case",
     "type-cycle": "a type that is its own ancestor",

@@ -1,4 +1,4 @@
-"""Checking demonstrations: their form, their environments, and whether they can be executed."""
+"""Checking demonstrations: form, environments, whether they can be executed, and whether their goals are reached."""
 
 from __future__ import annotations
 
@@ -8,9 +8,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from tmd.errors import Location, TmdError
-from tmd.pddl.model import Problem
+from tmd.pddl.model import Problem, State
 from tmd.pddl.syntax import Report, nearest, read_text, split_lines
 from tmd.veil.demonstration import Demonstration, read_demonstration
+from tmd.veil.goal import check_goal
 from tmd.veil.replay import replay
 
 
@@ -50,9 +51,15 @@ def _play(demonstration: Demonstration, line: str, world: Callable[[str], Proble
     problem = world(demonstration.environment)
     if problem is None:
         return
+    last = _states(demonstration, problem)[-1]
+    check_goal(demonstration, problem, last)
+
+
+def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
+    """What happens, whatever the goal is; the plan that was corrected is played as well."""
     what = f"'{demonstration.id}'"
     try:
-        replay(demonstration, problem)
+        states = replay(replace(demonstration, goal=None), problem)
         if demonstration.proposed is not None:
             what = f"the plan that '{demonstration.id}' corrects"
             replay(_as_proposed(demonstration), problem)
@@ -60,12 +67,13 @@ def _play(demonstration: Demonstration, line: str, world: Callable[[str], Proble
         message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
         hint = "mend the demonstration, or the domain or environment if they are what changed"
         raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
+    return states
 
 
 def _as_proposed(demonstration: Demonstration) -> Demonstration:
-    """What would have been done without the correction; how it ends is not stated."""
+    """What would have been done without the correction; how it ends is not stated, and it need not reach the goal."""
     segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
-    return replace(demonstration, segments=segments, end_state=())
+    return replace(demonstration, segments=segments, end_state=(), goal=None)
 
 
 def _place(demonstration: Demonstration, line: str) -> Location | None:

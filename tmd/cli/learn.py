@@ -64,13 +64,14 @@ def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learne
 
     from tmd.learned.knowledge import study
 
-    count = len(corpus.demonstrations())
-    if not count:
+    demonstrations = corpus.demonstrations()
+    if not demonstrations:
         raise TmdError(
             f"there are no demonstrations of '{corpus.folder.name}' in {corpus.directory}",
             hint="they are in TASK/demonstrations.jsonl",
         )
-    _tell(f"learning from {count} demonstrations …")
+    _check_goals(corpus)
+    _tell(f"learning from {len(demonstrations)} demonstrations …")
     knowledge = study(corpus)
     if not weigh:
         return knowledge, None
@@ -79,6 +80,21 @@ def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learne
 
     tuned = weights_of(corpus, np.random.default_rng(seed))
     return replace(knowledge, weights=tuned.weights), tuned
+
+
+def _check_goals(corpus: Corpus) -> None:
+    """Who shows something else than the text asks for teaches something wrong.
+
+    Raises:
+        TmdError: A goal cannot be read or does not hold at the end; with its place.
+    """
+    from tmd.veil.goal import check_goal
+    from tmd.veil.replay import final_state
+
+    for demonstration in corpus.demonstrations():
+        if demonstration.goal is not None:
+            world = corpus.world(demonstration.environment)
+            check_goal(demonstration, world.task.problem, final_state(demonstration, world))
 
 
 def _tell(line: str) -> None:
@@ -95,6 +111,7 @@ def _report(corpus: Corpus, knowledge: Knowledge, tuned: Learned | None, directo
     return {
         "domain": corpus.folder.name,
         "demonstrations": len(corpus.demonstrations()),
+        "goals": sum(d.goal is not None for d in corpus.demonstrations()),
         "environments": sorted({d.environment for d in corpus.demonstrations()}),
         "templates": {verb: len(library.templates(verb)) for verb in verbs},
         "unaligned": len(library.unaligned),

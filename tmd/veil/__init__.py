@@ -4,6 +4,7 @@
 module              holds
 ==================  ==============================================================================
 ``demonstration``   texts with the instruction sequences that people gave for them, aligned
+``goal``            what such a text asks for, as a condition; faults of it in their place
 ``split``           which instructions of a segment served which of its clauses
 ``tidy``            leaving out the detours of a sequence
 ``states``          what can be said of one object in a state: its own states, its relations

@@ -12,8 +12,9 @@ Segments are pieces of the text, in order and without overlap; each carries the 
 ``end_state`` lists literals (``(not (…))`` as well) that hold when all instructions are done. ``goal`` is a closed PDDL
 condition: what the text asks for, written from the text alone, with ``exists`` for what it leaves open.
 
-These two may be left out, and three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands where somebody corrected a plan: it
-lists the instructions of that plan, and each segment has those of its own as ``proposed``.
+These two may be left out, and three keys may be there besides. ``who`` and ``when`` are texts. ``proposed`` stands
+where somebody corrected a plan: it lists the instructions of that plan, and each segment has those of its own as
+``proposed``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Playing a demonstration: every instruction must be executable, and the stated end must be reached."""
+"""Playing a demonstration: every instruction must be executable, the stated end and the goal must be reached."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from tmd.pddl.goal import with_goal
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.veil.demonstration import Demonstration
+from tmd.veil.goal import check_goal
 from tmd.veil.world import World
 
 
@@ -15,7 +16,7 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
 
     Raises:
         TmdError: An instruction is not executable (with its number and the first broken precondition), or a
-            literal of the stated end state does not hold.
+            literal of the stated end state or the goal does not hold.
     """
     states = [problem.init]
     for number, instruction in enumerate(demonstration.instructions, start=1):
@@ -26,8 +27,7 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
     for literal in demonstration.end_state:
         if not _literal_holds(literal, states[-1]):
             raise TmdError(f"the stated end {literal} is not reached")
-    if demonstration.goal is not None and not goal_holds(demonstration.goal, problem, states[-1]):
-        raise TmdError(f"the goal {demonstration.goal} does not hold at the end")
+    check_goal(demonstration, problem, states[-1])
     return states
 
 
@@ -38,6 +38,14 @@ def goal_holds(goal: str, problem: Problem, state: State) -> bool:
         TmdError: It is no condition, or speaks of what the problem does not have.
     """
     return holds(with_goal(problem, goal, "goal").goal, state, problem)
+
+
+def final_state(demonstration: Demonstration, world: World) -> State:
+    """The state after all instructions of a demonstration that can be executed."""
+    state = world.task.init
+    for instruction in demonstration.instructions:
+        state = world.task.by_instruction[instruction].apply(state)
+    return world.task.decode(state)
 
 
 def check_executable(demonstration: Demonstration, world: World) -> None:
