@@ -69,13 +69,40 @@ def test_what_is_saved_is_found_by_everything_that_reads_demonstrations(table: C
     assert [str(i) for i in found.instructions] == PLAN
     assert found.end_state == ("(at cup1 shelf1 on)", "(not (at cup1 table1 on))")
     assert (found.who, found.when, found.proposed) == (None, None, None)
-    assert not {"who", "when", "proposed"} & json.loads(file.read_text()).keys()
+    assert not {"who", "when", "proposed", "goal"} & json.loads(file.read_text()).keys()
     again = Corpus(table.folder, table.directory)
     assert again.demonstrations("shown") == [found]
     assert faults(table, file) == []
     assert archive.save(shown(table), who="Ann", when="2026-01-02").id == "shown-corner1-02"
     last = read_demonstrations(file)[-1]
     assert (last.who, last.when) == ("Ann", "2026-01-02")
+
+
+def test_a_goal_is_saved_with_what_reaches_it(table: Corpus) -> None:
+    archive, file = Archive(table), table.directory / "shown" / "demonstrations.jsonl"
+    goal = "(exists (?x - item) (at ?x shelf1 on))"
+    assert archive.save(shown(table), goal=goal).goal == json.loads(file.read_text())["goal"] == goal
+    assert Corpus(table.folder, table.directory).demonstrations("shown")[0].goal == goal
+    assert faults(table, file) == []
+    before = file.read_bytes()
+    for wrong, why in [
+        ("(at cup1 table1 on)", r"is not reached: \(at cup1 table1 on\) does not hold at the end"),
+        ("(at cup1 shelf9 on)", 'unknown object "shelf9"'),
+        ("(at cup1", "never closed"),
+    ]:
+        with pytest.raises(TmdError, match=why):
+            archive.save(shown(table), goal=wrong)
+    assert file.read_bytes() == before
+
+
+def test_a_correction_may_have_a_goal_that_its_plan_did_not_reach(table: Corpus) -> None:
+    proposed = tuple(Step(parse_instruction(line), 0) for line in PLAN[:3])
+    session = Session(
+        table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
+    )
+    found = Archive(table).save(session, "corrected", goal="(at cup1 shelf1 on)")
+    assert (found.goal, found.proposed) == ("(at cup1 shelf1 on)", tuple(step.instruction for step in proposed))
+    assert faults(table, table.directory / "corrected" / "demonstrations.jsonl") == []
 
 
 def test_a_task_that_is_there_grows_and_keeps_what_it_had(table: Corpus) -> None:

@@ -18,7 +18,8 @@ from tmd.studio.pieces import clean
 from tmd.studio.session import Session
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment, demonstration_line, read_demonstration, read_demonstrations
-from tmd.veil.replay import check_executable
+from tmd.veil.goal import check_goal
+from tmd.veil.replay import check_executable, final_state
 from tmd.veil.world import World
 
 SHOWN = "shown"
@@ -78,7 +79,13 @@ class Archive:
             )
 
     def save(
-        self, session: Session, task: str = SHOWN, *, who: str | None = None, when: str | None = None
+        self,
+        session: Session,
+        task: str = SHOWN,
+        *,
+        who: str | None = None,
+        when: str | None = None,
+        goal: str | None = None,
     ) -> Demonstration:
         """Append what was demonstrated.
 
@@ -87,13 +94,15 @@ class Archive:
             task: The task it is an example of.
             who: Who showed it; not told by default.
             when: When; not told by default.
+            goal: What the text asks for, as a closed PDDL condition; not told by default.
 
         Returns:
             The demonstration as it stands in the file now.
 
         Raises:
             TmdError: There are no steps, the task cannot have that name, the environment is none of the domain's, the
-                file holds a line that is no demonstration. Nothing was written.
+                file holds a line that is no demonstration, the goal is no condition of the environment or does not
+                hold at the end. Nothing was written.
             OutputError: The file cannot be written. It is as it was.
         """
         file = self.file(task)
@@ -101,12 +110,12 @@ class Archive:
         if not session.steps:
             raise TmdError("nothing was demonstrated yet", hint="carry out at least one instruction")
         self.refuse(session.world)
-        said = [clean(value)[:_LONGEST] if value and value.strip() else None for value in (who, when)]
+        who, when = (clean(value)[:_LONGEST] if value and value.strip() else None for value in (who, when))
         make_directory(file.parent)
         with locked(file.with_name(_LOCK), wait=self.wait):
             before = read_demonstrations(file) if file.exists() else []
             name = _next_id(f"{task}-{session.world.name}", before)
-            found = demonstration(session, segments, name, task, *said)
+            found = demonstration(session, segments, name, task, who, when, goal)
             line = demonstration_line(found)
             self._check(found, line, file, len(before) + 1)
             old = file.read_bytes() if file.exists() else b""
@@ -115,14 +124,16 @@ class Archive:
             return read_demonstrations(file)[-1]
 
     def _check(self, found: Demonstration, line: str, file: Path, number: int) -> None:
-        """What is written must be read as what it is, and be executable.
+        """What is written must be read as what it is, be executable, and reach its goal.
 
         Raises:
             TmdError: It is not.
         """
         if read_demonstration(file, number, line) != found:
             raise TmdError(f"'{found.id}' would be read as something else, so it was not written")
-        check_executable(found, self.corpus.world(found.environment))
+        world = self.corpus.world(found.environment)
+        check_executable(found, world)
+        check_goal(found, world.task.problem, final_state(found, world))
 
 
 def demonstration(
@@ -132,6 +143,7 @@ def demonstration(
     task: str,
     who: str | None = None,
     when: str | None = None,
+    goal: str | None = None,
 ) -> Demonstration:
     """What was shown in ``session``, as a demonstration."""
     world = session.world
@@ -140,7 +152,8 @@ def demonstration(
         for instruction in segment.instructions:
             end = world.task.by_instruction[instruction].apply(end)
     whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
-    return Demonstration(name, task, world.name, session.text, segments, _end_state(world, end), whole, who, when)
+    ends = _end_state(world, end)
+    return Demonstration(name, task, world.name, session.text, segments, ends, whole, who, when, goal)
 
 
 def _end_state(world: World, end: Bits) -> tuple[str, ...]:

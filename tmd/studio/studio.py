@@ -109,7 +109,7 @@ class Studio:
         self.archive.refuse(setting.world)
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
-    def save(self, session: Session, task: str, who: str, *, when: bool) -> Demonstration:
+    def save(self, session: Session, task: str, who: str, *, when: bool, goal: str | None = None) -> Demonstration:
         """Save a demonstration, and learn from it: the next text is grounded with it.
 
         Args:
@@ -117,12 +117,13 @@ class Studio:
             task: What it is an example of.
             who: Who showed it; empty where that is not told.
             when: Whether the time is told.
+            goal: What the text asks for, as a closed PDDL condition; not told by default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.
         """
         time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
-        saved = self.archive.save(session, task, who=who or None, when=time)
+        saved = self.archive.save(session, task, who=who or None, when=time, goal=goal)
         self.teacher.learn_one(saved)
         return saved
 
