@@ -3,7 +3,7 @@
 ==================  ==============================================================================
 module              holds
 ==================  ==============================================================================
-``metrics``         IED, END, EED and EED-trim
+``metrics``         success, IED, END, EED and EED-trim
 ``dataset``         what an experiment needs of a data set; the bundled one and VEIL-500
 ``config``          what a run is asked to do, and which part of that decides its outcome
 ``protocol``        which tasks are trained together

@@ -15,10 +15,11 @@ from tmd.evaluation.config import VEIL500, ExperimentConfig
 from tmd.evaluation.metrics import Scorer
 from tmd.evaluation.protocol import FILE, read_protocol
 from tmd.language.lexicon import Lexicon
-from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.syntax import nearest
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment
+from tmd.veil.goal import read_goal
 from tmd.veil.world import World, make_world
 from tmd.world.folder import find_domain, find_problems
 
@@ -37,6 +38,7 @@ class Example:
         environment: The environment's name, unique in the data set.
         number: The environment's number within its world.
         demonstration: Text, segments and instructions.
+        goal: What the demonstration's goal says; ``None`` where it has none.
     """
 
     id: str | int
@@ -45,6 +47,7 @@ class Example:
     environment: str
     number: int
     demonstration: Demonstration
+    goal: Formula | None = None
 
     @property
     def gold(self) -> tuple[Instruction, ...]:
@@ -105,7 +108,7 @@ class BundledData:
         problems: The directory of all problems, if not the usual one.
 
     Raises:
-        TmdError: There is no such domain or task.
+        TmdError: There is no such domain or task, or a file of it is wrong.
     """
 
     def __init__(
@@ -116,11 +119,7 @@ class BundledData:
         known = self.corpus.tasks()
         tested = frozenset(known) if task == ALL else frozenset({d.task for d in self.corpus.demonstrations(task)})
         self._groups = read_protocol(self.corpus.directory / FILE, known)
-        self._pool = tuple(
-            Example(d.id, d.task, domain, d.environment, _number(d.environment), d)
-            for name in known
-            for d in self.corpus.demonstrations(name)
-        )
+        self._pool = tuple(self._example(d) for name in known for d in self.corpus.demonstrations(name))
         self._check(known)
         self._examples = tuple(example for example in self._pool if example.task in tested)
         self._fingerprint = _digest(
@@ -130,6 +129,11 @@ class BundledData:
             }
         )
         self._scorers: dict[str, Scorer] = {}
+
+    def _example(self, d: Demonstration) -> Example:
+        """A demonstration with its goal, read once: a faulty one is told before anything is done."""
+        goal = read_goal(d, self.corpus.world(d.environment).task.problem)
+        return Example(d.id, d.task, self.corpus.folder.name, d.environment, _number(d.environment), d, goal)
 
     def _check(self, known: Sequence[str]) -> None:
         """A task is the folder it lies in, and a number stands for one environment."""

@@ -85,10 +85,18 @@ class Shown:
 
 
 def best_and_worst(lines: Sequence[Line], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
-    """The best by IED, then END, then EED, best first; and of the others the worst, worst first."""
-    order = sorted(lines, key=lambda p: (-p.IED, -p.END, -p.EED, p.environment, str(p.id)))
+    """The best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
+
+    What has no goal stands between what reached its goal and what did not.
+    """
+    order = sorted(lines, key=_rank)
     best, rest = order[:count], order[count:]
     return [shown(line) for line in best], [shown(line) for line in reversed(rest[-count:])]
+
+
+def _rank(line: Line) -> tuple[int, float, float, float, str, str]:
+    success = {True: 0, None: 1, False: 2}[line.success]
+    return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
 
 
 def shown(line: Line) -> Shown:

@@ -13,13 +13,20 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from tmd.evaluation.records import CurvePoint, Fit, Means, Metrics
-from tmd.evaluation.summary import EXECUTABLE
+from tmd.evaluation.summary import EXECUTABLE, SUCCESS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-LABELS = {"IED": "IED", "EED": "EED", "EED_trim": "EED-trim", "END": "END", EXECUTABLE: "executable %"}
+LABELS = {
+    SUCCESS: "success %",
+    "IED": "IED",
+    "EED": "EED",
+    "EED_trim": "EED-trim",
+    "END": "END",
+    EXECUTABLE: "executable %",
+}
 """What the columns are called."""
 _INK = "#010203"
 _FAINT = "#040506"
@@ -118,14 +125,16 @@ def tasks_of(metrics: Metrics) -> list[str]:
 
 
 def _bars(axis: Axes, rows: Sequence[Means], column: str, floor: Means | None) -> None:
-    """Horizontal bars from 0 to 100, the first row at the top."""
-    places = range(len(rows))
-    means, errors = [row.mean(column) for row in rows], [row.se(column) for row in rows]
+    """Horizontal bars from 0 to 100, the first row at the top; none for a mean of nothing."""
+    told = [(place, row.mean(column), row.se(column)) for place, row in enumerate(rows)]
+    bars = [(place, mean, error or 0.0) for place, mean, error in told if mean is not None]
+    places, means, errors = [list(part) for part in zip(*bars, strict=True)] or ([], [], [])
     axis.barh(places, means, height=0.62, color=_BAR, xerr=errors, error_kw={"ecolor": _INK, "elinewidth": 1.0})
-    for place, mean, error in zip(places, means, errors, strict=True):
+    for place, mean, error in bars:
         axis.text(mean + error + 2, place, f"{mean:.1f}", va="center", fontsize=8)
-    if floor is not None:
-        axis.axvline(floor.mean(column), color=_SERIES[1], linewidth=1.0, linestyle="--")
+    lowest = None if floor is None else floor.mean(column)
+    if lowest is not None:
+        axis.axvline(lowest, color=_SERIES[1], linewidth=1.0, linestyle="--")
     axis.set_xlim(0, 130)
     axis.set_xticks([0, 50, 100])
     axis.set_ylim(len(rows) - 0.4, -0.6)

@@ -1,6 +1,6 @@
-"""IED, END and EED as the released VEIL-500 code computes them, for any PDDL domain.
+"""IED, END and EED as the released VEIL-500 code computes them, for any PDDL domain, and success.
 
-All three are per demonstration, from 0 to 100, higher is better; a result is the plain mean over
+These three are per demonstration, from 0 to 100, higher is better; a result is the plain mean over
 demonstrations.
 
 * **IED** (instruction edit distance) compares the sequences as words.
@@ -10,7 +10,11 @@ demonstrations.
   floor beside it. **EED-trim** first drops states that look like the one before, which takes most of the
   floor away.
 
-Both sequences are executed by force (:mod:`tmd.pddl.simulator`): preconditions are not read. Report
+Where a demonstration has a goal, a fourth comes first, which looks at no recorded sequence:
+
+* **success**: whether the goal holds in the last state of the prediction, the one that END looks at.
+
+Sequences are executed by force (:mod:`tmd.pddl.simulator`): preconditions are not read. Report
 the share of executable predictions beside END.
 """
 
@@ -23,7 +27,8 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import GroundAtom, Instruction, Problem
+from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem
+from tmd.pddl.semantics import holds
 from tmd.pddl.simulator import Rollout, Simulator, rollout
 from tmd.pddl.task import Bits, Task
 
@@ -220,6 +225,11 @@ class Scorer:
             a, b = [s & seen for s in p.states], [s & seen for s in r.states]
             similar = eed(a, b), eed_trim(a, b)
         return Scores(ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable)
+
+    def reaches(self, predicted: Sequence[Instruction], goal: Formula) -> bool:
+        """Success: whether ``goal`` holds in the state that END looks at, the last one of forced execution."""
+        done = self.simulator.run(predicted)
+        return holds(goal, done.task.decode(done.states[-1]), self.problem)
 
     def _visible(self, task: Task, recorded: Sequence[Instruction]) -> Bits | None:
         if task is not self._task:

@@ -14,9 +14,9 @@ from tmd.evaluation.confusion import NOTHING
 from tmd.evaluation.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.figures import LABELS, overall_bars, task_bars, tasks_of
 from tmd.evaluation.linked_pages import FOLDER, page_name
-from tmd.evaluation.records import Run
+from tmd.evaluation.records import Metrics, Run
 from tmd.evaluation.standing import ALPHA, differing, reference
-from tmd.evaluation.summary import COLUMNS, EMPTY, METRICS
+from tmd.evaluation.summary import EMPTY, SUCCESS
 from tmd.evaluation.tables import differences, errors, learned, table_2
 from tmd.evaluation.trials import Trials, films
 
@@ -57,13 +57,15 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         marked=differing(pairs, chief) if chief else frozenset(),
         alpha=ALPHA,
         against=differences(metrics, chief, order),
-        columns=COLUMNS,
-        tested=METRICS,
+        columns=metrics.columns,
+        tested=metrics.tested,
         labels=LABELS,
+        success=SUCCESS,
+        goals=_with_goal(metrics),
         tasks=tasks_of(metrics),
         table_2=table_2(metrics, paper),
-        overall=overall_bars(metrics, order, COLUMNS),
-        by_task=task_bars(metrics, order, ("IED", "EED", "END")),
+        overall=overall_bars(metrics, order, metrics.columns),
+        by_task=task_bars(metrics, order, [c for c in (SUCCESS, "IED", "EED", "END") if c in metrics.columns]),
         learned=[learned(run.fits, model) for model in order if any(fit.model == model for fit in run.fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],
@@ -77,6 +79,12 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         films=films(trials),
         pages=pages,
     )
+
+
+def _with_goal(metrics: Metrics) -> int | None:
+    """How many examples have a goal, where that needs saying: where some have none."""
+    rows = metrics.models.values()
+    return max(row.goals for row in rows) if any(row.goals < row.n for row in rows) else None
 
 
 def _environment() -> Environment:

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
 
 from tmd.errors import TmdError
-from tmd.evaluation.summary import METRICS
+from tmd.evaluation.summary import COLUMNS, SUCCESS, TESTED
 
 
 class _Record(BaseModel):
@@ -49,6 +49,7 @@ class Line(_Record):
     predicted: list[str]
     gold: list[str]
     executable: bool
+    success: bool | None = None
     IED: float
     END: float
     EED: float
@@ -90,9 +91,16 @@ class Fit(_Record):
 
 
 class Means(_Record):
-    """Means over examples with their standard errors (``_se``); ``executable`` in percent."""
+    """Means over examples with their standard errors (``_se``); ``success`` and ``executable`` in percent.
+
+    ``success`` is the mean over the ``goals`` examples that have a goal; ``None`` where none has, and in runs that were
+    made before goals were looked at.
+    """
 
     n: int
+    goals: int = 0
+    success: float | None = None
+    success_se: float | None = None
     IED: float
     IED_se: float
     EED: float
@@ -104,13 +112,15 @@ class Means(_Record):
     executable: float
     executable_se: float
 
-    def mean(self, column: str) -> float:
-        """The mean of a column of :data:`~tmd.evaluation.summary.COLUMNS`."""
-        return float(getattr(self, column))
+    def mean(self, column: str) -> float | None:
+        """The mean of a column of :data:`~tmd.evaluation.summary.COLUMNS`; ``None`` for success without goals."""
+        value: float | None = getattr(self, column)
+        return value
 
-    def se(self, column: str) -> float:
+    def se(self, column: str) -> float | None:
         """Its standard error."""
-        return float(getattr(self, f"{column}_se"))
+        value: float | None = getattr(self, f"{column}_se")
+        return value
 
 
 class Row(Means):
@@ -136,26 +146,26 @@ class Difference(_Record):
 
 
 class Pair(_Record):
-    """Two rows compared."""
+    """Two rows compared; in success only where examples have goals."""
 
     a: str
     b: str
+    success: Difference | None = None
     IED: Difference
     EED: Difference
     EED_trim: Difference
     END: Difference
 
-    def of(self, metric: str) -> Difference:
-        """The difference in a metric."""
-        found = getattr(self, metric)
-        assert isinstance(found, Difference)
+    def of(self, metric: str) -> Difference | None:
+        """The difference in a metric; ``None`` where the rows are not compared in it."""
+        found: Difference | None = getattr(self, metric)
         return found
 
     def seen_from(self, row: str) -> Pair:
         """With ``row`` first, if it is one of the two."""
         if row != self.b:
             return self
-        turned = {metric: self.of(metric).reversed() for metric in METRICS}
+        turned = {metric: found.reversed() for metric in TESTED if (found := self.of(metric)) is not None}
         return self.model_copy(update={"a": self.b, "b": self.a, **turned})
 
 
@@ -184,6 +194,17 @@ class Metrics(_Record):
     significance: Significance
     config: dict[str, Any]
     folds: dict[str, FoldSizes]
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The columns of the tables: success only where some example has a goal."""
+        told = any(row.success is not None for row in self.models.values())
+        return COLUMNS if told else tuple(column for column in COLUMNS if column != SUCCESS)
+
+    @property
+    def tested(self) -> tuple[str, ...]:
+        """What rows are compared in."""
+        return tuple(metric for metric in TESTED if all(p.of(metric) is not None for p in self.significance.pairs))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,8 +18,9 @@ from typing import Any
 from tmd.atomic import make_directory, write_text
 from tmd.errors import OutputError
 from tmd.evaluation.config import Shard
+from tmd.evaluation.dataset import Example
 from tmd.evaluation.folds import Fold
-from tmd.evaluation.summary import METRICS
+from tmd.evaluation.summary import METRICS, SUCCESS
 from tmd.evaluation.units import Outcome, Unit, journal_files
 
 PREDICTIONS = "predictions.jsonl"
@@ -121,7 +122,7 @@ class RunDirectory:
         except (OSError, ValueError, TypeError, KeyError):
             about, numbers = [], []
         wanted = [(example.id, model, fold.name) for example in fold.test]
-        if about != wanted or not numbers:
+        if about != wanted or not numbers or any(map(_lacks_success, lines, fold.test)):
             self.log.info("damaged, so to be done again: %s", path.name)
             return None
         return lines
@@ -169,6 +170,11 @@ class RunDirectory:
         write_text(self.path / PREDICTIONS, predictions)
         write_text(self.path / METRICS_FILE, json.dumps(metrics, indent=2) + "\n")
         self.log.info("finished")
+
+
+def _lacks_success(line: dict[str, Any], example: Example) -> bool:
+    """Whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
+    return (example.goal is not None) != isinstance(line.get(SUCCESS), bool)
 
 
 def _difference(found: str, identity: dict[str, Any]) -> str:

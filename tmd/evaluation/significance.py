@@ -6,7 +6,7 @@ drawn, and what is flipped, is a text with all its examples.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from itertools import combinations, product
 from typing import Any, TypeAlias
 
@@ -14,6 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats: TypeAlias = NDArray[np.float64]
+_Key: TypeAlias = tuple[str, str]
+_Rows: TypeAlias = Mapping[str, Mapping[_Key, Mapping[str, Any]]]
+"""The predictions of each row, by example."""
 
 RESAMPLES = 9999
 """How many sign patterns, and how many bootstrap samples, are drawn."""
@@ -21,18 +24,28 @@ LEVEL = 0.95
 """The level of the intervals."""
 SEED = 0
 """The draws do not depend on the run's seed: the same predictions have the same p."""
+_PARTS = ("difference", "low", "high", "p", "p_holm")
 _DIGITS = 4
 _SLACK = 1e-9
 """Sums that differ by less are equal: the order of adding must not decide a tie."""
 
 
+def score(prediction: Mapping[str, Any], metric: str) -> float | None:
+    """A score from 0 to 100; what is true or false counts 100 or 0, and ``None`` where there is nothing to score."""
+    value = prediction.get(metric)
+    if value is None:
+        return None
+    return 100.0 * value if isinstance(value, bool) else float(value)
+
+
 def compare(predictions: Sequence[dict[str, Any]], models: Sequence[str], metrics: Sequence[str]) -> dict[str, Any]:
-    """Every two rows, on the examples that all rows have.
+    """Every two rows, on the examples that all rows have; in each metric on those of them that are scored by it.
 
     Returns:
         ``{"examples", "texts", "resamples", "level", "pairs": [{"a", "b", METRIC: {"difference", "low", "high",
         "p", "p_holm"}}]}``. ``difference`` is the mean over examples of a minus b, ``low`` to ``high`` its interval,
-        ``p`` of the two-sided test of no difference, ``p_holm`` the same, corrected for the number of pairs.
+        ``p`` of the two-sided test of no difference, ``p_holm`` the same, corrected for the number of pairs. A metric
+        that no example is scored by is ``None``.
     """
     found: dict[str, Any] = {"examples": 0, "texts": 0, "resamples": RESAMPLES, "level": LEVEL, "pairs": []}
     if len(models) < 2:
@@ -41,33 +54,33 @@ def compare(predictions: Sequence[dict[str, Any]], models: Sequence[str], metric
     keys = sorted(set.intersection(*(set(row) for row in rows.values())))
     if not keys:
         return found
-    texts = sorted({rows[models[0]][key]["text"] for key in keys})
-    place = {text: number for number, text in enumerate(texts)}
-    where = np.array([place[rows[models[0]][key]["text"]] for key in keys])
-    sizes = np.bincount(where, minlength=len(texts)).astype(np.float64)
+    texts = {rows[models[0]][key]["text"] for key in keys}
     pairs = list(combinations(models, 2))
-    tests = [(a, b, metric) for metric in metrics for a, b in pairs]
-    totals = np.array(
-        [
-            np.bincount(where, weights=[rows[a][k][metric] - rows[b][k][metric] for k in keys], minlength=len(texts))
-            for a, b, metric in tests
-        ]
-    )
-    values = sign_flip(totals)
-    low, high = intervals(totals, sizes)
-    table: dict[tuple[str, str], dict[str, Any]] = {(a, b): {"a": a, "b": b} for a, b in pairs}
-    for first in range(0, len(tests), len(pairs)):
-        chosen = slice(first, first + len(pairs))
-        for number, corrected in enumerate(holm(values[chosen].tolist()), first):
-            a, b, metric = tests[number]
-            table[a, b][metric] = {
-                "difference": _rounded(totals[number].sum() / len(keys)),
-                "low": _rounded(low[number]),
-                "high": _rounded(high[number]),
-                "p": _rounded(values[number]),
-                "p_holm": _rounded(corrected),
-            }
-    return found | {"examples": len(keys), "texts": len(texts), "pairs": list(table.values())}
+    table: list[dict[str, Any]] = [{"a": a, "b": b} for a, b in pairs]
+    for metric in metrics:
+        for entry, difference in zip(table, _differences(rows, keys, pairs, metric), strict=True):
+            entry[metric] = difference
+    return found | {"examples": len(keys), "texts": len(texts), "pairs": table}
+
+
+def _differences(
+    rows: _Rows, keys: Sequence[_Key], pairs: Sequence[tuple[str, str]], metric: str
+) -> list[dict[str, float] | None]:
+    """What :func:`compare` says of each pair in one metric: a family of tests."""
+    scores = {model: {key: score(row[key], metric) for key in keys} for model, row in rows.items()}
+    scored = [key for key in keys if all(found[key] is not None for found in scores.values())]
+    if not scored:
+        return [None] * len(pairs)
+    said = [next(iter(rows.values()))[key]["text"] for key in scored]
+    place = {text: number for number, text in enumerate(sorted(set(said)))}
+    where = np.array([place[text] for text in said])
+    columns = {model: np.array([found[key] for key in scored], dtype=np.float64) for model, found in scores.items()}
+    totals = np.array([np.bincount(where, weights=columns[a] - columns[b], minlength=len(place)) for a, b in pairs])
+    values = sign_flip(totals).tolist()
+    low, high = intervals(totals, np.bincount(where, minlength=len(place)).astype(np.float64))
+    means = totals.sum(axis=1) / len(scored)
+    found = zip(means, low, high, values, holm(values), strict=True)
+    return [dict(zip(_PARTS, map(_rounded, parts), strict=True)) for parts in found]
 
 
 def sign_flip(totals: Floats) -> Floats:
@@ -123,7 +136,7 @@ def holm(values: Sequence[float]) -> list[float]:
     return corrected
 
 
-def _key(prediction: dict[str, Any]) -> tuple[str, str]:
+def _key(prediction: dict[str, Any]) -> _Key:
     return prediction["environment"], str(prediction["id"])
 
 

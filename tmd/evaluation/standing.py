@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from tmd.evaluation.summary import EMPTY, METRICS
+from tmd.evaluation.summary import EMPTY, TESTED
 
 FULL = "full"
 """The paper's full model: the others are measured against it."""
@@ -27,5 +27,6 @@ def differing(pairs: Iterable[Mapping[str, Any]], against: str) -> frozenset[tup
     for pair in pairs:
         if against in (pair["a"], pair["b"]):
             other = pair["b"] if pair["a"] == against else pair["a"]
-            found |= {(other, metric) for metric in METRICS if pair[metric]["p_holm"] < ALPHA}
+            tested = [metric for metric in TESTED if pair.get(metric) is not None]
+            found |= {(other, metric) for metric in tested if pair[metric]["p_holm"] < ALPHA}
     return frozenset(found)

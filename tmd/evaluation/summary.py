@@ -6,14 +6,19 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from tmd.evaluation.significance import compare
+from tmd.evaluation.significance import compare, score
 
+SUCCESS = "success"
+"""The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal."""
 METRICS = ("IED", "EED", "EED_trim", "END")
+"""What every example is scored by."""
+TESTED = (SUCCESS, *METRICS)
+"""What rows are compared in."""
 EXECUTABLE = "executable"
 """The share of predictions whose every instruction could be executed, in percent."""
 EMPTY = "empty"
 """The model that predicts nothing. Its row is the floor of each metric."""
-COLUMNS = (*METRICS, EXECUTABLE)
+COLUMNS = (*TESTED, EXECUTABLE)
 _DIGITS = 4
 
 
@@ -23,37 +28,44 @@ def summarise(predictions: Sequence[dict[str, Any]], models: Sequence[str]) -> d
     Returns:
         ``{"models": {NAME: {"n", METRIC, METRIC_se, …, "tasks": {TASK: …}, "average": …}}, "floor", "significance"}``.
         A model's own numbers are means over examples, ``_se`` their standard errors. ``average`` is the mean of the
-        tasks' means, as the paper's Table II averages; its standard error takes the tasks as given. ``executable`` is
-        a percentage. ``floor`` is the row ``empty``, ``None`` if that was not asked for. ``significance`` is what
-        :func:`~tmd.evaluation.significance.compare` finds.
+        tasks' means, as the paper's Table II averages; its standard error takes the tasks as given. ``success`` and
+        ``executable`` are percentages. ``goals`` is the number of examples that have a goal; where none has,
+        ``success`` is ``None``. ``floor`` is the row ``empty``, ``None`` if that was not asked for. ``significance`` is
+        what :func:`~tmd.evaluation.significance.compare` finds.
     """
     table: dict[str, Any] = {}
     for model in models:
         own = [p for p in predictions if p["model"] == model]
         tasks = {t: _means([p for p in own if p["task"] == t]) for t in sorted({p["task"] for p in own})}
         table[model] = _means(own) | {"tasks": tasks, "average": average(tasks.values())}
-    return {"models": table, "floor": table.get(EMPTY), "significance": compare(predictions, models, METRICS)}
+    return {"models": table, "floor": table.get(EMPTY), "significance": compare(predictions, models, TESTED)}
 
 
 def average(tasks: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
-    """The mean of means of tasks, each task counting alike; ``n`` is the number of examples."""
+    """The mean of means of tasks, each task counting alike; ``n`` is the number of examples, ``goals`` of goals."""
     rows = list(tasks)
-    found: dict[str, Any] = {"n": sum(row["n"] for row in rows)}
+    found: dict[str, Any] = {"n": sum(row["n"] for row in rows), "goals": sum(row["goals"] for row in rows)}
     for column in COLUMNS:
-        found[column] = round(_mean([row[column] for row in rows]), _DIGITS)
-        spread = math.sqrt(math.fsum(row[f"{column}_se"] ** 2 for row in rows)) / max(len(rows), 1)
-        found[f"{column}_se"] = round(spread, _DIGITS)
+        told = [row for row in rows if row[column] is not None]
+        spread = math.sqrt(math.fsum(row[f"{column}_se"] ** 2 for row in told)) / max(len(told), 1)
+        found |= _column(column, _mean([row[column] for row in told]), spread, len(told))
     return found
 
 
 def _means(predictions: Sequence[dict[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {"n": len(predictions)}
+    goals = sum(p.get(SUCCESS) is not None for p in predictions)
+    found: dict[str, Any] = {"n": len(predictions), "goals": goals}
     for column in COLUMNS:
-        scale = 100 if column == EXECUTABLE else 1
-        values = [scale * float(p[column]) for p in predictions]
-        found[column] = round(_mean(values), _DIGITS)
-        found[f"{column}_se"] = round(_standard_error(values), _DIGITS)
+        values = [value for p in predictions if (value := score(p, column)) is not None]
+        found |= _column(column, _mean(values), _standard_error(values), len(values))
     return found
+
+
+def _column(column: str, mean: float, error: float, count: int) -> dict[str, float | None]:
+    """A mean and its standard error; success of nothing is not told, for 0 would say that all failed."""
+    if column == SUCCESS and not count:
+        return {column: None, f"{column}_se": None}
+    return {column: round(mean, _DIGITS), f"{column}_se": round(error, _DIGITS)}
 
 
 def _mean(values: Sequence[float]) -> float:

@@ -224,7 +224,8 @@ def _line(data: Dataset, example: Example, read: str, prediction: Prediction, mo
     def written(instructions: Iterable[Instruction]) -> list[str]:
         return data.written(example.environment, instructions)
 
-    scores = data.scorer(example.environment).score(prediction.instructions, example.gold)
+    scorer = data.scorer(example.environment)
+    scores = scorer.score(prediction.instructions, example.gold)
     whole = example.demonstration.text
     return {
         "id": example.id,
@@ -236,6 +237,7 @@ def _line(data: Dataset, example: Example, read: str, prediction: Prediction, mo
         "predicted": written(prediction.instructions),
         "gold": written(example.gold),
         "executable": scores.executable == 100.0,
+        "success": None if example.goal is None else scorer.reaches(prediction.instructions, example.goal),
         "IED": round(scores.ied, DIGITS),
         "END": round(scores.end, DIGITS),
         "EED": round(scores.eed, DIGITS),
