@@ -57,28 +57,26 @@ class Inference:
         """Forward-Inference(j): α_j from α_{j-1}."""
         found: Alpha = {}
         given_up: list[Candidate] = []
-        situations = [Situation(clauses, number, state, ways[0].instructions) for state, ways in alpha.items()]
-        for bound, situation, candidate in self._queue(situations, alpha, refusals):  # lines 3 to 7
+        situations = [Situation(clauses, number, ways) for ways in alpha.values()]
+        for bound, situation, candidate in self._queue(situations, refusals):  # lines 3 to 7
             if self._settled(found, bound, top):
                 break
             match self._answer(situation.state, candidate):  # lines 8 and 9
                 case Filled(plan):
-                    self._update(found, alpha, situation, candidate, plan)  # lines 10 to 12
+                    self._update(found, situation, candidate, plan)  # lines 10 to 12
                 case Unreachable(reason):
                     refusals[Refusal(number, candidate.source, reason)] = None
                 case GaveUp(limit):
                     given_up.append(candidate)
                     refusals[Refusal(number, candidate.source, f"the planner gave up at {limit}")] = None
-        self._resort(found, alpha, situations, given_up)
+        self._resort(found, situations, given_up)
         if not found:  # an unseen verb, or nothing that can be done: α_j = α_{j-1}
             nothing = Choice(None, (), {}, {})
             return {state: [path.extended(nothing, state) for path in ways] for state, ways in alpha.items()}
         kept = {end: cheapest(paths, top) for end, paths in found.items()}
         return {end: kept[end] for end in sorted(kept, key=lambda end: kept[end][0].order)[: self.beam]}
 
-    def _queue(
-        self, situations: Iterable[Situation], alpha: Alpha, refusals: Refusals
-    ) -> list[tuple[float, Situation, Candidate]]:
+    def _queue(self, situations: Iterable[Situation], refusals: Refusals) -> list[tuple[float, Situation, Candidate]]:
         """Every candidate in every E'_{j-1}, by what it costs at least; the planner can only add to that."""
         queue = []
         for situation in situations:
@@ -86,7 +84,7 @@ class Inference:
                 if isinstance(proposed, Refusal):
                     refusals[proposed] = None
                 else:
-                    queue.append((alpha[situation.state][0].energy + proposed.energy, situation, proposed))
+                    queue.append((situation.ways[0].energy + proposed.energy, situation, proposed))
         return sorted(queue, key=lambda item: item[0])
 
     def _settled(self, found: Alpha, bound: float, top: int) -> bool:
@@ -106,9 +104,7 @@ class Inference:
             return Filled((), state, 0)
         return self.planner.fill(state, candidate.goal or self.constraints.of(candidate.instructions))
 
-    def _update(
-        self, found: Alpha, alpha: Alpha, situation: Situation, candidate: Candidate, plan: Instructions
-    ) -> None:
+    def _update(self, found: Alpha, situation: Situation, candidate: Candidate, plan: Instructions) -> None:
         """Φ, the energy, and α_j[E'_j], for a candidate with what the planner said to it."""
         latent, own = ((), plan) if candidate.goal else (plan, candidate.instructions)
         middle = self._simulated(situation.state, latent)  # E_j, line 10
@@ -124,7 +120,7 @@ class Inference:
             for proposer in self.proposers:
                 raw |= proposer.judge(situation, (*latent, *own), end)
         choice = Choice(candidate.source, steps, self.energy.weigh(raw), raw)
-        found.setdefault(end, []).extend(path.extended(choice, end) for path in alpha[situation.state])  # line 12
+        found.setdefault(end, []).extend(path.extended(choice, end) for path in situation.ways)  # line 12
 
     def _simulated(self, state: Bits, instructions: Instructions) -> Bits:
         """Φ. A robot without knowledge takes its environment to stay as it was."""
@@ -132,12 +128,10 @@ class Inference:
             state = self.world.task.by_instruction[instruction].apply(state)
         return state
 
-    def _resort(
-        self, found: Alpha, alpha: Alpha, situations: Sequence[Situation], given_up: Sequence[Candidate]
-    ) -> None:
+    def _resort(self, found: Alpha, situations: Sequence[Situation], given_up: Sequence[Candidate]) -> None:
         """Take up what is looked for in the end only, from the environment of the cheapest way."""
-        first = min(situations, key=lambda situation: alpha[situation.state][0].order)
+        first = min(situations, key=lambda situation: situation.ways[0].order)
         choices = [path.choices[-1] for paths in found.values() for path in paths]
         for proposer in self.proposers:
             for candidate, plan in proposer.resort(first, choices, given_up):
-                self._update(found, alpha, first, candidate, plan)
+                self._update(found, first, candidate, plan)

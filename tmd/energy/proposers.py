@@ -8,13 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 from weakref import WeakKeyDictionary
 
 from tmd.energy.config import InferenceConfig
 from tmd.energy.energy import Energy, Factors
 from tmd.energy.factors import delta_stated
-from tmd.energy.plans import Choice, Refusal
+from tmd.energy.plans import Choice, Path, Refusal
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube
@@ -41,14 +42,22 @@ class Situation:
     Attributes:
         clauses: All clauses of the text.
         number: Which of them it is about, from 0.
-        state: The environment E'_{j-1}.
-        done: What is done on the cheapest way there.
+        ways: The ways to the environment, cheapest first; at least one.
     """
 
     clauses: Sequence[Clause]
     number: int
-    state: Bits
-    done: Instructions
+    ways: Sequence[Path]
+
+    @property
+    def state(self) -> Bits:
+        """The environment E'_{j-1}."""
+        return self.ways[0].state
+
+    @cached_property
+    def done(self) -> Instructions:
+        """What is done on the cheapest way there."""
+        return self.ways[0].instructions
 
     @property
     def clause(self) -> Clause:
