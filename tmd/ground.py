@@ -12,19 +12,25 @@ Read this first; each call goes to the room of that name (the boxes of Figure 3 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import partial
 
 from tmd.energy.algorithm1 import Inference
 from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.energy.energy import Energy
-from tmd.energy.plans import RankedPlan, Refusal
+from tmd.energy.goal_directed import GoalInference
+from tmd.energy.plans import Inferred, RankedPlan, Refusal
 from tmd.energy.proposers import proposers_of
 from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
+from tmd.goals.follow import Follower
+from tmd.goals.reading import Refused
+from tmd.goals.sources import goal_reader
+from tmd.goals.table import GoalTable
 from tmd.language import parse
 from tmd.language.clause import Parsed
+from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.planning.result import Planner
 from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
 from tmd.veil.world import World
@@ -40,6 +46,7 @@ class Grounded:
         verdicts: For each plan what the validator says of it.
         refusals: Candidates that cannot be executed here, and why.
         unseen: The verbs that no demonstration has, in order of mention.
+        refused: Why there is no plan for what was said, after the number of the clause where that showed.
     """
 
     parsed: Parsed
@@ -47,6 +54,7 @@ class Grounded:
     verdicts: tuple[Verdict, ...]
     refusals: tuple[Refusal, ...]
     unseen: tuple[str, ...]
+    refused: tuple[int, Refused] | None = None
 
 
 def ground(
@@ -56,6 +64,7 @@ def ground(
     weights: Weights | None = None,
     *,
     reward: Reward | None = None,
+    goals: GoalTable | None = None,
     config: InferenceConfig = PRESETS[DEFAULT],
     planner: str = IN_PROCESS,
     top: int = 1,
@@ -68,21 +77,72 @@ def ground(
         library: The templates.
         weights: What each factor counts for; those of the model where none are given.
         reward: What the policy was learned to be; without it the model has none.
+        goals: What verbs were learned to mean, beside what the lexicon declares.
         config: The model.
         planner: Which planner fills in what was left unsaid.
         top: How many distinct plans are wanted.
 
     Raises:
-        TmdError: The planner is unknown or not installed.
+        TmdError: The planner is unknown or not installed, or the lexicon declares something that is wrong.
     """
     parsed = parse(text, library.lexicon)
+    inferred = infer(
+        parsed, world, library, weights, reward=reward, goals=goals, config=config, planner=planner, top=top
+    )
+    unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
+    known = config.goals or len(unseen) < len(parsed.clauses)
+    plans = tuple(plan for plan in inferred.plans if plan.instructions or (known and parsed.clauses))
+    verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
+    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, inferred.refused)
+
+
+def infer(
+    parsed: Parsed,
+    world: World,
+    library: Library,
+    weights: Weights | None = None,
+    *,
+    reward: Reward | None = None,
+    goals: GoalTable | None = None,
+    config: InferenceConfig = PRESETS[DEFAULT],
+    planner: str = IN_PROCESS,
+    top: int = 1,
+) -> Inferred:
+    """The plans for clauses: Algorithm 1, with goals where the model has them."""
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
-    resort = partial(last_resort, world.task) if planner == IN_PROCESS else None
-    proposers = proposers_of(config, world, library, energy, policy, resort)
-    inference = Inference(world, energy, make(planner, world.task, cap=config.cap), proposers, config)
-    inferred = inference.infer(parsed.clauses, world.task.init, top)
-    unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
-    plans = tuple(plan for plan in inferred.plans if plan.instructions or len(unseen) < len(parsed.clauses))
-    verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
-    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen)
+    proposers = proposers_of(config, world, library, energy, policy)
+    quick = make(planner, world.task, cap=config.cap)
+    if not config.goals:
+        return Inference(world, energy, quick, proposers, config).infer(parsed.clauses, world.task.init, top)
+    reader = goal_reader(world, library.lexicon, goals, sources=config.sources, guess=config.guess)
+    planners = TaskPlanners(world.task, quick, planner, config)
+    inference = GoalInference(
+        world,
+        energy,
+        proposers,
+        config,
+        Follower(reader),
+        planners.quick,
+        planners.resort,
+        lambda clause: bool(library.propose(clause)),
+    )
+    return inference.infer(parsed, world.task.init, top)
+
+
+class TaskPlanners:
+    """Planners for an environment, and for it without what must not be done."""
+
+    def __init__(self, task: Task, quick: Planner, name: str, config: InferenceConfig) -> None:
+        self._task = task
+        self._quick = quick
+        self._name = name
+        self._config = config
+
+    def quick(self, task: Task) -> Planner:
+        """The planner for gaps."""
+        return self._quick if task is self._task else make(self._name, task, cap=self._config.cap)
+
+    def resort(self, task: Task) -> Planner:
+        """The planner for what that one gave up on."""
+        return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tmd.errors import TmdError
+from tmd.goals.sources import SOURCES
 from tmd.pddl.syntax import nearest
 
 AKIN = 0.75
@@ -27,8 +28,8 @@ class InferenceConfig:
             Δ_cover.
         policy: Whether a policy, learned from the same demonstrations, proposes sequences beside the templates and
             judges all candidates by the words of the clause (Δ_words).
-        goals: Whether the planner proposes ways to what a clause states, and all candidates are judged by whether it
-            holds in the end (Δ_stated).
+        goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
+        sources: Where the meaning of a clause may come from.
         latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
         knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
@@ -39,7 +40,9 @@ class InferenceConfig:
         few: Below how many templates in all the policy is trusted less than half: with n its word counts
             n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
             better done as it was shown. 0 trusts it always.
-        guess: Whether anything is proposed for a verb that has no templates.
+        tried: How many proposals of templates and policy are completed to the goal of a clause.
+        guess: Whether anything is proposed for a verb that has no templates; with goals, whether a plan may be made where
+            what was said cannot be done, or is not understood.
         cap: Generated states after which a search of the in-process planner gives up.
         last_resort: Whether planners that are content with any plan are asked for what a clause states where the
             optimal search gave up and nothing else leads there.
@@ -55,6 +58,8 @@ class InferenceConfig:
     beam: int | None = 3
     trim: int | None = None
     generated: int = 5
+    sources: tuple[str, ...] = SOURCES
+    tried: int = 6
     few: float = 20.0
     guess: bool = False
     cap: int = 2_000  # what people leave unsaid is short: a candidate that needs more is not the best one

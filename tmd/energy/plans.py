@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from tmd.pddl.model import Instruction
+from tmd.goals.reading import Refused
+from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 
 
@@ -80,6 +81,33 @@ class Refusal:
 
 
 @dataclass(frozen=True, slots=True)
+class StepGoal:
+    """What one step of a text asks for, and which part of a plan brings it about.
+
+    Attributes:
+        clause: The clause of the text, counted from 0.
+        text: What was said.
+        formula: The goal; ``None`` where nothing was to be done, or where no goal is known.
+        source: Where its meaning comes from: ``declared``, ``learned``, ``actions``; empty for none.
+        row: The row it was read by, as it was written.
+        already: It held already.
+        note: What else is to be said: why nothing is done, or what was left out of account.
+        first: The first instruction of the plan that serves it, counted from 0.
+        last: The one after the last.
+    """
+
+    clause: int
+    text: str
+    formula: Formula | None
+    source: str = ""
+    row: str = ""
+    already: bool = False
+    note: str = ""
+    first: int = 0
+    last: int = 0
+
+
+@dataclass(frozen=True, slots=True)
 class RankedPlan:
     """A plan for the whole text.
 
@@ -87,11 +115,13 @@ class RankedPlan:
         choices: One for each clause.
         state: The state it ends in.
         why: Why it is not ranked first; empty for the first.
+        goals: What was asked for, step by step, where the model has goals.
     """
 
     choices: tuple[Choice, ...]
     state: Bits
     why: str = ""
+    goals: tuple[StepGoal, ...] = ()
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -121,10 +151,17 @@ class RankedPlan:
 
 @dataclass(frozen=True, slots=True)
 class Inferred:
-    """The outcome of inference: plans, cheapest first, and the candidates that could not be executed."""
+    """The outcome of inference.
+
+    Attributes:
+        plans: The plans, cheapest first.
+        refusals: The candidates that could not be executed.
+        refused: Why there is no plan for what was said, and the clause where that showed; ``None`` where there is one.
+    """
 
     plans: tuple[RankedPlan, ...]
     refusals: tuple[Refusal, ...]
+    refused: tuple[int, Refused] | None = None
 
 
 def cheapest(paths: Iterable[Path], count: int) -> list[Path]:

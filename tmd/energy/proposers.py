@@ -6,24 +6,19 @@ clause states stand beside it; whoever writes another gives it to :class:`~tmd.e
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
-from weakref import WeakKeyDictionary
 
 from tmd.energy.config import InferenceConfig
 from tmd.energy.energy import Energy, Factors
-from tmd.energy.factors import delta_stated
 from tmd.energy.plans import Choice, Path, Refusal
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube
-from tmd.planning.eliminate import eliminate
-from tmd.planning.result import Filled, Planner
 from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library
-from tmd.veil.stated import stated
 from tmd.veil.template import Template
 from tmd.veil.world import World
 
@@ -32,7 +27,6 @@ POLICY_SOURCE = "policy"
 """The source of a sequence that was made from no demonstration."""
 PLANNER_SOURCE = "planner"
 """The source of a sequence that the planner made for what the clause states."""
-_MOST_GOALS = 64  # ways of fulfilling what a clause states; more would only slow the search down
 
 
 @dataclass(frozen=True, eq=False)
@@ -247,82 +241,15 @@ class PolicyProposer(Proposer):
         return any(map(self.policy.knows, verbs)) if verbs else self.config.guess
 
 
-class GoalProposer(Proposer):
-    """The planner proposes the cheapest way to what a clause states (:mod:`tmd.veil.stated`). Not in the paper.
-
-    Args:
-        world: The environment.
-        library: The templates.
-        energy: The factors, weighed.
-        config: The model.
-        last_resort: Makes the planner of last resort; ``None`` where there is none.
-    """
-
-    def __init__(
-        self,
-        world: World,
-        library: Library,
-        energy: Energy,
-        config: InferenceConfig,
-        last_resort: Callable[[], Planner] | None = None,
-    ) -> None:
-        self.world = world
-        self.library = library
-        self.energy = energy
-        self.config = config
-        self.last_resort = last_resort if config.last_resort else None
-        self._goals: WeakKeyDictionary[Situation, list[tuple[Cube, ...]]] = WeakKeyDictionary()
-
-    def propose(self, situation: Situation) -> Iterator[Candidate]:
-        """One candidate with all that is stated as its goal."""
-        goals = self._goals_of(situation)
-        if not goals or not (self.config.guess or self.library.propose(situation.clause)):
-            return
-        goal = tuple(
-            Cube(either.positive | cube.positive, either.negative | cube.negative)
-            for either in goals[0]
-            for cube in (goals[1] if len(goals) > 1 else (Cube(),))
-        )[:_MOST_GOALS]
-        names = self.world.mentions.meant(situation.clause, (), situation.state)
-        raw = {"generated": 1.0}
-        yield Candidate(PLANNER_SOURCE, (), names, raw, self.energy.total(raw), goal)
-
-    def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
-        """Δ_stated."""
-        return {"stated": delta_stated(self._goals_of(situation), end)}
-
-    def resort(
-        self, situation: Situation, choices: Collection[Choice], given_up: Collection[Candidate]
-    ) -> Iterator[tuple[Candidate, Instructions]]:
-        """Plans that are merely possible, where the planner gave up and no choice does what is stated."""
-        if self.last_resort is None or not any(candidate.goal for candidate in given_up):
-            return
-        if any(not choice.raw.get("stated") for choice in choices):
-            return
-        for candidate in self.propose(situation):
-            answer = self.last_resort().fill(situation.state, candidate.goal)
-            if isinstance(answer, Filled):
-                yield candidate, eliminate(answer.plan, self.world.task, situation.state, candidate.goal)
-
-    def _goals_of(self, situation: Situation) -> list[tuple[Cube, ...]]:
-        """What the clause states: for each relation the facts of which one shall hold."""
-        if situation not in self._goals:
-            self._goals[situation] = stated(situation.clause, self.world, situation.state)
-        return self._goals[situation]
-
-
 def proposers_of(
     config: InferenceConfig,
     world: World,
     library: Library,
     energy: Energy,
     policy: SequenceModel | None = None,
-    last_resort: Callable[[], Planner] | None = None,
 ) -> list[Proposer]:
     """The proposers of a model; it has no policy where none is given."""
     found: list[Proposer] = [TemplateProposer(world, library, energy, config)]
     if config.policy and policy is not None:
         found.append(PolicyProposer(policy, world, library, energy, config))
-    if config.goals:
-        found.append(GoalProposer(world, library, energy, config, last_resort))
     return found

@@ -100,7 +100,9 @@ def passing_predicates(domain: Domain) -> frozenset[str]:
     return frozenset(found)
 
 
-def aims(cubes: Sequence[Cube], kept: Sequence[Kept], released: Collection[str], task: Task) -> Iterator[tuple[Cube, ...]]:
+def aims(
+    cubes: Sequence[Cube], kept: Sequence[Kept], released: Collection[str], task: Task
+) -> Iterator[tuple[Cube, ...]]:
     """What to plan for, to be tried in this order: the goal with all that is to be kept, then with ever less of it."""
     names = set(released)
     own = [k for k in kept if not (names & _objects(k, task)) or k.hard]

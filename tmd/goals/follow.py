@@ -152,7 +152,11 @@ class Follower:
 
     def _holds(self, condition: Condition, context: Context, state: Bits) -> bool | Refused:
         if not condition.clauses:
-            return Refused(Why.NOT_UNDERSTOOD, f"the condition '{condition.text}' is not understood", "say it as a state: if the door is open")
+            return Refused(
+                Why.CONDITION,
+                f"the condition '{condition.text}' is not understood",
+                "say it as a state: if the door is open",
+            )
         truth = True
         for clause in condition.clauses:
             goal = self.reader.read(clause, state, context.memory)
@@ -160,7 +164,7 @@ class Follower:
                 if condition.negated and goal.why is Why.CONTRADICTION:
                     truth = False
                     continue
-                return replace(goal, message=f"the condition '{condition.text}': {goal.message}")
+                return replace(goal, why=Why.CONDITION, message=f"the condition '{condition.text}': {goal.message}")
             truth = truth and any(cube.holds(state) for cube in goal.cubes)
         return truth != condition.negated
 
@@ -187,9 +191,7 @@ class Follower:
         task = without_operators(self.task, forbidden, names) if forbidden or names else self.task
         return Constraints(task, tuple(kept))
 
-    def _avoided(
-        self, clause: Clause, state: Bits, memory: Memory
-    ) -> tuple[Bits, set[str], list[Kept]] | Refused:
+    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Bits, set[str], list[Kept]] | Refused:
         """The atoms that must not become true, the things that must not be handled, and literals to keep."""
         if clause.verb in _NEVER and not self._declared(clause.verb):
             names = {n for noun in clause.direct for n in self.reader.nouns.things(noun, state)}
@@ -199,7 +201,9 @@ class Follower:
                 names.update(self.reader.grounder.relatives(name, 0))
             return 0, names, []
         final = clause.implied or bool(clause.result)
-        goal = self.reader.read(replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory)
+        goal = self.reader.read(
+            replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
+        )
         if isinstance(goal, Refused):
             return (0, set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
         forbidden: Bits = 0
@@ -211,7 +215,11 @@ class Follower:
                 kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
                 continue
             stands = any(cube.positive & bit for cube in goal.cubes)
-            if stands and not state & bit and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes):
+            if (
+                stands
+                and not state & bit
+                and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes)
+            ):
                 forbidden |= bit
             elif not stands and state & bit:
                 kept.append(Kept((Cube(bit, 0),), -1, hard=True))

@@ -165,7 +165,9 @@ class Grounder:
     @cached_property
     def reflexive(self) -> frozenset[str]:
         """The predicates that join things with themselves, or parts with their whole: they tell nothing of two things."""
-        return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {PART_OF}
+        return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {
+            PART_OF
+        }
 
 
 def negation(formula: Formula) -> Formula:

@@ -227,7 +227,7 @@ class Nouns:
         for end in ends:
             found = []
             for atom in self._of_object.get(name, ()):
-                if end not in atom.args or atom not in self.world.task.index and atom not in self.world.task.static:
+                if end not in atom.args or (atom not in self.world.task.index and atom not in self.world.task.static):
                     continue
                 if atom.predicate in self.grounder.reflexive:
                     continue
@@ -253,7 +253,9 @@ class Nouns:
             return contents and not others
         return places and atom in self.world.task.index
 
-    def narrowed(self, referent: Referent, phrase: NounPhrase, state: Bits, moments: Moments) -> tuple[Referent, list[str]]:
+    def narrowed(
+        self, referent: Referent, phrase: NounPhrase, state: Bits, moments: Moments
+    ) -> tuple[Referent, list[str]]:
         """The referent without candidates that the adjectives leave out; and the adjectives that nothing explains."""
         names = referent.names
         unknown: list[str] = []
@@ -268,7 +270,9 @@ class Nouns:
             names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
         return replace(referent, names=names), unknown
 
-    def related_now(self, referent: Referent, relation: str, targets: Sequence[str], state: Bits, moments: Moments) -> tuple[str, ...]:
+    def related_now(
+        self, referent: Referent, relation: str, targets: Sequence[str], state: Bits, moments: Moments
+    ) -> tuple[str, ...]:
         """The candidates that stand in a relation to one of ``targets`` now."""
         return tuple(
             name

@@ -8,7 +8,17 @@ from enum import StrEnum
 from itertools import combinations, islice, pairwise
 
 from tmd.errors import TmdError
-from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, atoms_of, conjunction, disjunction, negation, only_negative
+from tmd.goals.grounder import (
+    FALSE,
+    TRUE,
+    Grounder,
+    Moments,
+    atoms_of,
+    conjunction,
+    disjunction,
+    negation,
+    only_negative,
+)
 from tmd.goals.nouns import Bound, Memory, Mode, Nouns, Referent, mode_of, relations_said
 from tmd.goals.senses import family, results, words_of
 from tmd.goals.table import RELATION, GoalRow, GoalTable, Slot, slot_types
@@ -36,6 +46,7 @@ class Why(StrEnum):
     IMPOSSIBLE = "impossible"
     UNKNOWN_VERB = "unknown-verb"
     NOT_UNDERSTOOD = "not-understood"
+    CONDITION = "condition"
     CONTRADICTION = "contradiction"
     GAVE_UP = "gave-up"
 
@@ -254,7 +265,9 @@ class GoalReader:
         return units or [_Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
 
     def _relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
-        found = [(r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)]
+        found = [
+            (r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)
+        ]
         if clause.setting and name in (*clause.direct, ""):
             found.append(("to", clause.setting.split()[-1]))
         return [(r, t) for r, t in found if t not in PERSONS]
@@ -291,7 +304,10 @@ class GoalReader:
         counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
         fitting = sorted(
             (r for r in rows if self._fits(r, unit, reading)),
-            key=lambda row: (-len(row.slots) - (row.noun is not None), counted and not self._takes_things(row, unit, reading)),
+            key=lambda row: (
+                -len(row.slots) - (row.noun is not None),
+                counted and not self._takes_things(row, unit, reading),
+            ),
         )
         for place, row in enumerate(fitting):
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
@@ -367,7 +383,9 @@ class GoalReader:
             choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]
         leftover = [pair for pair in unit.relations if pair not in consumed]
         if reading.strict and any(self._unplaced(unit, *pair, reading) for pair in leftover):
-            return Refused(Why.NOT_UNDERSTOOD, f"'{print_clause_text(reading.clause)}' says a place that nothing is known of")
+            return Refused(
+                Why.NOT_UNDERSTOOD, f"'{print_clause_text(reading.clause)}' says a place that nothing is known of"
+            )
         formulas = []
         for choice in choices:
             found = self._combination(row, unit.direct, choice, leftover, reading)
@@ -395,7 +413,12 @@ class GoalReader:
         for slot, relation, target in places:
             relations[slot.variable] = relations_said(relation, slot.prepositions)
             noun = "" if target is None else target
-            slots.append((slot, self._referents(noun, row, slot, self._relations_of(noun, reading.clause) if noun else (), reading)))
+            slots.append(
+                (
+                    slot,
+                    self._referents(noun, row, slot, self._relations_of(noun, reading.clause) if noun else (), reading),
+                )
+            )
         failure: Refused | None = None
         for chosen in _product([options for _, options in slots]):
             if any(not referent.names for referent in chosen):
@@ -430,7 +453,8 @@ class GoalReader:
                 return FALSE
             self.grounder.live = 0
             return disjunction(
-                self.grounder.ground(row.condition, {**binding, RELATION: one}, variables, reading.moments) for one in said
+                self.grounder.ground(row.condition, {**binding, RELATION: one}, variables, reading.moments)
+                for one in said
             )
 
         further = self._further(row, pairs, direct, leftover, reading)
@@ -644,7 +668,12 @@ class GoalReader:
         return Referent(pronoun, tuple(names), Mode.ALL)
 
     def _named(
-        self, noun: str, phrase: NounPhrase, types: tuple[str, ...], relations: Sequence[tuple[str, str]], reading: _Reading
+        self,
+        noun: str,
+        phrase: NounPhrase,
+        types: tuple[str, ...],
+        relations: Sequence[tuple[str, str]],
+        reading: _Reading,
     ) -> Referent:
         """The candidates of a noun, by the type that is wanted, without those that adjectives and relations leave out."""
         things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.is_a(n, types))
@@ -794,7 +823,9 @@ class GoalReader:
                 if all(f is not None for f in said):
                     ways.append(conjunction((Atom(atom.predicate, atom.args), *(f for f in said if f is not None))))
         if not ways:
-            return Refused(Why.NOT_UNDERSTOOD, f"'{print_clause_text(reading.clause)}' says nothing that could be checked here")
+            return Refused(
+                Why.NOT_UNDERSTOOD, f"'{print_clause_text(reading.clause)}' says nothing that could be checked here"
+            )
         reading.meant[noun] = tuple(constants)
         return disjunction(ways)
 
@@ -810,18 +841,31 @@ class GoalReader:
         words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
         known = self.nouns.things(referent.noun, reading.state)
         if known and phrase.attributes:
-            return Refused(Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}")
+            return Refused(
+                Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}"
+            )
         if known:
-            return Refused(Why.NOT_UNDERSTOOD, f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here")
-        return Refused(Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses")
+            return Refused(
+                Why.NOT_UNDERSTOOD,
+                f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here",
+            )
+        return Refused(
+            Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses"
+        )
 
     def _impossible(
-        self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], relations: Mapping[str, tuple[str, ...]], reading: _Reading
+        self,
+        row: GoalRow,
+        pairs: Sequence[tuple[str, Referent]],
+        relations: Mapping[str, tuple[str, ...]],
+        reading: _Reading,
     ) -> Refused:
         short = [r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number]
         if short:
             noun = short[0].noun.replace("_", " ")
-            return Refused(Why.NO_SUCH_THING, f"there are only {len(short[0].names)} of '{noun}' here, not {short[0].number}")
+            return Refused(
+                Why.NO_SUCH_THING, f"there are only {len(short[0].names)} of '{noun}' here, not {short[0].number}"
+            )
         said = next((names for names in relations.values() if names), ("",))
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.world.task, self.grounder)
@@ -879,7 +923,7 @@ def _fewer(formula: Formula, most: int) -> Formula:
     match formula:
         case Atom() | Not():
             return formula
-    parts = [_fewer(part, most) for part in getattr(formula, "parts")]
+    parts = [_fewer(part, most) for part in formula.parts]
     return conjunction(parts) if type(formula).__name__ == "And" else disjunction(parts[:most])
 
 

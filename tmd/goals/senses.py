@@ -56,3 +56,8 @@ def results(verb: str) -> tuple[str, ...]:
 def state_words(adjective: str) -> tuple[str, ...]:
     """Words that say the same as ``adjective``, itself first; those with a minus say the contrary."""
     return tuple(dict.fromkeys((adjective, *_table("states").get(adjective, ()))))
+
+
+def result_verbs() -> tuple[str, ...]:
+    """The verbs that there are words for the outcome of."""
+    return tuple(_table("results"))

@@ -9,7 +9,9 @@ from enum import StrEnum
 from tmd.language.clause import Clause, Condition, Mood
 
 GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})
-EARLIER = frozenset({"when", "once", "after", "whenever", "as_soon_as", "now_that", "by_the_time", "the_moment", "since"})
+EARLIER = frozenset(
+    {"when", "once", "after", "whenever", "as_soon_as", "now_that", "by_the_time", "the_moment", "since"}
+)
 LATER = frozenset({"before", "until", "till", "to", "with"})
 
 

@@ -38,7 +38,9 @@ def why_never(atom: GroundAtom, task: Task) -> str:
             wrong = [p for p in action.parameters if p.name in binding and not objects.is_a(binding[p.name], p.types)]
             if wrong:
                 wanted = " or ".join(wrong[0].types)
-                wrong_kind = wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: it is not of the type {wanted}"
+                wrong_kind = (
+                    wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: it is not of the type {wanted}"
+                )
                 continue
             for part in conjuncts(action.precondition):
                 names = {a.predicate for a in _atoms(part)}

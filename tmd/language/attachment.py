@@ -33,7 +33,7 @@ _NUMBERS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eigh
 
 def number_of(word: str) -> int | None:
     """The number that a word or numeral names, up to twelve in words."""
-    if word.isdigit():
+    if word.isascii() and word.isdigit() and len(word) < 10:
         return int(word)
     if word in ("couple", "pair"):
         return 2
@@ -85,7 +85,8 @@ class Phrase:
             self.name,
             quantifier,
             number_of(self.quantity) if self.quantity else None,
-            any(w in _DEFINITE for w in self.lead) or self.determined and not any(w in _INDEFINITE for w in self.lead),
+            any(w in _DEFINITE for w in self.lead)
+            or (self.determined and not any(w in _INDEFINITE for w in self.lead)),
             self.plural,
             attributes,
             self.either,

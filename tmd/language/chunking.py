@@ -75,7 +75,9 @@ def _with_states(tokens: list[Token]) -> list[Token]:
         while end < len(tokens) and tokens[end].kind in (Kind.DET, Kind.N, Kind.NUM):
             end += 1
         noun = end > at + 1 and tokens[end - 1].kind is Kind.N
-        last = end + 1 == len(tokens) or (end < len(tokens) and tokens[end + 1].kind in (Kind.STOP, Kind.CC, Kind.COMMA))
+        last = end + 1 == len(tokens) or (
+            end < len(tokens) and tokens[end + 1].kind in (Kind.STOP, Kind.CC, Kind.COMMA)
+        )
         if tokens[at].text == "with" and noun and end < len(tokens) and tokens[end].text in _STATES and last:
             result.append(fold(tokens[at : end + 1], Kind.MOD, " ", "condition"))
             at = end + 1

@@ -59,7 +59,7 @@ class Declared:
     location: Location | None = field(default=None, compare=False)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Lexicon:
     """Built-in words plus those of a domain.
 

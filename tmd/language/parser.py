@@ -120,7 +120,8 @@ def _prohibitions(
         before = [clause for clause in clauses if clause.span.start < token.span.start]
         said = read_prohibition(condition_words(token), before[-1] if before else None, lexicon, read)
         found += [
-            replace(resolve_alone(c, before), mood=Mood.AVOID, span=token.span, text=text[slice(*token.span)]) for c in said
+            replace(resolve_alone(c, before), mood=Mood.AVOID, span=token.span, text=text[slice(*token.span)])
+            for c in said
         ]
         if said and negated:
             understood.append(token)

@@ -108,9 +108,7 @@ def _alone(clause: Clause) -> _Scene:
     """What a subordinate clause leaves behind."""
     names = _named(clause)
     direct = [n for name in clause.direct for n in clause.meant(name)]
-    mentions = tuple(
-        _Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names
-    )
+    mentions = tuple(_Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names)
     return _Scene(mentions, tuple(n for n in names if n in direct))
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from tmd.language.chunking import ALSO
 from tmd.language.tokens import IMPLIED, Kind, Token
-from tmd.language.words import section
 
 HAVE, PUT = "have", "put"
 _WISHES = frozenset({"like", "love", "want", "wants", "prefer", "fancy", "fancies"})
@@ -18,7 +17,9 @@ _SPEAKERS = frozenset({"i", "we", "i'd", "we'd", "i'll", "we'll", "i'm", "we're"
 _NOUN_PHRASE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON})
 _BELONG = frozenset({"go", "goes", "belong", "belongs", "live", "lives"})
 _OUGHT = frozenset({"should", "must", "need", "needs", "ought", "has", "have", "like", "want"})
-_DUTIES = frozenset({"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"})
+_DUTIES = frozenset(
+    {"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"}
+)
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
 
 
@@ -62,7 +63,10 @@ def _wish(tokens: list[Token]) -> list[Token]:
         wish = token.text in _WISHES and (would or any(w in _SPEAKERS for w in words) or token.text.endswith("s"))
         need = token.text in ("need", "needs") and words[-1] in _SPEAKERS
         if asks or ((wish or need) and somebody and not any(t.kind is Kind.V for t in lead)):
-            later = next((i for i in range(at + 1, len(tokens) - 1) if tokens[i].kind is Kind.TO and tokens[i + 1].text == "be"), None)
+            later = next(
+                (i for i in range(at + 1, len(tokens) - 1) if tokens[i].kind is Kind.TO and tokens[i + 1].text == "be"),
+                None,
+            )
             if later is not None:
                 for lead_token in tokens[: at + 1]:
                     lead_token.kind = Kind.FILLER
@@ -76,14 +80,22 @@ def _names_thing(tokens: list[Token], at: int) -> bool:
     """Tell whether a noun phrase begins here that is no subject of a verb: "you to go"."""
     while at < len(tokens) and tokens[at].kind is Kind.ADV:
         at += 1
-    if at >= len(tokens) or tokens[at].kind not in _NOUN_PHRASE or tokens[at].text in ("you", "him", "her", "them", "it"):
+    if (
+        at >= len(tokens)
+        or tokens[at].kind not in _NOUN_PHRASE
+        or tokens[at].text in ("you", "him", "her", "them", "it")
+    ):
         return False
     end = at
     while end < len(tokens) and tokens[end].kind in _NOUN_PHRASE:
         end += 1
     nouns = any(t.kind is Kind.N or t.text in ("something", "anything", "one") for t in tokens[at:end])
-    return nouns and not (end < len(tokens) and tokens[end].kind is Kind.TO and tokens[end].form == "inf" and
-                          any(t.text in ("something", "anything") for t in tokens[at:end]))
+    return nouns and not (
+        end < len(tokens)
+        and tokens[end].kind is Kind.TO
+        and tokens[end].form == "inf"
+        and any(t.text in ("something", "anything") for t in tokens[at:end])
+    )
 
 
 def _belonging(tokens: list[Token]) -> list[Token]:
@@ -95,9 +107,15 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         place = at + 1
         while place < len(tokens) and tokens[place].kind is Kind.ADV and tokens[place].text not in ("back", "away"):
             place += 1
-        goes = place < len(tokens) and (tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away"))
-        switch = be and place < len(tokens) and tokens[place].text in ("on", "off") and not _names_thing(tokens, place + 1)
-        state = be and place < len(tokens) and tokens[place].kind is Kind.ADJ and tokens[place].form not in ("ed", "base")
+        goes = place < len(tokens) and (
+            tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away")
+        )
+        switch = (
+            be and place < len(tokens) and tokens[place].text in ("on", "off") and not _names_thing(tokens, place + 1)
+        )
+        state = (
+            be and place < len(tokens) and tokens[place].kind is Kind.ADJ and tokens[place].form not in ("ed", "base")
+        )
         if not (goes or state) or switch:
             continue
         begin = _subject_start(tokens, at)
@@ -153,7 +171,9 @@ def _bare(tokens: list[Token], *, alone: bool) -> list[Token]:
         return tokens
     ahead = [t for t in tokens[:first] if t.kind is not Kind.ADV and t.kind is not Kind.FILLER]
     polite = any(t.text in ("please", "pls", "plz") for t in tokens)
-    counted = tokens[first].kind is Kind.NUM or (tokens[first].kind is Kind.DET and tokens[first].text in ("a", "an", "some"))
+    counted = tokens[first].kind is Kind.NUM or (
+        tokens[first].kind is Kind.DET and tokens[first].text in ("a", "an", "some")
+    )
     if ahead or not (polite or counted or (alone and len(tokens) > 1)):
         return tokens
     place = tokens[first]

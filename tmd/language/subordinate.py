@@ -18,16 +18,36 @@ BE = "be"
 Reader = Callable[[str], tuple[Clause, ...]]
 """Reads a text as clauses."""
 
-_BE = frozenset({"is", "are", "was", "were", "be", "been", "am", "isn't", "aren't", "wasn't", "weren't", "stays", "looks", "seems"})
+_BE = frozenset(
+    {"is", "are", "was", "were", "be", "been", "am", "isn't", "aren't", "wasn't", "weren't", "stays", "looks", "seems"}
+)
 _HAVE = frozenset({"has", "have", "had", "hasn't", "haven't", "having"})
 _BECOME = frozenset({"gets", "becomes", "turns", "get", "become", "turn"})
 _YOU = frozenset({"you", "we", "i", "you've", "we've", "i've", "you're", "you'll"})
-_NOT = frozenset({"not", "no", "never", "neither", "nor", "don't", "dont", "doesn't", "didn't", "without", "cannot", "can't", "won't"})
+_NOT = frozenset(
+    {
+        "not",
+        "no",
+        "never",
+        "neither",
+        "nor",
+        "don't",
+        "dont",
+        "doesn't",
+        "didn't",
+        "without",
+        "cannot",
+        "can't",
+        "won't",
+    }
+)
 _HELPERS = frozenset(
     {"do", "does", "did", "will", "would", "can", "could", "should", "must", "may", "to", "please", "just", "already",
      "then", "ever", "also", "still", "got", "i'd", "we'd", "rather", "you", "we", "i", "the_robot", "need", "want", "touch_nothing"}
 )  # fmt: skip
-_SOFT = frozenset({"already", "still", "just", "yet", "too", "very", "really", "all", "enough", "now", "completely", "nice", "and"})
+_SOFT = frozenset(
+    {"already", "still", "just", "yet", "too", "very", "really", "all", "enough", "now", "completely", "nice", "and"}
+)
 _DETERMINED = section("determiners") | section("quantifiers")
 
 
@@ -90,7 +110,7 @@ def _done_by_you(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clau
     words = [w for i, w in enumerate(words) if not (w in _HELPERS | {"had", "are", "is"} and i < 4)]
     if words and words[0] in _HAVE:
         words = words[1:]
-        if words and lexicon.verb(words[0]) is None or words and words[0] in _DETERMINED:
+        if (words and lexicon.verb(words[0]) is None) or (words and words[0] in _DETERMINED):
             return _named(words, read)
     found = lexicon.verb(words[0]) if words else None
     return read(" ".join([_imperative(found[0]), *words[1:]])) if found else ()
@@ -190,7 +210,9 @@ def read_prohibition(words: Sequence[str], before: Clause | None, lexicon: Lexic
     return ()
 
 
-def read_relative(token: Token, lexicon: Lexicon, read: Reader) -> tuple[list[str], list[tuple[str, str]], Clause | None]:
+def read_relative(
+    token: Token, lexicon: Lexicon, read: Reader
+) -> tuple[list[str], list[tuple[str, str]], Clause | None]:
     """Return what a relative clause says of its noun: adjectives, and relations with other nouns.
 
     *That are dirty* gives an adjective; *where the mug is* a relation ``where``, *that has milk in it* one ``with``.
