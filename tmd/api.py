@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
@@ -107,6 +108,7 @@ class DomainKit:
         top: int = 1,
         planner: str = IN_PROCESS,
         model: str = DEFAULT,
+        guess: bool = False,
     ) -> Grounded:
         """Ground a text in an environment, as ``tmd ground`` does.
 
@@ -116,6 +118,7 @@ class DomainKit:
             top: How many distinct plans are wanted.
             planner: Which planner fills in what was left unsaid.
             model: What is minimised; the models are those of ``tmd ground --model``.
+            guess: Whether a plan may be made where what was said is not understood or cannot be done.
 
         Returns:
             The clauses that were understood, the plans (cheapest first) and what the validator says of each.
@@ -128,7 +131,8 @@ class DomainKit:
             self._world(environment),
             self._knowledge.library,
             reward=self._knowledge.reward,
-            config=preset(model),
+            goals=self._knowledge.goals,
+            config=replace(preset(model), guess=guess),
             planner=planner,
             top=top,
         )

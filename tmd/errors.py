@@ -14,6 +14,8 @@ class ExitCode(IntEnum):
     """Exit codes of ``tmd``, in decades: 0 success, 10 a clean "no", 20 a limit, 30 an error."""
 
     OK = 0
+    TESTS_FAILED = 1
+    """Sentence tests were run, and not all of them passed."""
     UNREACHABLE = 10
     """It is proven that no plan exists."""
     INVALID_PLAN = 11

@@ -46,6 +46,7 @@ class Grounded:
         verdicts: For each plan what the validator says of it.
         refusals: Candidates that cannot be executed here, and why.
         unseen: The verbs that no demonstration has, in order of mention.
+        world: The environment.
         refused: Why there is no plan for what was said, after the number of the clause where that showed.
     """
 
@@ -54,7 +55,13 @@ class Grounded:
     verdicts: tuple[Verdict, ...]
     refusals: tuple[Refusal, ...]
     unseen: tuple[str, ...]
+    world: World
     refused: tuple[int, Refused] | None = None
+
+    @property
+    def goal_directed(self) -> bool:
+        """Whether it was grounded by a model with goals."""
+        return self.refused is not None or any(plan.goals for plan in self.plans)
 
 
 def ground(
@@ -93,7 +100,7 @@ def ground(
     known = config.goals or len(unseen) < len(parsed.clauses)
     plans = tuple(plan for plan in inferred.plans if plan.instructions or (known and parsed.clauses))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
-    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, inferred.refused)
+    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, inferred.refused)
 
 
 def infer(
@@ -117,16 +124,8 @@ def infer(
         return Inference(world, energy, quick, proposers, config).infer(parsed.clauses, world.task.init, top)
     reader = goal_reader(world, library.lexicon, goals, sources=config.sources, guess=config.guess)
     planners = TaskPlanners(world.task, quick, planner, config)
-    inference = GoalInference(
-        world,
-        energy,
-        proposers,
-        config,
-        Follower(reader),
-        planners.quick,
-        planners.resort,
-        lambda clause: bool(library.propose(clause)),
-    )
+    follower = Follower(reader)
+    inference = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort)
     return inference.infer(parsed, world.task.init, top)
 
 

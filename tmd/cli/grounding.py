@@ -34,6 +34,7 @@ class GroundingOptions:
     top: int
     planner: str | None
     model_name: str
+    guess: bool
     weights: str | None
     learned: Path | None
     beam: int | None
@@ -47,7 +48,8 @@ class GroundingOptions:
         """
         model = preset(self.model_name)
         beam = model.beam if self.beam is None else self.beam or None
-        return replace(model, beam=beam, trim=model.trim if self.trim is None else self.trim)
+        trim = model.trim if self.trim is None else self.trim
+        return replace(model, beam=beam, trim=trim, guess=self.guess)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +100,7 @@ _OPTIONS = (
         metavar="NAME",
         help=f"What is minimised: {', '.join(PRESETS)}; the last is the paper's as printed.",
     ),
+    click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done."),
     click.option("--weights", metavar="NAME|FILE", help="The factors' weights; the model's own by default."),
     learned_option,
     click.option(
@@ -136,6 +139,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
         knowledge.library,
         factors,
         reward=knowledge.reward,
+        goals=knowledge.goals,
         config=config,
         planner=options.planner or IN_PROCESS,
         top=options.top,

@@ -24,6 +24,7 @@ COMMANDS = (
     "scene",
     "studio",
     "new",
+    "test",
     "learn",
     "check",
     "fmt",

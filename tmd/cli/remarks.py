@@ -24,6 +24,11 @@ def remarks(
         verbs: The verbs that there are demonstrations of, the most frequent first.
         likened: Nouns that were taken for things of another name that mean something alike.
     """
+    if grounded.goal_directed:
+        lines = warnings_of(grounded)
+        if not any(verdict.valid for verdict in grounded.verdicts):
+            lines.append(f"no plan: {_why(grounded)}")
+        return [f"{line}\n" for line in lines]
     lines = [
         f"warning: no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen
     ]
@@ -41,8 +46,28 @@ def remarks(
     return [f"{line}\n" for line in lines]
 
 
+def warnings_of(grounded: Grounded) -> list[str]:
+    """What a plan with goals comes with: what was left out of account, and what was only guessed."""
+    lines = [
+        f'warning: clause {goal.clause + 1}, "{goal.text}": {goal.note}'
+        for plan in grounded.plans[:1]
+        for goal in plan.goals
+        if goal.note and (goal.formula is None or not goal.already)
+    ]
+    lines += [
+        f'warning: "{" ".join(piece.text.split())}" was skipped: {piece.reason}'
+        for piece in grounded.parsed.skipped
+        if grounded.plans
+    ]
+    return lines
+
+
 def _why(grounded: Grounded) -> str:
     parsed = grounded.parsed
+    if grounded.refused is not None:
+        number, refused = grounded.refused
+        hint = f" ({refused.hint})" if refused.hint else ""
+        return f"clause {number + 1}: {refused.message}{hint}"
     if not parsed.clauses:
         reasons = dict.fromkeys(piece.reason for piece in parsed.skipped)
         said = f" ({'; '.join(list(reasons)[:_SHOWN])})" if reasons else ""

@@ -60,7 +60,6 @@ class GoalInference:
         follower: Says what each step asks for.
         planner: Makes the planner that fills gaps and reaches goals.
         resort: Makes the planner that is asked where that one gives up.
-        shown: Whether a demonstration has a clause's verb.
     """
 
     def __init__(
@@ -72,7 +71,6 @@ class GoalInference:
         follower: Follower,
         planner: PlannerOf,
         resort: PlannerOf,
-        shown: Callable[[Clause], bool],
     ) -> None:
         self.world = world
         self.energy = energy
@@ -81,7 +79,6 @@ class GoalInference:
         self.follower = follower
         self.planner = planner
         self.resort = resort
-        self.shown = shown
         self.needs = Needs(world.task)
 
     def infer(self, parsed: Parsed, state: Bits, top: int = 1) -> Inferred:
@@ -146,30 +143,19 @@ class _Text:
         return self._towards(replace(way, context=context), target)
 
     def _without_goal(self, step: GoalStep, way: _Way, refused: Refused) -> list[_Way] | Refused:
-        """Where no goal is known of a verb that was shown, it is done as it was shown; or anything, for a guess."""
-        config = self.inference.config
-        unknown = refused.why in (Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD) and self.inference.shown(step.clause)
-        if step.role is not Role.MAIN or not (unknown or config.guess):
-            return (
-                refused
-                if not config.guess
-                else [way.taken(_NOTHING, way.path.state, way.context, _noted(step, refused))]
-            )
-        found = [
-            way.taken(choice, end, way.context, _noted(step, refused))
-            for choice, end in self._proposed(step, way, None)
-        ]
-        if found or not config.guess:
-            return found or refused
-        return [way.taken(_NOTHING, way.path.state, way.context, _noted(step, refused))]
+        """Where a guess is allowed, what was shown for the verb, or nothing."""
+        if not self.inference.config.guess:
+            return refused
+        noted = _noted(step, refused)
+        proposed = self._proposed(step, way, None) if step.role is Role.MAIN else []
+        choices = proposed or [(_NOTHING, way.path.state)]
+        return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 
     def _towards(self, way: _Way, target: Target) -> list[_Way] | Refused:
         """Every way of reaching the goal of a step that was proposed or planned."""
         planned = self._planned(target, way.path.state)
         if isinstance(planned, Refused):
-            if self.inference.config.guess:
-                return self._without_goal(target.step, way, planned)
-            return planned
+            return self._without_goal(target.step, way, planned)
         instructions, aim = planned
         found = []
         candidates = [self._choice(target.step, way, PLANNER_SOURCE, (), instructions, {"generated": 1.0})]

@@ -353,8 +353,15 @@ class GoalReader:
         if said:
             first = said[0][0]
             return [(r, t) for r, t in said if r == first]
+        if not reading.memory.recent:
+            return []
         particle = _PARTICLES.get(reading.clause.verb.rpartition("_")[2])
-        return [(particle, None)] if particle in slot.prepositions and reading.memory.recent else []
+        if particle in slot.prepositions:
+            return [(particle, None)]
+        # "take a cup, add sugar": into what was spoken of last
+        wants_place = {"put", "add", "pour"} & {reading.clause.verb, *family(reading.clause.verb)}
+        into = next((p for p in slot.prepositions if p in ("in", "on")), None)
+        return [(into, None)] if wants_place and into and not unit.relations else []
 
     def _unplaced(self, unit: _Unit, relation: str, target: str, reading: _Reading) -> bool:
         """Whether a relation says a place where what is acted on is not yet."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmd.energy.weights import Weights
+from tmd.goals.table import GoalTable
 from tmd.policy.learn import learn_policy
 from tmd.policy.policy import Reward
 from tmd.veil.corpus import Corpus
@@ -28,11 +29,13 @@ class Knowledge:
         library: The templates.
         reward: What the policy was learned to be; ``None`` where there are no demonstrations.
         weights: Weights that were learned on the demonstrations, if any were.
+        goals: What verbs were learned to mean; ``None`` where there are no demonstrations.
     """
 
     library: Library
     reward: Reward | None = None
     weights: Weights | None = None
+    goals: GoalTable | None = None
 
 
 def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowledge:
