@@ -18,7 +18,7 @@ from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.energy.energy import Energy
 from tmd.energy.goal_directed import GoalInference
 from tmd.energy.plans import Inferred, RankedPlan, Refusal
-from tmd.energy.proposers import proposers_of
+from tmd.energy.proposers import SequenceModel, proposers_of
 from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
 from tmd.goals.follow import Follower
@@ -93,9 +93,10 @@ def ground(
         TmdError: The planner is unknown or not installed, or the lexicon declares something that is wrong.
     """
     parsed = parse(text, library.lexicon)
-    inferred = infer(
-        parsed, world, library, weights, reward=reward, goals=goals, config=config, planner=planner, top=top
-    )
+    energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
+    policy = Policy(reward, world) if config.policy and reward is not None else None
+    planners = TaskPlanners(world.task, make(planner, world.task, cap=config.cap), planner, config)
+    inferred = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals, top=top)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     known = config.goals or len(unseen) < len(parsed.clauses)
     plans = tuple(plan for plan in inferred.plans if plan.instructions or (known and parsed.clauses))
@@ -107,30 +108,34 @@ def infer(
     parsed: Parsed,
     world: World,
     library: Library,
-    weights: Weights | None = None,
+    energy: Energy,
+    planners: TaskPlanners,
+    config: InferenceConfig,
     *,
-    reward: Reward | None = None,
+    policy: SequenceModel | None = None,
     goals: GoalTable | None = None,
-    config: InferenceConfig = PRESETS[DEFAULT],
-    planner: str = IN_PROCESS,
     top: int = 1,
 ) -> Inferred:
-    """The plans for clauses: Algorithm 1, with goals where the model has them."""
-    energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
-    policy = Policy(reward, world) if config.policy and reward is not None else None
+    """The plans for clauses, here and in the experiments: Algorithm 1, with goals where the model has them."""
     proposers = proposers_of(config, world, library, energy, policy)
-    quick = make(planner, world.task, cap=config.cap)
     if not config.goals:
-        return Inference(world, energy, quick, proposers, config).infer(parsed.clauses, world.task.init, top)
+        inference = Inference(world, energy, planners.quick(world.task), proposers, config)
+        return inference.infer(parsed.clauses, world.task.init, top)
     reader = goal_reader(world, library.lexicon, goals, sources=config.sources, guess=config.guess)
-    planners = TaskPlanners(world.task, quick, planner, config)
     follower = Follower(reader)
-    inference = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort)
-    return inference.infer(parsed, world.task.init, top)
+    directed = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort)
+    return directed.infer(parsed, world.task.init, top)
 
 
 class TaskPlanners:
-    """Planners for an environment, and for it without what must not be done."""
+    """Planners for an environment, and for it without what must not be done.
+
+    Args:
+        task: The environment.
+        quick: Its planner for gaps.
+        name: The name of that planner.
+        config: The model.
+    """
 
     def __init__(self, task: Task, quick: Planner, name: str, config: InferenceConfig) -> None:
         self._task = task

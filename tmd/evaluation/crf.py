@@ -12,13 +12,11 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from tmd.energy.algorithm1 import Inference
 from tmd.energy.config import GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
 from tmd.energy.energy import Energy
 from tmd.energy.journal import Journal
 from tmd.energy.learn import Learned, learn_weights
 from tmd.energy.plans import RankedPlan
-from tmd.energy.proposers import proposers_of
 from tmd.energy.statistics import Statistics, count
 from tmd.energy.weights import NAMES, OURS, Weights, named_weights
 from tmd.errors import TmdError
@@ -26,8 +24,11 @@ from tmd.evaluation.dataset import Example, Worlds
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
 from tmd.evaluation.tree import InstructionTree
+from tmd.ground import TaskPlanners
+from tmd.ground import infer as ground_clauses
 from tmd.language import Clause, parse
-from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.language.clause import Parsed
+from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Planner
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
@@ -145,7 +146,7 @@ class Crf:
     def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
         plans = self.plans(example, data, top=1)
-        return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
+        return as_prediction(plans[0], self._said(example, data).clauses) if plans else Prediction()
 
     def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
         """The best plans, cheapest first; none in a world that was not learned."""
@@ -242,15 +243,15 @@ class Crf:
         config, world = self.config, data.world(example.environment)
         energy = Energy(weights, taught.statistics, world, akin=config.akin)
         policy = taught.tree.policy(example.environment, example.world, data) if taught.tree else None
-        proposers = proposers_of(config, world, taught.library, energy, policy, partial(last_resort, world.task))
         planner = planner_for(data, example.environment, config.cap)
-        inference = Inference(world, energy, planner, proposers, config)
-        return inference.infer(self._clauses(example, data), world.task.init, top).plans
+        planners = TaskPlanners(world.task, planner, IN_PROCESS, config)
+        said = self._said(example, data)
+        return ground_clauses(said, world, taught.library, energy, planners, config, policy=policy, top=top).plans
 
-    def _clauses(self, example: Example, data: Worlds) -> Sequence[Clause]:
+    def _said(self, example: Example, data: Worlds) -> Parsed:
         if not self.config.language:
-            return [Clause("")] * self.steps_[example.world]
-        return parse(example.demonstration.text, data.lexicon).clauses
+            return Parsed("", (Clause(""),) * self.steps_[example.world])
+        return parse(example.demonstration.text, data.lexicon)
 
 
 def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
@@ -268,7 +269,8 @@ def _corrects(example: Example) -> bool:
 
 
 def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
-    """A plan with what it does for each clause, and why."""
+    """A plan with what it does for each clause, or for each step of it where the model has goals, and why."""
+    numbers = [goal.clause for goal in plan.goals] if plan.goals else range(len(clauses))
     served = tuple(
         Served(
             clause.text,
@@ -278,7 +280,7 @@ def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
             choice.source,
             choice.factors,
         )
-        for clause, choice in zip(clauses, plan.choices, strict=True)
+        for clause, choice in zip((clauses[number] for number in numbers), plan.choices, strict=True)
     )
     return Prediction(plan.instructions, served)
 
