@@ -2,23 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 from tmd.energy.algorithm1 import Inference
-from tmd.energy.config import GOALS, PAPER
+from tmd.energy.config import PAPER, POLICY
 from tmd.energy.energy import Energy, Factors
-from tmd.energy.plans import Choice, Inferred
+from tmd.energy.plans import Inferred, RankedPlan
 from tmd.energy.proposers import Candidate, Instructions, Proposer, Situation, proposers_of
 from tmd.energy.statistics import count
 from tmd.energy.weights import named_weights
 from tmd.language import parse
-from tmd.pddl.task import Bits, Cube
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
 from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Answer, Filled, GaveUp, Planner
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn
 from tmd.veil.world import World
@@ -36,13 +39,13 @@ def table() -> tuple[World, Library]:
 
 def energy() -> Energy:
     world, library = table()
-    return Energy(named_weights("goals"), count(library), world)
+    return Energy(named_weights("policy"), count(library), world)
 
 
-def inference(*proposers: Proposer, planner: Planner | None = None) -> Inference:
+def inference(*proposers: Proposer) -> Inference:
     world, library = table()
-    own = proposers or tuple(proposers_of(GOALS, world, library, energy()))
-    return Inference(world, energy(), planner or make(IN_PROCESS, world.task), own, GOALS)
+    own = proposers or tuple(proposers_of(POLICY, world, library, energy()))
+    return Inference(world, energy(), make(IN_PROCESS, world.task), own, POLICY)
 
 
 def inferred(by: Inference, text: str) -> Inferred:
@@ -58,49 +61,66 @@ def test_one_inference_may_be_asked_by_several_threads() -> None:
     assert found == expected * 3
 
 
-def test_a_model_without_goals_has_templates_only() -> None:
+def test_a_model_without_a_policy_has_templates_only() -> None:
     world, library = table()
-    assert len(proposers_of(PAPER, world, library, energy())) == 1
-    assert len(proposers_of(GOALS, world, library, energy())) == 2
+    for config in (PAPER, POLICY):
+        assert len(proposers_of(config, world, library, energy())) == 1
+    assert len(proposers_of(POLICY, world, library, energy(), Always(()))) == 2
+    assert len(proposers_of(PAPER, world, library, energy(), Always(()))) == 1
 
 
-def test_nothing_is_proposed_for_a_verb_without_templates_unless_the_model_guesses() -> None:
+class Always:
+    """A policy that has one answer."""
+
+    def __init__(self, answer: Instructions) -> None:
+        self.answer = answer
+
+    def knows(self, verb: str) -> bool:
+        """Every verb."""
+        return True
+
+    def best(
+        self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int
+    ) -> Sequence[tuple[float, Instructions]]:
+        """The answer."""
+        return [(0.0, self.answer)]
+
+    def surprise(
+        self,
+        clause: Clause,
+        earlier: Sequence[Clause],
+        done: Sequence[Instruction],
+        instructions: Sequence[Instruction],
+    ) -> float:
+        """Anything else surprises."""
+        return float(instructions != self.answer)
+
+
+@pytest.mark.parametrize("guess", [False, True])
+def test_nothing_is_proposed_for_a_verb_without_templates_unless_the_model_guesses(guess: bool) -> None:
     world, library = table()
-    clause = "Hide the cup on the shelf."
-    assert inferred(inference(), clause).plans[0].instructions == ()
-    guessing = proposers_of(replace(GOALS, guess=True), world, library, energy())
-    plan = inferred(inference(*guessing), clause).plans[0]
-    assert "(at cup1 shelf1 on)" in {str(atom) for atom in world.task.decode(plan.state)}
+    answer = (first(world),)
+    proposers = proposers_of(replace(POLICY, guess=guess), world, library, energy(), Always(answer))
+    plan = inferred(inference(*proposers), "Hide the cup on the shelf.").plans[0]
+    assert plan.instructions == (answer if guess else ())
 
 
-class Nobody:
-    """A planner that gives up on everything that does not hold already."""
-
-    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """Nothing, or giving up."""
-        return Filled((), state, 0) if any(cube.holds(state) for cube in goal) else GaveUp("0 generated states")
-
-
-def test_the_last_resort_is_asked_where_the_planner_gave_up_and_nothing_else_leads_there() -> None:
+def test_what_few_demonstrations_taught_is_trusted_less() -> None:
     world, library = table()
-    taken = library.filtered(
-        lambda template: template.source == "set_table-corner1-02"
-    )  # the book is in the hand there
-    asked: list[int] = []
+    taught = len(library)
 
-    def last() -> Planner:
-        asked.append(1)
-        return make(IN_PROCESS, world.task)
+    def plan(few: float) -> RankedPlan:
+        config = replace(POLICY, few=few, guess=True)
+        policy = Always((first(world),))
+        return inferred(inference(*proposers_of(config, world, library, energy(), policy)), "Hide the cup.").plans[0]
 
-    def end(*, last_resort: bool) -> set[str]:
-        proposers = proposers_of(replace(GOALS, last_resort=last_resort), world, taken, energy(), None, last)
-        plan = inferred(inference(*proposers, planner=Nobody()), TEXTS[0]).plans[0]
-        return {str(atom) for atom in world.task.decode(plan.state)}
+    assert plan(0).raw["generated"] == 1
+    assert plan(taught).raw["generated"] == 2
 
-    assert "(at book1 table1 on)" not in end(last_resort=False)
-    assert not asked
-    assert "(at book1 table1 on)" in end(last_resort=True)
-    assert asked == [1]
+
+def first(world: World) -> Instruction:
+    """An instruction that can be done at once."""
+    return next(o.instruction for o in world.task.operators if o.applicable(world.task.init))
 
 
 class Own(Proposer):
@@ -117,17 +137,10 @@ class Own(Proposer):
         """Under the name of a factor that has a weight."""
         return {"words": float(instructions != self.instructions)}
 
-    def resort(
-        self, situation: Situation, choices: Collection[Choice], given_up: Collection[Candidate]
-    ) -> Iterator[tuple[Candidate, Instructions]]:
-        """Nothing more."""
-        yield from ()
-
 
 def test_another_proposer_needs_nothing_but_to_be_given() -> None:
     world, library = table()
-    first = next(o.instruction for o in world.task.operators if o.applicable(world.task.init))
-    own = Own((first,))
+    own = Own((first(world),))
     plan = inferred(inference(own, *proposers_of(PAPER, world, library, energy())), TEXTS[0]).plans[0]
-    assert (plan.choices[0].source, plan.instructions) == ("own", (first,))
+    assert (plan.choices[0].source, plan.instructions) == ("own", (first(world),))
     assert plan.raw["words"] == 0

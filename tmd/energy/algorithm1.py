@@ -2,7 +2,8 @@
 
 α_j maps each environment that clause j can end in to the cheapest ways of getting there. The comments name the lines of
 the paper. Beyond it, others than the templates may propose (:mod:`tmd.energy.proposers`), α_j may be cut to a beam, and
-candidates wait in a queue in the order of what they cost at least, so that most of the dear ones need no planner.
+candidates wait in a queue in the order of what they cost at least, so that most of the dear ones need no planner. The
+same over the goals of clauses is :mod:`tmd.energy.goal_directed`.
 """
 
 from __future__ import annotations
@@ -56,20 +57,17 @@ class Inference:
     def _forward(self, clauses: Sequence[Clause], number: int, alpha: Alpha, top: int, refusals: Refusals) -> Alpha:
         """Forward-Inference(j): α_j from α_{j-1}."""
         found: Alpha = {}
-        given_up: list[Candidate] = []
         situations = [Situation(clauses, number, ways) for ways in alpha.values()]
         for bound, situation, candidate in self._queue(situations, refusals):  # lines 3 to 7
             if self._settled(found, bound, top):
                 break
-            match self._answer(situation.state, candidate):  # lines 8 and 9
-                case Filled(plan):
-                    self._update(found, situation, candidate, plan)  # lines 10 to 12
+            match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
+                case Filled(latent):
+                    self._update(found, situation, candidate, latent)  # lines 10 to 12
                 case Unreachable(reason):
                     refusals[Refusal(number, candidate.source, reason)] = None
                 case GaveUp(limit):
-                    given_up.append(candidate)
                     refusals[Refusal(number, candidate.source, f"the planner gave up at {limit}")] = None
-        self._resort(found, situations, given_up)
         if not found:  # an unseen verb, or nothing that can be done: α_j = α_{j-1}
             nothing = Choice(None, (), {}, {})
             return {state: [path.extended(nothing, state) for path in ways] for state, ways in alpha.items()}
@@ -98,22 +96,20 @@ class Inference:
         cheaper = [sum(path.energy < least for path in paths) for paths in found.values()]
         return sum(map(bool, cheaper)) >= self.beam and sum(cheaper) >= top
 
-    def _answer(self, state: Bits, candidate: Candidate) -> Filled | Unreachable | GaveUp:
-        """What callSymbolicPlanner says to getConstraints: what must be done beside the candidate's instructions."""
+    def _answer(self, state: Bits, instructions: Instructions) -> Filled | Unreachable | GaveUp:
+        """What callSymbolicPlanner says to getConstraints: what must be done before ``instructions``."""
         if not self.knowledge:
             return Filled((), state, 0)
-        return self.planner.fill(state, candidate.goal or self.constraints.of(candidate.instructions))
+        return self.planner.fill(state, self.constraints.of(instructions))
 
-    def _update(self, found: Alpha, situation: Situation, candidate: Candidate, plan: Instructions) -> None:
-        """Φ, the energy, and α_j[E'_j], for a candidate with what the planner said to it."""
-        latent, own = ((), plan) if candidate.goal else (plan, candidate.instructions)
+    def _update(self, found: Alpha, situation: Situation, candidate: Candidate, latent: Instructions) -> None:
+        """Φ, the energy, and α_j[E'_j], for a candidate with what the planner puts before it."""
+        own = candidate.instructions
         middle = self._simulated(situation.state, latent)  # E_j, line 10
         end = self._simulated(middle, own)  # E'_j, line 11
         steps = tuple(Step(i, situation.number, latent=True) for i in latent)
         steps += tuple(Step(i, situation.number, latent=False) for i in own)
         raw = dict(candidate.raw)  # ψ_j
-        if candidate.goal:
-            raw |= self.energy.of_sequence(own, len(own), candidate.names)
         if self.knowledge:
             raw |= self.energy.of_end(situation.clause.verb, candidate.names, end)  # ψ'_j
             raw |= self.energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
@@ -127,11 +123,3 @@ class Inference:
         for instruction in instructions if self.knowledge else ():
             state = self.world.task.by_instruction[instruction].apply(state)
         return state
-
-    def _resort(self, found: Alpha, situations: Sequence[Situation], given_up: Sequence[Candidate]) -> None:
-        """Take up what is looked for in the end only, from the environment of the cheapest way."""
-        first = min(situations, key=lambda situation: situation.ways[0].order)
-        choices = [path.choices[-1] for paths in found.values() for path in paths]
-        for proposer in self.proposers:
-            for candidate, plan in proposer.resort(first, choices, given_up):
-                self._update(found, first, candidate, plan)

@@ -41,11 +41,11 @@ class InferenceConfig:
             n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
             better done as it was shown. 0 trusts it always.
         tried: How many proposals of templates and policy are completed to the goal of a clause.
-        guess: Whether anything is proposed for a verb that has no templates; with goals, whether a plan may be made where
-            what was said cannot be done, or is not understood.
+        guess: Whether anything is proposed for a verb that has no templates; with goals, whether a plan may be made
+            where what was said cannot be done, or is not understood.
         cap: Generated states after which a search of the in-process planner gives up.
-        last_resort: Whether planners that are content with any plan are asked for what a clause states where the
-            optimal search gave up and nothing else leads there.
+        last_resort: Whether planners that are content with any plan are asked for the goal of a clause where the
+            optimal search gave up.
     """
 
     weights: str

@@ -1,8 +1,8 @@
 """Inference with goals: Algorithm 1 over the steps of a text, each of which must reach what it asks for.
 
-Templates, policy and planner propose *how*; the goal of a clause (:mod:`tmd.goals`) says *what*. A proposal that does not
-reach it, or that undoes what an earlier clause asked for, is completed by the planner, and is none where that fails. The
-energy ranks what is left. Not in the paper.
+Templates, policy and planner propose *how*; the goal of a clause (:mod:`tmd.goals`) says *what*. A proposal that does
+not reach it, or that undoes what an earlier clause asked for, is completed by the planner, and is none where that
+fails. The energy ranks what is left. Not in the paper.
 """
 
 from __future__ import annotations
@@ -231,7 +231,7 @@ class _Text:
             for candidate in proposer.propose(situation):
                 if isinstance(candidate, Refusal):
                     self.refusals[candidate] = None
-                elif not candidate.goal:
+                else:
                     proposed.append(candidate)
         yield from sorted(proposed, key=lambda candidate: candidate.energy)
 

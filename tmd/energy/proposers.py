@@ -1,22 +1,23 @@
 """Proposers: each says what may be done for a clause in an environment, and may judge what the others say.
 
-The paper has one, the templates of the demonstrations (section V-A). A policy and a planner that reaches what the
-clause states stand beside it; whoever writes another gives it to :class:`~tmd.energy.algorithm1.Inference` as well.
+The paper has one, the templates of the demonstrations (section V-A). A policy stands beside it; whoever writes another
+gives it to :class:`~tmd.energy.algorithm1.Inference` as well. What a clause asks for, a goal that every proposal has to
+reach, is the affair of :mod:`tmd.energy.goal_directed`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
 from tmd.energy.config import InferenceConfig
 from tmd.energy.energy import Energy, Factors
-from tmd.energy.plans import Choice, Path, Refusal
+from tmd.energy.plans import Path, Refusal
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube
+from tmd.pddl.task import Bits
 from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library
 from tmd.veil.template import Template
@@ -26,7 +27,7 @@ Instructions = tuple[Instruction, ...]
 POLICY_SOURCE = "policy"
 """The source of a sequence that was made from no demonstration."""
 PLANNER_SOURCE = "planner"
-"""The source of a sequence that the planner made for what the clause states."""
+"""The source of a sequence that the planner made for the goal of a clause."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,7 +75,6 @@ class Candidate:
         names: The objects that its clause speaks of.
         raw: The factors of ψ_j that are known already, not weighed.
         energy: The same, weighed and summed: what the candidate costs at least.
-        goal: Where not empty, the planner makes the sequence: the cheapest that reaches one of these cubes.
     """
 
     source: str
@@ -82,7 +82,6 @@ class Candidate:
     names: tuple[str, ...]
     raw: Factors
     energy: float
-    goal: tuple[Cube, ...] = ()
 
 
 class Proposer(Protocol):
@@ -95,18 +94,6 @@ class Proposer(Protocol):
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
         """Factors of any candidate, whoever proposed it: ``instructions`` is all that is done, up to ``end``."""
         return {}
-
-    def resort(
-        self, situation: Situation, choices: Collection[Choice], given_up: Collection[Candidate]
-    ) -> Iterable[tuple[Candidate, Instructions]]:
-        """Candidates that are looked for in the end only, with what the planner says to them.
-
-        Args:
-            situation: The clause in the environment of the cheapest way.
-            choices: What can be done for the clause, as far as it was found.
-            given_up: The candidates that the planner gave up on.
-        """
-        return ()
 
 
 class TemplateProposer(Proposer):
