@@ -7,6 +7,7 @@ import pytest
 from tmd.energy.config import DEFAULT, PAPER, PRESETS, preset
 from tmd.energy.weights import OURS, named_weights
 from tmd.errors import TmdError
+from tmd.goals.sources import SOURCES
 
 
 def test_each_preset_has_weights_and_the_first_is_the_default() -> None:
@@ -14,6 +15,10 @@ def test_each_preset_has_weights_and_the_first_is_the_default() -> None:
     for name, config in PRESETS.items():
         assert config is preset(name)
         assert any(value for value in named_weights(config.weights).values.values())
+
+
+def test_meaning_comes_from_all_sources() -> None:
+    assert PRESETS[DEFAULT].sources == SOURCES
 
 
 def test_the_paper_has_nothing_of_ours() -> None:

@@ -63,6 +63,7 @@ def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learne
     import numpy as np
 
     from tmd.learned.knowledge import study
+    from tmd.learned.progress import Progress
 
     demonstrations = corpus.demonstrations()
     if not demonstrations:
@@ -71,8 +72,8 @@ def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learne
             hint="they are in TASK/demonstrations.jsonl",
         )
     _check_goals(corpus)
-    _tell(f"learning from {len(demonstrations)} demonstrations …")
-    knowledge = study(corpus)
+    with Progress(f"learning from {len(demonstrations)} demonstrations") as progress:
+        knowledge = study(corpus, progress.tell)
     if not weigh:
         return knowledge, None
     _tell("learning weights; this takes a while …")

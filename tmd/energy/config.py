@@ -10,7 +10,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from tmd.errors import TmdError
-from tmd.goals.sources import SOURCES
 from tmd.pddl.syntax import nearest
 
 AKIN = 0.75
@@ -29,7 +28,7 @@ class InferenceConfig:
         policy: Whether a policy, learned from the same demonstrations, proposes sequences beside the templates and
             judges all candidates by the words of the clause (Δ_words).
         goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
-        sources: Where the meaning of a clause may come from.
+        sources: Where the meaning of a clause may come from (:data:`tmd.goals.sources.SOURCES`).
         latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
         knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
@@ -58,7 +57,7 @@ class InferenceConfig:
     beam: int | None = 3
     trim: int | None = None
     generated: int = 5
-    sources: tuple[str, ...] = SOURCES
+    sources: tuple[str, ...] = ("declared", "learned", "actions")  # not imported: the command line starts with this
     tried: int = 6
     few: float = 20.0
     guess: bool = False
