@@ -24,6 +24,8 @@ from tmd.evaluation.dataset import Example, Worlds
 from tmd.evaluation.metrics import EPSILON, ied
 from tmd.evaluation.prediction import Prediction, Served
 from tmd.evaluation.tree import InstructionTree
+from tmd.goals.learned import learn_goals
+from tmd.goals.table import GoalTable
 from tmd.ground import TaskPlanners
 from tmd.ground import infer as ground_clauses
 from tmd.language import Clause, parse
@@ -61,6 +63,7 @@ class _Taught:
     library: Library
     statistics: Statistics
     tree: InstructionTree | None
+    goals: GoalTable | None = None
 
 
 class Crf:
@@ -152,7 +155,8 @@ class Crf:
         """The best plans, cheapest first; none in a world that was not learned."""
         if example.world not in self.libraries_:
             return ()
-        taught = _Taught(self.libraries_[example.world], self.statistics_[example.world], self.tree_)
+        world = example.world
+        taught = _Taught(self.libraries_[world], self.statistics_[world], self.tree_, self.goals_.get(world))
         return self._plans(example, data, taught, self.weights_[example.world], top=top)
 
     def _prepare(self, examples: Sequence[Example], data: Worlds) -> None:
@@ -163,6 +167,7 @@ class Crf:
             self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
         self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
         self.learned_: dict[str, Learned] = {}
+        self.goals_ = {world: self._goals(world, examples, data) for world in self.libraries_ if self.config.goals}
         self.tree_ = self._policy(examples, data)
         start = named_weights(self.config.weights)
         mine = Weights({name: start[name] for name in self.factors})
@@ -200,13 +205,19 @@ class Crf:
         library = self.libraries_[name].filtered(lambda template: template.source not in group)
         if not self.config.language:
             library = whole(library)
-        return _Taught(library, count(library), self._policy(others, data))
+        goals = self._goals(name, others, data) if self.config.goals else None
+        return _Taught(library, count(library), self._policy(others, data), goals)
 
     def _before(self, name: str, example: Example) -> _Taught:
         """What all but ``example`` teach."""
         own = example.demonstration.id
         library = self.libraries_[name].filtered(lambda template: template.source != own)
-        return _Taught(library, count(library), self.tree_)
+        return _Taught(library, count(library), self.tree_, self.goals_.get(name))
+
+    def _goals(self, name: str, examples: Sequence[Example], data: Worlds) -> GoalTable:
+        """What the examples of one kind of world teach about what verbs mean."""
+        own = (e.demonstration for e in examples if e.world == name)
+        return learn_goals(own, data.world, data.lexicon)
 
     def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
         # its own seed: a model that is restored has the same policy
@@ -246,7 +257,12 @@ class Crf:
         planner = planner_for(data, example.environment, config.cap)
         planners = TaskPlanners(world.task, planner, IN_PROCESS, config)
         said = self._said(example, data)
-        return ground_clauses(said, world, taught.library, energy, planners, config, policy=policy, top=top).plans
+        ground = partial(ground_clauses, said, world, taught.library, energy, planners, policy=policy, top=top)
+        plans = ground(config, goals=taught.goals).plans
+        if plans or not config.goals:
+            return plans
+        # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
+        return ground(replace(config, guess=True), goals=taught.goals).plans
 
     def _said(self, example: Example, data: Worlds) -> Parsed:
         if not self.config.language:

@@ -14,7 +14,7 @@ from pathlib import Path
 from tmd.veil.corpus import Corpus
 
 _PACKAGE = Path(__file__).resolve().parent.parent
-_ROOMS = ("pddl", "world", "language", "veil", "policy", "learned")
+_ROOMS = ("pddl", "world", "language", "veil", "goals", "policy", "learned")
 """The rooms whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tmd.energy.weights import Weights
+from tmd.goals.learned import learn_goals
 from tmd.goals.table import GoalTable
 from tmd.policy.learn import learn_policy
 from tmd.policy.policy import Reward
@@ -58,7 +59,8 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
     def on(share: float) -> None:
         told(_LIBRARY + (1 - _LIBRARY) * share)
 
-    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=on))
+    goals = learn_goals(demonstrations, corpus.world, corpus.lexicon)
+    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=on), goals=goals)
 
 
 def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
