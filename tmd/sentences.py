@@ -115,7 +115,8 @@ def _read_line(line: str, place: Location) -> SentenceTest:
         raise TmdError("the key 'goal' is missing, or is neither a text nor null", location=place, hint=hint)
     kinds = data.get("kind", [])
     listed = tuple(k for k in kinds if isinstance(k, str)) if isinstance(kinds, list) else ()
-    return SentenceTest(*(data[key] for key in _TEXTS), goal, listed, place)
+    name, domain, environment, text = (data[key] for key in _TEXTS)
+    return SentenceTest(name, domain, environment, text, goal, listed, place)
 
 
 def judge(test: SentenceTest, grounded: Grounded, problem: Problem, warnings: Sequence[str]) -> SentenceResult:
@@ -129,7 +130,9 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem, warnings: Se
         try:
             wanted = with_goal(problem, test.goal, "goal").goal
         except TmdError as error:
-            raise TmdError(f"the goal of '{test.id}': {error.message}", location=test.location, hint=error.hint) from None
+            raise TmdError(
+                f"the goal of '{test.id}': {error.message}", location=test.location, hint=error.hint
+            ) from None
     valid = [(plan, verdict) for plan, verdict in zip(grounded.plans, grounded.verdicts, strict=True) if verdict.valid]
     if not valid:
         outcome = Outcome.REFUSED if wanted is not None else Outcome.IMPOSSIBLE_REFUSED
@@ -177,4 +180,3 @@ def result_json(result: SentenceResult) -> dict[str, object]:
         "warnings": list(result.warnings),
         "reason": result.reason,
     }
-

@@ -43,8 +43,8 @@ def command(
 ) -> ExitCode:
     """Run the sentence tests of a domain, or those of a file.
 
-    A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must hold
-    at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
+    A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must
+    hold at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
     """
     from tmd.sentences import result_json, summary
 
@@ -67,7 +67,8 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
         paths = sorted(corpus.directory.glob(f"*{SUFFIX}"))
         if not paths:
             raise TmdError(
-                f"there are no sentence tests in {corpus.directory}", hint=f"write one, such as my{SUFFIX}; see docs/goals.md"
+                f"there are no sentence tests in {corpus.directory}",
+                hint=f"write one, such as my{SUFFIX}; see docs/goals.md",
             )
     return [test for path in paths for test in read_sentences(path)]
 
@@ -99,7 +100,9 @@ def _text(results: Sequence[SentenceResult]) -> str:
     lines = []
     for result in results:
         if not result.outcome.passed:
-            lines.append(f"{result.test.id}: {result.outcome.value.replace('_', ' ')}: {' '.join(result.test.text.split())}")
+            lines.append(
+                f"{result.test.id}: {result.outcome.value.replace('_', ' ')}: {' '.join(result.test.text.split())}"
+            )
             lines.append(f"    {result.reason}")
             lines += [f"    goal: {goal}" for goal in result.goals]
             if result.plan:

@@ -68,26 +68,30 @@ class _Words:
                 for predicate in self.domain.predicates:
                     if predicate.name not in self.fluent:
                         continue
-                    condition = self._state(predicate, wanted)
+                    condition = self._state(predicate, wanted, any_value=not positive)
                     if condition is not None:
                         found = condition if positive else Not(condition)
                         yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
 
-    def _state(self, predicate: Predicate, word: str) -> Formula | None:
-        """That ``?x`` is in a state that has ``word`` in its name; everything else is left open."""
+    def _state(self, predicate: Predicate, word: str, *, any_value: bool = False) -> Formula | None:
+        """That ``?x`` is in a state that has ``word`` in its name; everything else is left open.
+
+        A predicate with a value besides (an amount, a load) is such a state with ``any_value`` only: nothing is in it.
+        """
         things = [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
         if len(things) != 1:
             return None
         values = [p for p in predicate.parameters if self.valued(p)]
         named = word == predicate.name or word in predicate.name.split("_")
         chosen = {p.name: word for p in values if word in self.fixed(p)}
-        if not chosen and (values or not named):
+        if not chosen and (not named or (values and not any_value)):
             return None
         return self._atom(predicate, {things[0].name: "?x", **chosen})
 
     def _atom(self, predicate: Predicate, given: dict[str, str]) -> Formula:
         """An atom with some arguments given; what is left is whoever or whatever it may be."""
-        terms, left = [], []
+        terms: list[str] = []
+        left: list[TypedName] = []
         for parameter in predicate.parameters:
             if parameter.name in given:
                 terms.append(given[parameter.name])
@@ -148,7 +152,7 @@ class _Words:
                 yield preposition, self._atom(predicate, given)
 
     def contents(self) -> Iterator[GoalRow]:
-        """``fill V with S`` for predicates that join a thing and a value that actions bring about: substances, loads."""
+        """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
         for predicate in self.domain.predicates:
             if predicate.name not in self.made:
                 continue
@@ -191,9 +195,16 @@ class _Words:
         ]
         positive = [e.atom for e in own if e.positive]
         if positive:
+            # what only this action brings about says what it is for: to harvest is to pick, not to hold
+            fewest = min(self._makers(atom.predicate) for atom in positive)
+            positive = [atom for atom in positive if self._makers(atom.predicate) == fewest]
             return positive[0] if len(positive) == 1 else And(tuple(positive))
         negative: list[Formula] = [Not(e.atom) for e in own]
         return (negative[0] if len(negative) == 1 else And(tuple(negative))) if negative else None
+
+    def _makers(self, predicate: str) -> int:
+        """How many actions make something of a predicate true."""
+        return sum(any(e.positive and e.atom.predicate == predicate for e in a.effects) for a in self.domain.actions)
 
     def _with_slots(
         self, action: ActionSchema, verbs: tuple[str, ...], used: list[TypedName], condition: Formula

@@ -241,7 +241,7 @@ class Follower:
         return names
 
     def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
-        """*Leave the door open* keeps that; *leave the cup where it is* keeps what holds of it and of something else."""
+        """*Leave the door open* keeps that; *leave the cup where it is* keeps where it is."""
         if clause.result and clause.result not in ("alone",):
             goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
             if isinstance(goal, Refused):

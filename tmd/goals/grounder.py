@@ -1,7 +1,7 @@
 """Conditions of rows, ground in one environment: slots filled, ``was`` and ``first`` looked up, parts stood in for.
 
-Where a fact can never hold of a thing, the nearest things that it can hold of stand in: parts, then what the thing or its
-parts control, then the whole and its other parts. *Open the fridge* opens its door, *turn on the stove* a burner.
+Where a fact can never hold of a thing, the nearest things that it can hold of stand in: parts, then what the thing or
+its parts control, then the whole and its other parts. *Open the fridge* opens its door, *turn on the stove* a burner.
 """
 
 from __future__ import annotations
@@ -136,7 +136,7 @@ class Grounder:
         return []
 
     def relatives(self, name: str, level: int) -> tuple[str, ...]:
-        """What may stand in for an object: 0 its parts, 1 what it is linked to, 2 its whole, 3 the whole's other parts."""
+        """What may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 the other parts of that."""
         if name not in self._relatives:
             self._relatives[name] = self._find_relatives(name)
         return self._relatives[name][level]
@@ -164,7 +164,7 @@ class Grounder:
 
     @cached_property
     def reflexive(self) -> frozenset[str]:
-        """The predicates that join things with themselves, or parts with their whole: they tell nothing of two things."""
+        """The predicates that join things with themselves, or parts with their whole: they say nothing of two."""
         return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {
             PART_OF
         }

@@ -1,9 +1,9 @@
 """What verbs mean, learned from demonstrations: what is so when the segments of a verb are done.
 
-For every verb with the same slots, each literal that could be a goal is counted: in how many clauses it *could* hold, in
-how many of these it held at the end, and in how many it became true. A literal that nearly always holds and often becomes
-true is what the verb is for; what comes about by the way is not. Dishes (*make ramen*) are learned from the ends of whole
-demonstrations. Not in the paper.
+For every verb with the same slots, each literal that could be a goal is counted: in how many clauses it *could* hold,
+in how many of these it held at the end, and in how many it became true. A literal that nearly always holds and often
+becomes true is what the verb is for; what comes about by the way is not. Dishes (*make ramen*) are learned from the
+ends of whole demonstrations. Not in the paper.
 """
 
 from __future__ import annotations
@@ -283,9 +283,10 @@ class _Learner:
         facts: dict[str, set[tuple[str, ...]]] = defaultdict(set)
         wanted = {p.name for p in self.predicates}
         for atom in world.task.names(states[1] & ~states[0]):
-            if atom.predicate in wanted and atom.args and atom.args[0] not in constants:
-                if all(a in constants and a not in PREPOSITIONS for a in atom.args[1:]):
-                    facts[atom.args[0]].add((atom.predicate, *atom.args[1:]))
+            if atom.predicate not in wanted or not atom.args or atom.args[0] in constants:
+                continue
+            if all(a in constants and a not in PREPOSITIONS for a in atom.args[1:]):
+                facts[atom.args[0]].add((atom.predicate, *atom.args[1:]))
         if facts:
             best = max(facts.values(), key=lambda found: (len(found), sorted(found)))
             self.made[nouns[0]] += 1
@@ -315,7 +316,12 @@ class _Learner:
     def _of_shape(self, verb: str, groups: tuple[str, ...], shape: _Shape) -> Iterator[GoalRow]:
         good = sorted(
             ((text, c) for text, c in shape.counts.items() if self._good(text, c)),
-            key=lambda pair: (-round(pair[1].gained * pair[1].support, 1), "exists" in pair[0], -_said(pair[0]), pair[0]),
+            key=lambda pair: (
+                -round(pair[1].gained * pair[1].support, 1),
+                "exists" in pair[0],
+                -_said(pair[0]),
+                pair[0],
+            ),
         )
         if not good:
             return

@@ -6,12 +6,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
-from tmd.goals.grounder import FALSE, Grounder, Moments, disjunction, negation
+from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
 from tmd.goals.senses import state_words
 from tmd.goals.table import PREPOSITIONS, RELATION, GoalTable
 from tmd.language.attachment import WHOLES
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.nouns import ALIAS, NAME, WORDNET
+from tmd.language.nouns import ALIAS, NAME, WORDNET, split_name
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
@@ -107,7 +107,13 @@ class Nouns:
                 return tuple(found)
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
-        return tuple(best)
+        return tuple(best) or self._called_after(noun)
+
+    def _called_after(self, noun: str) -> tuple[str, ...]:
+        """Objects with the noun in their names: *the peas* for ``pea_seeds``, where nothing is a pea."""
+        if any(m.how != WORDNET for m in self.world.mentions.ranked(noun)):
+            return ()
+        return tuple(n for n in self.world.profiles.objects if noun in split_name(n)[:-1])
 
     def is_group(self, noun: str) -> bool:
         """Whether a noun means all things of some classes."""
@@ -175,9 +181,10 @@ class Nouns:
             for wanted, positive in ((plain, True), (contrary, False)):
                 for word in wanted:
                     atoms = [a for a in self._of_object.get(candidate, ()) if self._says_state(a, word, candidate)]
-                    changing = [a for a in atoms if a in self.world.task.index]
-                    if changing:
-                        found = disjunction(Atom(a.predicate, a.args) for a in changing)
+                    if any(a not in self.world.task.index for a in atoms):
+                        return TRUE if positive else FALSE
+                    if atoms:
+                        found = disjunction(Atom(a.predicate, a.args) for a in atoms)
                         return found if positive else negation(found)
         return None
 

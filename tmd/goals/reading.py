@@ -27,7 +27,7 @@ from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier, Relatio
 from tmd.language.lexicon import Lexicon
 from tmd.language.pronouns import is_pronoun
 from tmd.pddl.grounding import ground_condition
-from tmd.pddl.model import Atom, Formula, Not
+from tmd.pddl.model import And, Atom, Formula, Not, Or
 from tmd.pddl.task import Bits, Cube
 from tmd.veil.world import World
 
@@ -278,7 +278,8 @@ class GoalReader:
             return self._with_rows(rows, unit, reading)
         failure: Refused | None = None
         reading.pronoun = unit.direct
-        for reading.antecedent in range(len(self._antecedents(unit.direct, reading)) or 1):
+        for number in range(len(self._antecedents(unit.direct, reading)) or 1):
+            reading.antecedent = number
             found = self._with_rows(rows, unit, reading)
             if not isinstance(found, Refused):
                 return found
@@ -518,7 +519,7 @@ class GoalReader:
         leftover: Sequence[tuple[str, str]],
         reading: _Reading,
     ) -> list[Callable[[Mapping[str, str]], Formula]]:
-        """What must hold besides: contents, *without*, adjectives of a substance, places of nouns behind prepositions."""
+        """What must hold besides: contents, *without*, adjectives of a substance, where further nouns are."""
         found: list[Callable[[Mapping[str, str]], Formula]] = []
         for variable, referent in pairs:
             noun = referent.noun
@@ -608,7 +609,7 @@ class GoalReader:
         self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], reading: _Reading
     ) -> list[Callable[[Mapping[str, str]], Formula]]:
         """*Hot milk*: what contains the milk in the end shall be hot."""
-        found = []
+        found: list[Callable[[Mapping[str, str]], Formula]] = []
         for variable, referent in pairs:
             words = reading.clause.phrase(referent.noun).attributes
             if not words or not all(name in self.world.profiles.constants for name in referent.names):
@@ -682,7 +683,7 @@ class GoalReader:
         relations: Sequence[tuple[str, str]],
         reading: _Reading,
     ) -> Referent:
-        """The candidates of a noun, by the type that is wanted, without those that adjectives and relations leave out."""
+        """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
         things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.is_a(n, types))
         wanted_constants = tuple(n for n in self.nouns.constants(noun, types, reading.state))
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
@@ -733,7 +734,15 @@ class GoalReader:
     def _targets(self, noun: str, reading: _Reading) -> tuple[str, ...]:
         """The objects or constants that a noun behind a preposition may mean."""
         if is_pronoun(noun):
-            return tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self._targets(a, reading))
+            names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self._targets(a, reading))
+            names = names or tuple(
+                n for a in reading.clause.direct[:1] if noun == "one" for n in self._targets(a, reading)
+            )
+            for relation, target in self._relations_of(noun, reading.clause):
+                ends = self._targets(target, reading)
+                referent = Referent(noun, names)
+                names = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments) or names
+            return names
         bound = reading.memory.bound.get(noun)
         things = self.nouns.things(noun, reading.state)
         if bound is not None and set(bound.names) & set(things):
@@ -892,7 +901,7 @@ def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory
             n for n in names if any(o in mentioned for level in range(4) for o in reader.grounder.relatives(n, level))
         )
         chosen = chosen or names
-        containers = ()
+        containers: tuple[str, ...] = ()
         if all(n in constants for n in chosen):
             containers = tuple(
                 dict.fromkeys(a.args[0] for a in atoms if set(a.args[1:]) & set(chosen) and a.args[0] not in constants)
@@ -928,10 +937,11 @@ def _product(options: Sequence[Sequence[Referent]]) -> Iterator[tuple[Referent, 
 def _fewer(formula: Formula, most: int) -> Formula:
     """A ground condition with at most so many alternatives in each disjunction."""
     match formula:
-        case Atom() | Not():
-            return formula
-    parts = [_fewer(part, most) for part in formula.parts]
-    return conjunction(parts) if type(formula).__name__ == "And" else disjunction(parts[:most])
+        case And(parts):
+            return conjunction(_fewer(part, most) for part in parts)
+        case Or(parts):
+            return disjunction(_fewer(part, most) for part in parts[:most])
+    return formula
 
 
 __all__ = ["ClauseGoal", "GoalReader", "Refused", "Relation", "Why", "bindings_of"]

@@ -41,7 +41,7 @@ def family(verb: str) -> tuple[str, ...]:
     for head, members in families.items():
         if verb in members:
             found[head] = None
-    for head, members in families.items():
+    for members in families.values():
         if verb in members:
             found.update(dict.fromkeys(members[:4]))
     found.pop(verb, None)

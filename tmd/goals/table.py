@@ -5,8 +5,8 @@ A row is written as in ``lexicon.yaml``::
     place X in|on|next_to Y: (at ?x ?y ?rel)
 
 Its pattern has verbs (``a|b`` for several), slots (capitals), prepositions before all slots but the first, and, last, a
-word for the state that something shall be in (``make X louder``). In the condition each slot is a variable of its name in
-lower case, ``?rel`` the relation that was said. Beyond PDDL's conditions, ``(was φ)`` tells whether φ holds when the
+word for the state that something shall be in (``make X louder``). In the condition each slot is a variable of its name
+in lower case, ``?rel`` the relation that was said. Beyond PDDL's conditions, ``(was φ)`` tells whether φ holds when the
 clause begins, and ``(first φ)`` whether it held before the whole text.
 """
 

@@ -1,13 +1,14 @@
 """Requests that are no imperatives, as imperatives: wishes, statements of where things belong, bare noun phrases.
 
 *I'd like a cup of tea* and *A cup of tea, please* become a clause with the verb ``have``; *The mug should go on the
-shelf* and *Both wrappers belong in the bin* become one with ``put``. The new verb stands where the words it replaces do.
+shelf* and *Both wrappers belong in the bin* one with ``put``. The new verb stands where the words it replaces do.
 """
 
 from __future__ import annotations
 
 from tmd.language.chunking import ALSO
 from tmd.language.tokens import IMPLIED, Kind, Token
+from tmd.language.words import section
 
 HAVE, PUT = "have", "put"
 _WISHES = frozenset({"like", "love", "want", "wants", "prefer", "fancy", "fancies"})
@@ -114,7 +115,11 @@ def _belonging(tokens: list[Token]) -> list[Token]:
             be and place < len(tokens) and tokens[place].text in ("on", "off") and not _names_thing(tokens, place + 1)
         )
         state = (
-            be and place < len(tokens) and tokens[place].kind is Kind.ADJ and tokens[place].form not in ("ed", "base")
+            be
+            and place < len(tokens)
+            and tokens[place].kind is Kind.ADJ
+            and tokens[place].form != "ed"
+            and tokens[place].stem not in section("verbs")
         )
         if not (goes or state) or switch:
             continue

@@ -43,7 +43,7 @@ _NOT = frozenset(
 )
 _HELPERS = frozenset(
     {"do", "does", "did", "will", "would", "can", "could", "should", "must", "may", "to", "please", "just", "already",
-     "then", "ever", "also", "still", "got", "i'd", "we'd", "rather", "you", "we", "i", "the_robot", "need", "want", "touch_nothing"}
+     "then", "ever", "also", "still", "got", "i'd", "we'd", "rather", "you", "we", "i", "the_robot", "need", "want"}
 )  # fmt: skip
 _SOFT = frozenset(
     {"already", "still", "just", "yet", "too", "very", "really", "all", "enough", "now", "completely", "nice", "and"}

@@ -119,7 +119,7 @@ _TITLE_SHARE = 0.4
 
 def tokenise(text: str) -> list[Token]:
     """Cut a text into tokens. Everything between them is blank or a sign without meaning here."""
-    tokens = []
+    tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
         span, word = Span(*match.span()), match.group().lower().replace("\u2019", "'")
         kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
