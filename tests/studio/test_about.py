@@ -8,9 +8,9 @@ from tmd.errors import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.studio.about import about
 from tmd.studio.session import Session
-from tmd.studio.words import Wording
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
+from tmd.view.wording import Wording
 
 
 def test_parts_states_relations_and_edges(kitchen1: World) -> None:

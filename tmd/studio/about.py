@@ -15,7 +15,7 @@ from tmd.veil.world import World
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """One object in one state. Facts are sorted; :class:`~tmd.studio.words.Wording` tells them in words.
+    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` tells them in words.
 
     Attributes:
         name: The object.

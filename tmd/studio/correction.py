@@ -25,8 +25,8 @@ from tmd.studio.alignment import NO_HABITS, Habits
 from tmd.studio.history import History
 from tmd.studio.pieces import clean, cut
 from tmd.studio.session import MAX_STEPS, Session, Step
-from tmd.studio.words import Wording
 from tmd.veil.world import World
+from tmd.view.wording import Wording
 
 
 @dataclass(frozen=True, slots=True)

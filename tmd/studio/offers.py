@@ -9,8 +9,8 @@ from tmd.errors import TmdError
 from tmd.pddl.model import Instruction, State
 from tmd.pddl.syntax import nearest
 from tmd.pddl.task import Bits, Operator
-from tmd.studio.words import Wording
 from tmd.veil.world import World
+from tmd.view.wording import Wording
 
 
 @dataclass(frozen=True, slots=True)

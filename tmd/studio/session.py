@@ -20,9 +20,9 @@ from tmd.studio.about import About, about
 from tmd.studio.alignment import NO_HABITS, Habits, propose
 from tmd.studio.history import History
 from tmd.studio.pieces import Piece, clean, cut
-from tmd.studio.words import Wording
 from tmd.veil.demonstration import Segment
 from tmd.veil.world import World
+from tmd.view.wording import Wording
 
 MAX_STEPS = 500
 """Longer demonstrations are refused: the longest of the bundled ones has about thirty steps."""

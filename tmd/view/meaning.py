@@ -19,9 +19,24 @@ In brackets stands what a noun would mean here most likely, where the plan has n
 
 
 def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
-    """What each clause's nouns mean in a ranked plan."""
-    served = [[step.instruction for step in choice.steps] for choice in plan.choices]
-    return meanings_in(parsed.clauses, served, world)
+    """What each clause's nouns mean in a ranked plan.
+
+    A clause may have several of the plan's choices (*when you have taken the cup, …* is two steps) or none (*leave the
+    door open* asks for nothing to be done), and they need not stand in the order of the clauses.
+    """
+    owners = [goal.clause for goal in plan.goals] or list(range(len(plan.choices)))
+    served: dict[int, list[Instruction]] = {}
+    begun: dict[int, Bits] = {}
+    state = world.task.init
+    for owner, choice in zip(owners, plan.choices, strict=True):
+        instructions = [step.instruction for step in choice.steps]
+        begun.setdefault(owner, state)
+        served.setdefault(owner, []).extend(instructions)
+        state = after(instructions, world, state)
+    return [
+        meaning(clause, served.get(number, ()), world, begun.get(number, world.task.init))
+        for number, clause in enumerate(parsed.clauses)
+    ]
 
 
 def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction]], world: World) -> list[Meaning]:

@@ -1,4 +1,4 @@
-"""Facts and broken preconditions in plain words: those of the comments beside the domain's predicates.
+"""Facts, conditions and broken preconditions in plain words: those of the comments beside the domain's predicates.
 
 ``(near ?r - robot ?x - thing)  ; x is within reach`` lets ``(near pr2 mug1)`` be told as *mug1 is within reach*. Where
 a comment does not speak of everything that a fact is about, the fact is told as it is written in PDDL.
@@ -22,7 +22,6 @@ from tmd.pddl.model import (
     Instruction,
     Not,
     Or,
-    Predicate,
     Problem,
     State,
 )
@@ -31,6 +30,8 @@ from tmd.pddl.writer import format_formula
 
 _WORDS = frozenset({"a", "i"})
 """Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
+_SHOWN = 3
+"""So many alternatives are told; of the others, how many there are."""
 
 
 class Wording:
@@ -50,9 +51,44 @@ class Wording:
 
     def fact(self, atom: GroundAtom) -> str:
         """What ``atom`` says, without full stop: *mug1 is on counter1*."""
-        predicate = self._predicates.get(atom.predicate)
-        told = self._told(predicate, atom.args) if predicate is not None else ""
-        return told or str(atom)
+        return self._told(atom.predicate, atom.args) or str(atom)
+
+    def condition(self, condition: Formula) -> str:
+        """What ``condition`` says, without full stop: *there is some water in cup1, and cup1 is hot*.
+
+        Of many alternatives the first three are told: *mug1 is on counter1, counter2, table1 or 4 others*. An atom that
+        has no words is told as it is written, without brackets; what has variables, as it is written in PDDL.
+        """
+        match condition:
+            case Atom(predicate, terms):
+                return self._told(predicate, terms) or " ".join((predicate, *terms))
+            case Not(part):
+                return f"not: {self._inner(part)}"
+            case And(parts):
+                return ", and ".join(map(self._inner, parts)) or "nothing"
+            case Or(parts):
+                return self._among(parts) or ", or ".join(_few([self._inner(part) for part in parts])) or "never"
+            case _:
+                return format_formula(condition)
+
+    def _inner(self, part: Formula) -> str:
+        """What a part of a condition says, in brackets where it would not be told from its neighbours."""
+        told = self.condition(part)
+        return f"({told})" if isinstance(part, And | Or) and ", " in told else told
+
+    def _among(self, parts: Sequence[Formula]) -> str:
+        """Alternatives that differ in one argument only, as one sentence; empty where they do not."""
+        atoms = [part for part in parts if isinstance(part, Atom)]
+        if len(atoms) < max(len(parts), 2) or len({(atom.predicate, len(atom.terms)) for atom in atoms}) > 1:
+            return ""
+        columns = list(zip(*(atom.terms for atom in atoms), strict=True))
+        differing = [place for place, terms in enumerate(columns) if len(set(terms)) > 1]
+        if len(differing) != 1:
+            return ""
+        args = list(atoms[0].terms)
+        args[differing[0]] = either = _either(columns[differing[0]])
+        told = self._told(atoms[0].predicate, args)
+        return told if either in told else ""
 
     def broken(self, instruction: Instruction, state: State) -> str:
         """The first part of the instruction's precondition that fails in ``state``; empty if all hold.
@@ -105,8 +141,11 @@ class Wording:
         inner = part.part if isinstance(part, Not) else part
         return inner.predicate in self._changing if isinstance(inner, Atom) else not isinstance(inner, Equals)
 
-    def _told(self, predicate: Predicate, args: Sequence[str]) -> str:
-        """The comment of ``predicate`` with ``args`` in it; empty where it does not speak of all of them."""
+    def _told(self, name: str, args: Sequence[str]) -> str:
+        """The comment of a predicate with ``args`` in it; empty where it does not speak of all of them."""
+        predicate = self._predicates.get(name)
+        if predicate is None or len(args) != len(predicate.parameters):
+            return ""
         comment = re.split(r"[:;(]", predicate.comment)[0].strip()
         names = [parameter.name.removeprefix("?") for parameter in predicate.parameters]
         if not comment or _WORDS & set(names):
@@ -117,11 +156,24 @@ class Wording:
         silent = [name for name in names if not _word(name).search(comment)]
         if any(found[name] not in self._constants for name in silent):
             return ""
-        return re.sub("|".join(rf"\b{re.escape(name)}\b" for name in names) or "$^", lambda m: found[m[0]], comment)
+        return _word(*names).sub(lambda m: found[m["name"]], comment) if names else comment
 
 
-def _word(name: str) -> re.Pattern[str]:
-    return re.compile(rf"\b{re.escape(name)}\b")
+def _word(*names: str) -> re.Pattern[str]:
+    """Any of ``names`` as a word of its own, as it is declared (``?x``) or without the question mark."""
+    return re.compile(rf"(?<![\w'?-])\??(?P<name>{'|'.join(map(re.escape, names))})(?![\w-])")
+
+
+def _few(told: Sequence[str]) -> list[str]:
+    """The first of several, and how many others there are."""
+    rest = len(told) - _SHOWN
+    return [*told[:_SHOWN], *([f"{rest} other{'s' if rest > 1 else ''}"] if rest > 0 else [])]
+
+
+def _either(names: Sequence[str]) -> str:
+    """Alternatives: *counter1, counter2 or table1*."""
+    *most, last = _few(names)
+    return f"{', '.join(most)} or {last}" if most else last
 
 
 def _chosen(comment: str, argument: str, others: Iterable[str]) -> str:

@@ -1,0 +1,79 @@
+"""Conditions in words: those of the comments in the domain, with nothing in them that was not said."""
+
+from __future__ import annotations
+
+import pytest
+
+from tests.view.conftest import corpus
+from tmd.pddl.goal import with_goal
+from tmd.pddl.model import Atom, GroundAtom, Problem, TypedName
+from tmd.pddl.reader import parse_domain
+from tmd.view.wording import Wording
+
+
+@pytest.fixture(scope="module")
+def problem() -> Problem:
+    return corpus("kitchen").world("kitchen1").task.problem
+
+
+CONDITIONS = {
+    "(contains cup1 water)": "there is some water in cup1",
+    "(at mug1 counter1 next_to)": "mug1 is next to counter1",
+    "(not (opened fridge1_door))": "not: the door, drawer or lid fridge1_door is open",
+    "(and (contains cup1 water) (hot cup1))": "there is some water in cup1, and cup1 and what it contains are hot",
+    "(or (at mug1 counter1 on) (at mug1 counter2 on))": "mug1 is on counter1 or counter2",
+    "(or (hot cup1) (hot mug1) (hot pot1) (hot bowl1))": "cup1, mug1, pot1 or 1 other and what it contains are hot",
+    "(or (contains cup1 water) (contains cup1 milk))": "there is some water or milk in cup1",
+    "(or (at mug1 fridge1 in) (at mug1 fridge1 on))": "mug1 is in fridge1, or mug1 is on fridge1",
+    "(or (hot cup1) (filled cup1))": "cup1 and what it contains are hot, or there is something in cup1",
+    "(and (hot pot1) (or (hot cup1) (and (filled cup1) (filled mug1))))": (
+        "pot1 and what it contains are hot, and (cup1 and what it contains are hot, or "
+        "(there is something in cup1, and there is something in mug1))"
+    ),
+    "(and)": "nothing",
+    "(exists (?x - thing) (hot ?x))": "(exists (?x - thing) (hot ?x))",
+}
+
+
+@pytest.mark.parametrize("text", CONDITIONS)
+def test_conditions_in_words(problem: Problem, text: str) -> None:
+    assert Wording(problem).condition(with_goal(problem, text).goal) == CONDITIONS[text]
+
+
+def test_many_alternatives_are_counted(problem: Problem) -> None:
+    names = ("cup1", "mug1", "bowl1", "pot1", "plate1")
+    different = " ".join(f"(at {name} counter{1 + place % 2} on)" for place, name in enumerate(names))
+    told = Wording(problem).condition(with_goal(problem, f"(or {different})").goal)
+    assert told == "cup1 is on counter1, or mug1 is on counter2, or bowl1 is on counter1, or 2 others"
+
+
+DOMAIN = """(define (domain d) (:requirements :typing) (:types t)
+  (:predicates
+    (owned ?x - t ?s - t)   ; ?x's owner is s, not x's x-ray
+    (seen ?x - t)           ; somebody looked (for x in vain)
+    (plain ?x - t)
+    (rank ?a - t)           ; a is a good one
+  ))"""
+
+
+@pytest.mark.parametrize(
+    ("atom", "told"),
+    [
+        (GroundAtom("owned", ("cup", "bob")), "cup's owner is bob, not cup's x-ray"),
+        (GroundAtom("seen", ("cup",)), "seen cup"),
+        (GroundAtom("plain", ("cup",)), "plain cup"),
+        (GroundAtom("rank", ("cup",)), "rank cup"),
+        (GroundAtom("plain", ("cup", "too", "many")), "plain cup too many"),
+    ],
+)
+def test_whole_words_only_and_a_plain_fallback(atom: GroundAtom, told: str) -> None:
+    objects = (TypedName("cup", ("t",)), TypedName("bob", ("t",)))
+    wording = Wording(Problem("p", parse_domain(DOMAIN, "d"), objects))
+    assert wording.condition(Atom(atom.predicate, atom.args)) == told
+    assert wording.fact(atom) == (str(atom) if told.startswith(atom.predicate) else told)
+
+
+def test_a_predicate_without_parameters() -> None:
+    blocks = corpus("01_blocks")
+    wording = Wording(blocks.world(blocks.environments()[0]).task.problem)
+    assert wording.fact(GroundAtom("hand_empty")) == "nothing is in the hand"
