@@ -48,7 +48,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     from tmd.learned.store import known
 
     knowledge = known(corpus, learned)
-    grounded = ground(text, world, knowledge.library, reward=knowledge.reward, planner=planner)
+    grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
     likened = likened_nouns(grounded.parsed.clauses, world)
     told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library), likened))

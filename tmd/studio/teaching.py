@@ -1,7 +1,8 @@
 """What a domain's demonstrations teach, while more of them come.
 
-A demonstration that was just saved is in the library at once; the policy, which takes longer, is learned again when
-somebody asks for it. Whoever grounds a text meanwhile has what was known when they began, all of one piece.
+A demonstration that was just saved is in the library at once; the policy and what verbs mean, which take longer, are
+learned again when somebody asks for it. Whoever grounds a text meanwhile has what was known when they began, all of one
+piece.
 """
 
 from __future__ import annotations
@@ -100,7 +101,7 @@ class Teacher:
     def ground(self, text: str, world: World, top: int = 1) -> Grounded:
         """Ground a text with what is known now, as ``tmd ground`` does with its usual options."""
         now = self._knowledge
-        return ground(text, world, now.library, reward=now.reward, top=top)
+        return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top)
 
     def close(self) -> None:
         """End what is under way."""
@@ -123,5 +124,5 @@ class Teacher:
             found = tuple(self.corpus.demonstrations())
             library = self._library(found)
             self._habits = Habits.of(library)
-            self._knowledge = Knowledge(library, trained.reward)
+            self._knowledge = Knowledge(library, trained.reward, goals=trained.goals)
             self._learned_from = found

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from tmd.errors import TmdError
+from tmd.goals.table import GoalTable
 from tmd.learned.digest import digest
 from tmd.learned.knowledge import Knowledge, study
 from tmd.learned.reward_json import reward_from_json, reward_to_json, weights_bytes
@@ -30,12 +31,14 @@ class Trained:
     Attributes:
         demonstrations: How many were learned from.
         reward: What the policy was learned to be.
+        goals: What verbs were learned to mean.
         saved: The directory in which ``tmd ground`` finds it; ``None`` where it could not be written to.
         remark: Why not, in one line; empty where it was saved.
     """
 
     demonstrations: int
     reward: Reward | None
+    goals: GoalTable | None
     saved: Path | None
     remark: str = ""
 
@@ -155,9 +158,9 @@ def _saved(knowledge: Knowledge, corpus: Corpus, root: Path | None, made_from: s
 
 def _packed(count: int, knowledge: Knowledge, saved: tuple[Path, str]) -> tuple[Any, ...]:
     reward = knowledge.reward
-    return count, reward and (reward_to_json(reward), weights_bytes(reward)), *saved
+    return count, reward and (reward_to_json(reward), weights_bytes(reward)), knowledge.goals, *saved
 
 
 def _unpacked(data: tuple[Any, ...]) -> Trained:
-    count, reward, target, remark = data
-    return Trained(count, reward and reward_from_json(*reward), None if remark else target, remark)
+    count, reward, goals, target, remark = data
+    return Trained(count, reward and reward_from_json(*reward), goals, None if remark else target, remark)
