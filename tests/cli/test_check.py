@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+ROOT = Path(__file__).resolve().parents[2]
+GOALS = "goals:\n  - take X: (holding pr2 ?x)\n  - put X in|on Y: (at ?x ?y ?rel)\n"
 GOOD = "(define (domain d)\n  (:predicates (p ?x))\n  (:action a\n    :parameters (?x)\n    :effect (p ?x)))\n"
-FIRST_LINE = re.compile(r"^(.+?):(\d+):(\d+): (error|warning)\[([a-z0-9-]+)\]: (.*)$")
+FIRST_LINE = re.compile(r"^(.+?):(\d+):(\d+): (error|warning|note)\[([a-z0-9-]+)\]: (.*)$")
 """What docs/errors.md gives to editors."""
 Tmd = Callable[..., Any]
 
@@ -21,6 +24,13 @@ def file(tmp_path: Path) -> Path:
     path = tmp_path / "d.pddl"
     path.write_text(GOOD)
     return path
+
+
+@pytest.fixture
+def drawer(tmp_path: Path) -> Path:
+    """The lexicon of a copy of a bundled domain."""
+    shutil.copytree(ROOT / "domains" / "03_drawer", tmp_path / "domains" / "03_drawer")
+    return tmp_path / "domains" / "03_drawer" / "lexicon.yaml"
 
 
 def test_exit_codes_and_the_lines_that_editors_read(tmd: Tmd, file: Path) -> None:
@@ -50,6 +60,25 @@ def test_json_and_fix(tmd: Tmd, file: Path) -> None:
     ended = tmd("check", file, "--fix", "--json")
     assert ended.code == 0 and json.loads(ended.out)["fixed"] == [str(file)]
     assert file.read_text() == GOOD.replace(":effect", ":precondition (and) :effect")
+
+
+def test_notes_are_counted_and_printed_when_asked_for(tmd: Tmd, drawer: Path) -> None:
+    drawer.write_text(f"{GOALS}  - open X: (opened ?x)\n")
+    quiet, loud = tmd("check", drawer), tmd("check", drawer, "--notes", "--strict")
+    assert quiet.code == loud.code == 0
+    assert quiet.out == "1 file(s) checked: 0 error(s), 0 warning(s), 1 note(s) (--notes prints them)\n"
+    assert FIRST_LINE.match(loud.out.splitlines()[0])
+    assert "note[no-goal]" in loud.out and loud.out.endswith("0 error(s), 0 warning(s), 1 note(s)\n")
+    told = json.loads(tmd("check", drawer, "--json").out)
+    assert (told["errors"], told["warnings"], told["notes"]) == (0, 0, 1)
+    assert [d["severity"] for d in told["diagnostics"]] == ["note"]
+
+
+def test_a_parenthesis_too_many_in_a_goal_is_mended(tmd: Tmd, drawer: Path) -> None:
+    drawer.write_text(f"{GOALS}  - open X: (and (opened ?x)\n      (free pr2)))\n")
+    assert tmd("check", drawer).code == 13
+    assert tmd("check", drawer, "--fix").code == 0
+    assert drawer.read_text() == f"{GOALS}  - open X: (and (opened ?x)\n      (free pr2))\n"
 
 
 def test_fmt(tmd: Tmd, file: Path) -> None:

@@ -7,10 +7,11 @@ from enum import StrEnum
 
 
 class Severity(StrEnum):
-    """An error keeps ``tmd`` from using a file; a warning is worth a look."""
+    """An error keeps ``tmd`` from using a file; a warning is worth a look; a note is for who wants to know more."""
 
     ERROR = "error"
     WARNING = "warning"
+    NOTE = "note"
 
 
 _ERRORS = {
@@ -55,6 +56,7 @@ _ERRORS = {
     "missing-skill": "an action without a skill",
     "missing-role": "a skill that is not told what it needs",
     "stale-domain": "a domain.pddl that is not what its sources compile to",
+    "bad-goal": "a goal of a verb that is not of the form of one",
     "bad-demonstration": "a line that is no demonstration",
     "unknown-environment": "an environment that is not there",
     "not-executable": "a demonstration that cannot be executed",
@@ -93,10 +95,16 @@ _WARNINGS = {
     "ambiguous-domain": "several domains have the name that a problem gives",
     "unserved-verb": "a verb that no action and no demonstration serves",
     "unknown-target": "a noun that leads to nothing in the domain",
+    "impossible-goal": "a goal of a verb, or an adjective, that nothing in any environment can fulfil",
     "domain-not-found": "the domain of a problem is not there to check it against",
+}
+_NOTES = {
+    "synonym-with-goal": "a verb that has a goal of its own and stands for another verb",
+    "no-goal": "a verb that has no goal",
 }
 SEVERITY: Mapping[str, Severity] = {
     **dict.fromkeys(_ERRORS, Severity.ERROR),
     **dict.fromkeys(_WARNINGS, Severity.WARNING),
+    **dict.fromkeys(_NOTES, Severity.NOTE),
 }
-SUMMARY: Mapping[str, str] = _ERRORS | _WARNINGS
+SUMMARY: Mapping[str, str] = _ERRORS | _WARNINGS | _NOTES

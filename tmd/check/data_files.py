@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from tmd.check.codes import Severity
 from tmd.check.yaml_files import check_compiled, check_environment, check_objects
 from tmd.errors import TmdError
 from tmd.pddl.model import Problem
+from tmd.pddl.reader import read_problem
 from tmd.pddl.syntax import Report
-from tmd.world.environment import EnvironmentFile
+from tmd.world.compile import compile_problem
+from tmd.world.environment import EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.yaml_source import YamlSource
 
@@ -67,23 +70,63 @@ class DataFiles:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
 
     def _lexicon(self, file: Path) -> None:
+        from tmd.check.goal_verbs import check_goal_verbs, segments_of
+        from tmd.check.goals import check_goals
         from tmd.check.words import check_lexicon, texts_of
+        from tmd.language.lexicon_file import read_lexicon
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
-        texts = [text for path in self._corpora(folder.path) for text in texts_of(path)]
-        for fault in check_lexicon(file, actions, _names(folder), texts):
+        corpora = self._corpora(folder.path)
+        lexicon = read_lexicon(file)
+        texts = [text for path in corpora for text in texts_of(path)]
+        segments = (text for path in corpora for text in segments_of(path))
+        for fault in (
+            *check_lexicon(file, actions, _names(folder), texts),
+            *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
+            *check_goal_verbs(file, lexicon, actions, segments),
+        ):
             self.checker.report(fault, file)
 
     def _corpora(self, folder: Path) -> list[Path]:
-        """The demonstrations of a domain: those beside its folder, or the known ones."""
+        """The demonstrations of a domain."""
+        problems = self._beside(folder)
+        return sorted(problems.glob("*/demonstrations.jsonl")) if problems else []
+
+    def _beside(self, folder: Path) -> Path | None:
+        """The problems of a domain: those beside its folder, or the known ones."""
         name = folder.resolve().name
         beside = folder.resolve().parent.parent / "problems" / name
         try:
-            problems = beside if beside.is_dir() else find_problems(name, self.checker.problems)
+            return beside if beside.is_dir() else find_problems(name, self.checker.problems)
         except TmdError:
-            return []
-        return sorted(problems.glob("*/demonstrations.jsonl"))
+            return None
+
+    def _problems_of(self, folder: DomainFolder) -> Iterator[Problem]:
+        """The environments of a domain that have no faults; faults are told where those files are checked."""
+        problems = None if self._has_faults(folder) else self._beside(folder.path)
+        for path in sorted((problems / "environments").glob("*")) if problems else ():
+            try:
+                if path.suffix == ".yaml":
+                    yield compile_problem(load_environment(path), folder)
+                elif path.suffix == ".pddl":
+                    yield read_problem(path, folder.domain)
+            except (TmdError, RecursionError):
+                continue
+
+    def _has_faults(self, folder: DomainFolder) -> bool:
+        """Whether an error of a domain's folder is known: its environments may then lack what they should have."""
+        found, here = self.checker.findings.sorted(), folder.path.resolve()
+        return any(d.severity is Severity.ERROR and Path(d.location.file).resolve().parent == here for d in found)
+
+    def _nameable(self, folder: DomainFolder) -> frozenset[str]:
+        """What a group may name: as for nouns, or, without classes, the objects of the environments as well."""
+        names = _names(folder)
+        if names:
+            return names
+        domain = folder.domain
+        objects = frozenset(o.name for problem in self._problems_of(folder) for o in problem.objects)
+        return objects | {t.name for t in domain.types} | {c.name for c in domain.constants} if objects else frozenset()
 
     def _skills(self, file: Path) -> None:
         from tmd.robot.skill_file import load_skills

@@ -29,7 +29,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Whether it is an error or a warning."""
+        """Whether it is an error, a warning or a note."""
         return SEVERITY[self.code]
 
 

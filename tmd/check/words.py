@@ -41,13 +41,16 @@ def check_lexicon(path: Path, actions: Collection[str], names: Collection[str], 
     served = _Served(texts, actions)
     verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
     # one word of several that stand for the same verb is enough: its template serves all of them
-    shown = {serving for verb, serving in verbs.items() if verb in served or serving in served}
+    meant = lexicon.goal_verbs
+    shown = {
+        serving for verb, serving in verbs.items() if {verb, serving} & meant or verb in served or serving in served
+    }
     for verb, serving in sorted(verbs.items()) if served.texts else ():
         if serving not in shown:
-            message = f"no demonstration and no action serves the verb '{verb}'"
+            message = f"no demonstration, no action and no goal serves the verb '{verb}'"
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
-            hint = "add a demonstration that uses it, let it stand for a verb that has one, or remove it"
+            hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
             found.append(source.error(verb, verb, message, hint, "unserved-verb"))
     return found
 

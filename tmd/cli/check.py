@@ -13,6 +13,9 @@ from tmd.cli.roots import Roots
 from tmd.errors import ExitCode
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from tmd.check.codes import Severity
     from tmd.check.diagnostic import Diagnostic
     from tmd.check.run import Checker
 
@@ -21,11 +24,12 @@ if TYPE_CHECKING:
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Let warnings count as errors.")
+@click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Mend what is mechanical, then check again.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(
-    roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bool, fix: bool, as_json: bool
+    roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bool, notes: bool, fix: bool, as_json: bool
 ) -> ExitCode:
     """Check files and folders, and tell every problem with its place and what to do.
 
@@ -43,23 +47,15 @@ def command(
         fixed += [file for file in mended if file not in fixed]
         checker = _checked(roots, paths, given)
     found = checker.findings.sorted()
-    errors = sum(d.severity is Severity.ERROR for d in found)
-    warnings = len(found) - errors
+    count = {severity: sum(d.severity is severity for d in found) for severity in Severity}
     if as_json:
-        emit_json(
-            {
-                "files": len(checker.files),
-                "errors": errors,
-                "warnings": warnings,
-                "fixed": [str(file) for file in fixed],
-                "diagnostics": [_json(diagnostic) for diagnostic in found],
-            }
-        )
+        emit_json(_all_json(len(checker.files), count, fixed, found))
     else:
-        emit("".join(_text(diagnostic) for diagnostic in found))
+        emit("".join(_text(d) for d in found if notes or d.severity is not Severity.NOTE))
         emit("".join(f"{file}: mended\n" for file in fixed))
-        emit(f"{len(checker.files)} file(s) checked: {errors} error(s), {warnings} warning(s)\n")
-    return ExitCode.FAULTS_FOUND if errors or (strict and warnings) else ExitCode.OK
+        emit(_summary(len(checker.files), count, notes))
+    faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
+    return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
 
 
 _MOST_ROUNDS = 4
@@ -92,6 +88,26 @@ def _mend(checker: Checker) -> list[Path]:
             write_text(file, text)
             changed.append(file)
     return changed
+
+
+def _summary(files: int, count: Mapping[Severity, int], shown: bool) -> str:
+    """How many files and problems there are; notes only where there are some."""
+    errors, warnings, notes = count.values()
+    said = f"{files} file(s) checked: {errors} error(s), {warnings} warning(s)"
+    if notes:
+        said += f", {notes} note(s)" + ("" if shown else " (--notes prints them)")
+    return said + "\n"
+
+
+def _all_json(
+    files: int, count: Mapping[Severity, int], fixed: Sequence[Path], found: Sequence[Diagnostic]
+) -> dict[str, object]:
+    return {
+        "files": files,
+        **{f"{severity}s": number for severity, number in count.items()},
+        "fixed": [str(file) for file in fixed],
+        "diagnostics": [_json(diagnostic) for diagnostic in found],
+    }
 
 
 def _text(diagnostic: Diagnostic) -> str:

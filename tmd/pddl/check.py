@@ -67,6 +67,18 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
     return _in_order(check.faults, source)
 
 
+def check_condition(
+    condition: Formula, variables: Iterable[str], domain: Domain, source: Source | None = None
+) -> list[TmdError]:
+    """Every fault of a condition over ``variables``, which may be of any type.
+
+    An argument of a wider type than the predicate takes is let pass: the condition holds of some of what it stands for.
+    """
+    check = _Overlapping(domain, domain.constants, source)
+    check.formula(condition, dict.fromkeys(variables, ()))
+    return _in_order(check.faults, source)
+
+
 def _in_order(faults: list[TmdError], source: Source | None) -> list[TmdError]:
     """By place; faults without one come last, as they were found."""
     for fault in faults:
@@ -223,7 +235,7 @@ class _Check:
         for number, (term, parameter) in enumerate(zip(atom.terms, signature.parameters, strict=True), start=1):
             given = self.term(term, scope, atom.location, number)
             known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
-            if given is not None and known and not self.hierarchy.accepts(parameter.types, given):
+            if given is not None and known and not self.fits(parameter.types, given):
                 self.fault(
                     f'"{term}" is of type {_either(given)}, '
                     f"{parameter.name} of {shown} needs {_either(parameter.types)}",
@@ -231,6 +243,10 @@ class _Check:
                     None,
                     "wrong-type",
                 )
+
+    def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
+        """Whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
+        return self.hierarchy.accepts(wanted, given)
 
     def word(self, atom: Atom, number: int) -> Location | None:
         """Where the predicate (0) or an argument of ``atom`` stands."""
@@ -270,6 +286,14 @@ class _Check:
         if problem.minimize_cost and TOTAL_COST not in self.functions:
             message = f'the metric needs the function "{TOTAL_COST}"'
             self.fault(message, problem.location, "declare it in the domain", "unknown-function")
+
+
+class _Overlapping(_Check):
+    """Arguments need only have something in common with what is asked for."""
+
+    def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
+        above = self.hierarchy.ancestors
+        return not given or any(w in above(g) or g in above(w) for w in wanted for g in given)
 
 
 def _either(types: Sequence[str]) -> str:
