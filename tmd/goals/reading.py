@@ -162,9 +162,15 @@ class GoalReader:
                         return found
                     if failure is None or failure.why is Why.NOT_UNDERSTOOD:
                         failure = found
-            if failure is not None and failure.why is not Why.NOT_UNDERSTOOD and not strict:
+            settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
+            if failure is not None and settled and (not strict or self._is_placing(clause)):
                 return failure
         return failure or self._unknown(clause)
+
+    def _is_placing(self, clause: Clause) -> bool:
+        """Whether a clause says where something shall go: if it cannot go there, nothing less will do."""
+        placing = {"put", "place"} & {clause.verb, *self._synonyms(clause.verb), *family(clause.verb)}
+        return bool(placing) and any(r.source in clause.direct and r.relation != "of" for r in clause.relations)
 
     def _rows_with(self, clause: Clause) -> bool:
         """Whether some row says what this verb with this state means."""
@@ -531,7 +537,7 @@ class GoalReader:
                 if relation == "without":
                     found.append(self._without(row, pairs, names, reading))
                     continue
-                if not names:
+                if not names or set(names) <= set(referent.names):
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue

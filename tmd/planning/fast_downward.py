@@ -42,7 +42,7 @@ def first_plan(task: Task, *, time_limit: float = 20.0) -> UnifiedPlanner:
     """Fast Downward for ``task``, content with the first plan it finds; arguments and errors as above."""
     _installed()
     search = {"fast_downward_search_config": FIRST}
-    return UnifiedPlanner(task, EngineSpec("fast-downward", search, time_limit, skip_checks=True))
+    return UnifiedPlanner(task, EngineSpec("fast-downward", search, time_limit, skip_checks=True, any_plan=True))
 
 
 def _installed() -> None:

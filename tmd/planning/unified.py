@@ -45,6 +45,7 @@ class EngineSpec:
         time_limit: Seconds after which it is stopped.
         skip_checks: Whether to leave out the engine's own check of the problem kind, which costs 14 ms a call.
         takes_timeout: Whether the engine can be told the limit.
+        any_plan: Whether the first plan found is good enough, so that the other cubes of a goal need not be asked for.
     """
 
     name: str
@@ -52,6 +53,7 @@ class EngineSpec:
     time_limit: float = 60.0
     skip_checks: bool = False
     takes_timeout: bool = True
+    any_plan: bool = False
 
 
 class UnifiedPlanner:
@@ -88,7 +90,11 @@ class UnifiedPlanner:
         """
         if any(cube.holds(state) for cube in goal):
             return Filled((), state, 0)
-        answers = [self._one(state, cube) for cube in goal if not cube.positive & cube.negative]
+        answers: list[Answer] = []
+        for cube in sorted((c for c in goal if not c.positive & c.negative), key=lambda c: missing(c, state)):
+            answers.append(self._one(state, cube))
+            if self.engine.any_plan and isinstance(answers[-1], Filled):
+                break
         filled = [answer for answer in answers if isinstance(answer, Filled)]
         if filled:
             return min(filled, key=lambda answer: answer.cost)
@@ -124,6 +130,11 @@ class UnifiedPlanner:
         if not cube.holds(state):
             raise TmdError(f"the plan of {self.engine.name} does not reach its goal")
         return Filled(steps, state, cost)
+
+
+def missing(cube: Cube, state: Bits) -> int:
+    """How many literals of ``cube`` do not hold in ``state``: a first guess at how far off it is."""
+    return (cube.positive & ~state).bit_count() + (cube.negative & state).bit_count()
 
 
 def judged(status: str, engine: EngineSpec, reason: str) -> Answer:
