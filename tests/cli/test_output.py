@@ -97,12 +97,35 @@ def test_parse_json(tmd: Tmd) -> None:
     told = json.loads(tmd("parse", "--text", text, "--json").out)
     assert list(told) == ["clauses", "skipped"]
     first, second, *_ = told["clauses"]
-    assert first == {"verb": "take", "objects": ["cup"], "relations": [], "text": "Take the cup", "span": [0, 12]}
+    assert first == {
+        "verb": "take",
+        "objects": ["cup"],
+        "relations": [],
+        "text": "Take the cup",
+        "direct": ["cup"],
+        "phrases": {"cup": {"definite": True}},
+        "span": [0, 12],
+    }
     assert (second["verb"], second["objects"]) == ("put", ["it", "microwave"])
     assert second["relations"] == [["in", "it", "microwave"]]
     assert second["antecedents"] == {"it": ["cup"]}
     for piece in (*told["clauses"], *told["skipped"]):
         assert text[piece["span"][0] : piece["span"][1]] == piece["text"]
+
+
+def test_parse_tells_constraints_and_conditions(tmd: Tmd) -> None:
+    text = "If the door is not open, open it. Do not take the cup. Leave the key where it is."
+    told = json.loads(tmd("parse", "--text", text, "--json").out)
+    assert list(told) == ["clauses", "constraints", "skipped"]
+    assert [(c["verb"], c["mood"]) for c in told["constraints"]] == [("take", "avoid")]
+    assert text[slice(*told["constraints"][0]["span"])] == told["constraints"][0]["text"]
+    assert tmd("parse", "--text", text).out == (
+        "clauses\n"
+        "  1. (open, [it])   it = door; if the door is not open: not (be, [door]; state: open)\n"
+        "  2. (leave, [key])   to be kept\n"
+        "constraints\n"
+        "  not to be done: (take, [cup])\n"
+    )
 
 
 @pytest.mark.parametrize(

@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
-from tmd.language.clause import Clause, Parsed, Skipped
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Skipped
 from tmd.language.notation import clause_json, print_clause
+
+_MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 
 
 def parsed_json(parsed: Parsed) -> dict[str, Any]:
-    """The clauses, and what no clause accounts for.
+    """The clauses, what must not be done or must stay, and what no clause accounts for.
 
     A ``span`` counts characters of the text from 0; its end is the first character after the piece.
     """
-    return {
-        "clauses": [clause_json(clause) | {"span": list(clause.span)} for clause in parsed.clauses],
-        "skipped": [_skipped_json(piece) for piece in parsed.skipped],
-    }
+    result: dict[str, Any] = {"clauses": [_clause_json(clause) for clause in parsed.clauses]}
+    if parsed.constraints:
+        result["constraints"] = [_clause_json(clause) for clause in parsed.constraints]
+    return result | {"skipped": [_skipped_json(piece) for piece in parsed.skipped]}
+
+
+def _clause_json(clause: Clause) -> dict[str, Any]:
+    return clause_json(clause) | {"span": list(clause.span)}
 
 
 def _skipped_json(piece: Skipped) -> dict[str, Any]:
@@ -24,9 +31,12 @@ def _skipped_json(piece: Skipped) -> dict[str, Any]:
 
 
 def parsed_text(parsed: Parsed) -> str:
-    """The clauses, numbered from 1, and what was skipped."""
+    """The clauses, numbered from 1, the constraints, and what was skipped."""
     lines = ["clauses"] if parsed.clauses else ["no clause"]
     lines += [f"  {number}. {_clause_text(clause)}" for number, clause in enumerate(parsed.clauses, start=1)]
+    if parsed.constraints:
+        lines.append("constraints")
+        lines += [f"  {_MOODS.get(c.mood, 'to be kept')}: {_noted(c, _notes(c))}" for c in parsed.constraints]
     if parsed.skipped:
         lines.append("skipped")
         lines += [f'  "{_flat(piece.text)}": {piece.reason}' for piece in parsed.skipped]
@@ -34,10 +44,45 @@ def parsed_text(parsed: Parsed) -> str:
 
 
 def _clause_text(clause: Clause) -> str:
-    notes = [f"{name} = {' + '.join(clause.meant(name))}" for name in clause.antecedents if name]
-    said = (("condition", clause.condition), ("duration", clause.duration), ("purpose", clause.purpose))
-    notes += [f"{word}: {_flat(value)}" for word, value in said if value]
+    mood = [_MOODS[clause.mood]] if clause.mood in _MOODS else []
+    return _noted(clause, [*mood, *_notes(clause)])
+
+
+def _noted(clause: Clause, notes: list[str]) -> str:
     return print_clause(clause) + (f"   {'; '.join(notes)}" if notes else "")
+
+
+def _notes(clause: Clause) -> list[str]:
+    """What else was said: what pronouns mean, the state that something shall be in, when and how."""
+    return [
+        *(f"{name} = {' + '.join(clause.meant(name))}" for name in clause.antecedents if name),
+        *([f"state: {clause.result}"] if clause.result else []),
+        *(["or"] if clause.alternative else []),
+        *(["otherwise"] if clause.otherwise else []),
+        *(_condition_text(condition) for condition in clause.conditions),
+        *_as_written(clause),
+    ]
+
+
+def _condition_text(condition: Condition) -> str:
+    """A condition as written, and as it was read."""
+    read = " and ".join(_within(clause) for clause in condition.clauses)
+    return f"{_flat(condition.text)}: {'not ' if condition.negated else ''}{read or 'not understood'}"
+
+
+def _within(clause: Clause) -> str:
+    """A clause of a condition, what else was said within its brackets."""
+    return "; ".join([print_clause(clause).removesuffix(")"), *_notes(clause)]) + ")"
+
+
+def _as_written(clause: Clause) -> Iterator[str]:
+    """Conditions and the like that were not read any further."""
+    read = {_flat(condition.text).lower() for condition in clause.conditions}
+    purpose = any(condition.word == "to" for condition in clause.conditions)
+    for word in ("condition", "duration", "purpose", "setting"):
+        value = getattr(clause, word)
+        if value and _flat(value).lower() not in read and not (purpose and word == "purpose"):
+            yield f"{word}: {_flat(value)}"
 
 
 def _flat(text: str) -> str:

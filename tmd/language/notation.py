@@ -6,14 +6,14 @@ import re
 from typing import Any
 
 from tmd.errors import Location, TmdError
-from tmd.language.clause import Clause, Relation
+from tmd.language.clause import Clause, Condition, Mood, NounPhrase, Quantifier, Relation
 
 _CLAUSE = re.compile(r"\(\s*([\w'-]+)\s*,\s*\[([^\]]*)\]\s*((?:,[^()]*)?)\)\s*$")
 _RELATION = re.compile(r"\s*([\w-]+)\s*:\s*([\w'-]*)\s*->\s*([\w'-]+)\s*$")
 
 
 def clause_json(clause: Clause) -> dict[str, Any]:
-    """Return a clause as JSON: what is empty of the optional parts is left out."""
+    """Return a clause as JSON: what is empty of the optional parts, or as it mostly is, is left out."""
     result: dict[str, Any] = {
         "verb": clause.verb,
         "objects": list(clause.objects),
@@ -25,11 +25,38 @@ def clause_json(clause: Clause) -> dict[str, Any]:
         result["together"] = dict(clause.together)
     if clause.quantities:
         result["quantities"] = dict(clause.quantities)
-    for name in ("condition", "duration", "purpose"):
-        value = getattr(clause, name)
-        if value is not None:
-            result[name] = value
-    return result
+    said = {name: getattr(clause, name) for name in ("condition", "duration", "purpose", "setting", "result")}
+    result |= {name: value for name, value in said.items() if value is not None}
+    if clause.direct:
+        result["direct"] = list(clause.direct)
+    phrases = {name: _phrase_json(phrase) for name, phrase in clause.phrases.items()}
+    if any(phrases.values()):
+        result["phrases"] = {name: said for name, said in phrases.items() if said}
+    if clause.conditions:
+        result["conditions"] = [_condition_json(condition) for condition in clause.conditions]
+    if clause.mood is not Mood.DO:
+        result["mood"] = clause.mood.value
+    return result | {name: True for name in ("otherwise", "implied", "alternative", "heading") if getattr(clause, name)}
+
+
+def _phrase_json(phrase: NounPhrase) -> dict[str, Any]:
+    """How a noun was said, but for its name and what is as it mostly is."""
+    result: dict[str, Any] = {}
+    if phrase.quantifier is not Quantifier.PLAIN:
+        result["quantifier"] = phrase.quantifier.value
+    if phrase.number is not None:
+        result["number"] = phrase.number
+    result |= {name: True for name in ("definite", "plural", "each") if getattr(phrase, name)}
+    lists = {"attributes": phrase.attributes, "either": phrase.either}
+    return result | {name: list(words) for name, words in lists.items() if words}
+
+
+def _condition_json(condition: Condition) -> dict[str, Any]:
+    """A condition; the clauses of what it says have no text of their own."""
+    clauses = [clause_json(clause) for clause in condition.clauses]
+    result: dict[str, Any] = {"word": condition.word, "text": condition.text}
+    result["clauses"] = [{name: value for name, value in clause.items() if name != "text"} for clause in clauses]
+    return result | ({"negated": True} if condition.negated else {})
 
 
 def print_clause(clause: Clause) -> str:
