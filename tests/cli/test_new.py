@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 
 from tests.cli.conftest import ROOT, Tmd
 from tmd.errors import ExitCode, TmdError
+from tmd.language.lexicon import Lexicon
 from tmd.learned.knowledge import study
+from tmd.sentences import read_sentences
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.scaffold import STARTS, scaffold
@@ -24,7 +26,7 @@ def test_what_it_prints_to_try_next_works(start: str, tmd: Tmd, tmp_path: Path) 
     made = tmd("new", "mine", "--from", start)
     assert made.code == ExitCode.OK
     steps = made.out.partition("try next:\n")[2].splitlines()
-    assert len(steps) >= 4
+    assert len(steps) >= 5
     for step in steps:
         command, quote, text = step.partition('"')
         words = [*command.split()[1:], *([text.rstrip('"')] if quote else [])]
@@ -34,6 +36,29 @@ def test_what_it_prints_to_try_next_works(start: str, tmd: Tmd, tmp_path: Path) 
             assert text.rstrip('"') == SAID[start]
             assert "valid" in done.out
     assert (tmp_path / "problems" / "mine" / "learned" / "library.json").is_file()
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_its_lexicon_declares_goals_and_says_how(start: str, tmd: Tmd, tmp_path: Path) -> None:
+    assert tmd("new", "mine", "--from", start).code == ExitCode.OK
+    file = tmp_path / "domains" / "mine" / "lexicon.yaml"
+    lexicon = Lexicon.load(file)
+    assert len(lexicon.goals) >= 2
+    assert {"put", "take"} <= lexicon.goal_verbs
+    comment = file.read_text().partition("\ngoals:\n")[0].rpartition("\n\n")[2]
+    assert all(line.startswith("#") for line in comment.splitlines())
+    assert all(word in comment for word in ("PDDL", "slots", "prepositions", "`tmd check`"))
+    told = json.loads(tmd("check", "domains/mine", "problems/mine", "--json").out)
+    assert told["diagnostics"] == []
+
+
+@pytest.mark.parametrize("start", STARTS)
+def test_its_sentence_tests_are_of_the_new_domain(start: str, tmp_path: Path) -> None:
+    made = scaffold("mine", start, tmp_path / "domains", tmp_path / "problems")
+    (file,) = made.problems.glob("*.sentences.jsonl")
+    tests = read_sentences(file)
+    assert {(test.domain, test.environment) for test in tests} == {("mine", made.environments[-1])}
+    assert [test.goal is None for test in tests] == [False, False, True]
 
 
 def test_it_lists_what_it_wrote(tmd: Tmd, tmp_path: Path) -> None:

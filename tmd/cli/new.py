@@ -31,7 +31,7 @@ def command(roots: Roots, domain: str, start: str, as_json: bool) -> ExitCode:
     """Begin the domain DOMAIN.
 
     Writes domains/DOMAIN and problems/DOMAIN here (--domains and --problems say where else): a domain with a lexicon,
-    two environments, a problem and three demonstrations. Nothing is overwritten.
+    two environments, a problem, three demonstrations and three sentence tests. Nothing is overwritten.
     """
     from tmd.world.scaffold import scaffold
 
@@ -56,6 +56,7 @@ def _text(domain: str, start: str, made: Scaffold) -> str:
         f"  tmd check {made.folder.as_posix()} {made.problems.as_posix()}",
         f"  tmd plan {domain} {problem.as_posix()}",
         f'  tmd ground --environment {place} --text "{said}"',
+        f"  tmd test {domain}",
         f"  tmd learn {domain}",
     ]
     return "\n".join(lines) + "\n"

@@ -1,11 +1,12 @@
 """A new domain, begun as a copy of a bundled one under a new name: folder, environments, problem, demonstrations.
 
 The copy answers at once, so that its author changes what works, a line at a time. Environments are called after the
-new domain (``yard1`` becomes ``mine1``), so that their names are its own.
+new domain (``yard1`` becomes ``mine1``), so that their names are its own. Its sentence tests are a few that it passes.
 """
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -19,6 +20,20 @@ from tmd.world.folder import find_domain, find_problems
 
 STARTS: Mapping[str, str] = {"plain": "01_blocks", "graph": "03_drawer"}
 """What a new domain can be begun from: plain PDDL, or classes with parts."""
+_SENTENCES = "requests.sentences.jsonl"
+_ASKED: Mapping[str, tuple[tuple[str, str | None], ...]] = {
+    "plain": (
+        ("Put the red block on the green block.", "(on red_block green_block)"),
+        ("Clear the red block.", "(clear red_block)"),
+        ("Take the spoon.", None),
+    ),
+    "graph": (
+        ("Put the key on the table.", "(at key1 table1 on)"),
+        ("Open the top drawer.", "(opened cabinet1_top_drawer)"),
+        ("Take the spoon.", None),
+    ),
+}
+"""Sentence tests in the last environment of the copy, with their goals; ``None``: nothing here is called that."""
 _SUFFIXES = (".pddl", ".yaml", ".jsonl", ".nl")
 _DOMAIN_NAME = re.compile(r"\(define\s+\(domain\s+([^\s()]+)\s*\)")
 
@@ -65,7 +80,7 @@ def scaffold(name: str, start: str, domains: Path, problems: Path) -> Scaffold:
         make_directory(path.parent)
         write_text(path, texts[path])
     environments = sorted(path.stem for path in texts if path.parent == place / "environments")
-    task = next(path.parent.name for path in texts if path.suffix == ".jsonl")
+    task = next(path.parent.name for path in texts if path.name == "demonstrations.jsonl")
     return Scaffold(folder, place, tuple(sorted(texts)), tuple(environments), task)
 
 
@@ -98,7 +113,15 @@ def _texts(name: str, start: str, folder: Path, place: Path) -> dict[Path, str]:
     found = {folder / path.name: renamed(read_text(path)) for path in source.path.iterdir() if path.suffix in _SUFFIXES}
     for path in shown.rglob("*"):
         relative = path.relative_to(shown)
-        if path.suffix in _SUFFIXES and "learned" not in relative.parts:
+        if path.suffix in _SUFFIXES and "learned" not in relative.parts and path.name != _SENTENCES:
             found[place / renamed(str(relative))] = renamed(read_text(path))
+    found[place / _SENTENCES] = _sentences(name, start, words[environments[-1]])
     found[folder / "README.md"] = f"# {name}\n\nSay here what this domain is about, and what it leaves out.\n"
     return found
+
+
+def _sentences(name: str, start: str, environment: str) -> str:
+    """Sentence tests for the copy, as JSON Lines."""
+    said = {"domain": name, "environment": environment}
+    tests = ({"id": f"{name}-{n}", **said, "text": t, "goal": g} for n, (t, g) in enumerate(_ASKED[start], start=1))
+    return "".join(json.dumps(test) + "\n" for test in tests)
