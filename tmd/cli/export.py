@@ -29,7 +29,11 @@ _ALL = "all"
 @click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
 @click.option("--text", metavar="TEXT", help="What was said, for an environment.")
 @click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
-@click.option("--goal", metavar="CONDITION", help="Another goal; otherwise a text's plan is for what it changes.")
+@click.option(
+    "--goal",
+    metavar="CONDITION|asked|changed",
+    help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
+)
 @click.option("--example", metavar="ID", help="Of a run: which example.")
 @click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
 @click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")

@@ -21,6 +21,7 @@ from tmd.errors import ExitCode
 @text_options
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @grounding_options
+@click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(
@@ -30,6 +31,7 @@ def command(
     text_file: str | None,
     domain_name: str | None,
     options: GroundingOptions,
+    goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
     """Ground what was said in an environment.
@@ -38,16 +40,20 @@ def command(
     the time. Ends with 12 where no plan was found.
     """
     from tmd.cli.remarks import remarks
+    from tmd.cli.show_goals import whole_goal_json, whole_goal_text
     from tmd.cli.show_plans import grounded_json, grounded_text
     from tmd.language.length import short_enough
 
+    if goal_only and not options.config().goals:
+        raise click.UsageError(f"the model {options.model_name} knows no goals: leave --model out")
     found = answer(roots, short_enough(said(text, text_file)), environment, domain_name, options)
     grounded = found.grounded
     if as_json:
-        told = grounded_json(grounded, found.corpus.folder.name, found.world.name, found.unknown)
-        emit_json(told | {"environment_file": environment_file(environment), "made_with": found.made_with})
+        told = grounded_json(grounded, found.corpus.folder.name, found.world.name, found.unknown, found.warnings)
+        told |= {"environment_file": environment_file(environment), "made_with": found.made_with}
+        emit_json(whole_goal_json(told) if goal_only else told)
     else:
-        emit(grounded_text(grounded))
-    for line in remarks(grounded, found.unknown, found.verbs, found.likened):
+        emit(whole_goal_text(grounded) if goal_only else grounded_text(grounded))
+    for line in remarks(grounded, found.warnings):
         emit(line, error=True)
     return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED

@@ -61,8 +61,7 @@ class Answer:
         corpus: The domain.
         world: The environment.
         unknown: Nouns that name nothing there.
-        likened: Nouns that only likeness of meaning leads to something there, with what it leads to.
-        verbs: The verbs that there are templates for, the most frequent first.
+        warnings: What was said and could not be used, or only by a guess.
         made_with: What decides the outcome beside text and environment.
     """
 
@@ -70,8 +69,7 @@ class Answer:
     corpus: Corpus
     world: World
     unknown: tuple[str, ...]
-    likened: dict[str, tuple[str, ...]]
-    verbs: tuple[str, ...]
+    warnings: tuple[str, ...]
     made_with: dict[str, object]
 
 
@@ -122,6 +120,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     Raises:
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
+    from tmd.cli.remarks import warnings
     from tmd.cli.scene import frequent_verbs, likened_nouns, load_scene, unknown_nouns
     from tmd.ground import ground
     from tmd.learned.store import known
@@ -147,7 +146,8 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     made = made_with(options.planner, options.model_name, config, options.weights, options.top)
     unknown = tuple(unknown_nouns(grounded.parsed.clauses, world))
     likened = likened_nouns(grounded.parsed.clauses, world)
-    return Answer(grounded, corpus, world, unknown, likened, tuple(frequent_verbs(knowledge.library)), made)
+    warned = tuple(warnings(grounded, unknown, frequent_verbs(knowledge.library), likened))
+    return Answer(grounded, corpus, world, unknown, warned, made)
 
 
 def environment_file(name: str) -> str | None:

@@ -41,7 +41,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
     """
     from tmd.cli.grounding import made_with
-    from tmd.cli.remarks import remarks
+    from tmd.cli.remarks import remarks, warnings
     from tmd.cli.scene import frequent_verbs, likened_nouns, unknown_nouns
     from tmd.cli.show_plans import grounded_json
     from tmd.ground import ground
@@ -51,8 +51,9 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
     likened = likened_nouns(grounded.parsed.clauses, world)
-    told = tuple(remarks(grounded, unknown, frequent_verbs(knowledge.library), likened))
-    record = grounded_json(grounded, corpus.folder.name, world.name, unknown)
+    warned = warnings(grounded, unknown, frequent_verbs(knowledge.library), likened)
+    told = tuple(remarks(grounded, warned))
+    record = grounded_json(grounded, corpus.folder.name, world.name, unknown, warned)
     record["made_with"] = made_with(planner)
     if not any(verdict.valid for verdict in grounded.verdicts):
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
 from tmd.ground import Grounded
+from tmd.view.goals import why_refused
 
 _VERBS = 8
 """How many verbs are named instead of an unknown one."""
@@ -13,10 +14,18 @@ _SHOWN = 3
 """How many different reasons are told."""
 
 
-def remarks(
+def remarks(grounded: Grounded, warned: Sequence[str]) -> list[str]:
+    """Lines for standard error: what `warnings` told, and why there is no plan if there is none."""
+    lines = [f"warning: {warning}\n" for warning in warned]
+    if not any(verdict.valid for verdict in grounded.verdicts):
+        lines.append(f"no plan: {_why(grounded)}\n")
+    return lines
+
+
+def warnings(
     grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str], likened: Mapping[str, Sequence[str]]
 ) -> list[str]:
-    """Lines for standard error: what was said and could not be used, and why there is no plan if there is none.
+    """What was said and could not be used, or only by a guess: each once.
 
     Args:
         grounded: What came out.
@@ -25,49 +34,53 @@ def remarks(
         likened: Nouns that were taken for things of another name that mean something alike.
     """
     if grounded.goal_directed:
-        lines = warnings_of(grounded)
-        if not any(verdict.valid for verdict in grounded.verdicts):
-            lines.append(f"no plan: {_why(grounded)}")
-        return [f"{line}\n" for line in lines]
-    lines = [
-        f"warning: no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen
-    ]
+        return warnings_of(grounded)
+    return list(dict.fromkeys(_of_words(grounded, unknown, verbs, likened)))
+
+
+def _of_words(
+    grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str], likened: Mapping[str, Sequence[str]]
+) -> list[str]:
+    """Words that a model without goals could not use."""
+    lines = [f"no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen]
     lines += [
-        f"warning: nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
+        f"nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
         for noun in unknown
     ]
     for noun, names in likened.items():
         taken = ", ".join(names[:_SHOWN]) + (" or others" if len(names) > _SHOWN else "")
-        lines.append(
-            f"warning: nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}"
-        )
-    if not any(verdict.valid for verdict in grounded.verdicts):
-        lines.append(f"no plan: {_why(grounded)}")
-    return [f"{line}\n" for line in lines]
+        lines.append(f"nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}")
+    return lines
 
 
 def warnings_of(grounded: Grounded) -> list[str]:
     """What a plan with goals comes with: what was left out of account, and what was only guessed."""
     lines = [
-        f'warning: clause {goal.clause + 1}, "{goal.text}": {goal.note}'
+        f'clause {goal.clause + 1}, "{goal.text}": {goal.note}'
         for plan in grounded.plans[:1]
         for goal in plan.goals
         if goal.note and (goal.formula is None or not goal.already)
     ]
     lines += [
-        f'warning: "{" ".join(piece.text.split())}" was skipped: {piece.reason}'
+        f'"{" ".join(piece.text.split())}" was skipped: {piece.reason}'
         for piece in grounded.parsed.skipped
         if grounded.plans
     ]
-    return lines
+    return list(dict.fromkeys(lines))
+
+
+def refusal(grounded: Grounded) -> str:
+    """Why there is no plan for what was said; empty where it was not refused."""
+    if grounded.refused is None:
+        return ""
+    clause, refused = grounded.refused
+    return why_refused(clause, refused.message, refused.hint)
 
 
 def _why(grounded: Grounded) -> str:
     parsed = grounded.parsed
     if grounded.refused is not None:
-        number, refused = grounded.refused
-        hint = f" ({refused.hint})" if refused.hint else ""
-        return f"clause {number + 1}: {refused.message}{hint}"
+        return refusal(grounded)
     if not parsed.clauses:
         reasons = dict.fromkeys(piece.reason for piece in parsed.skipped)
         said = f" ({'; '.join(list(reasons)[:_SHOWN])})" if reasons else ""

@@ -97,8 +97,8 @@ class Telling:
         self._told = 0
         self._as_json = as_json
         self._steps: list[dict[str, object]] = []
-        self._width = max(len(str(order.instruction)) for order in orders)
-        self._origin = max(len(_origin(order)) for order in orders)
+        self._width = max((len(str(order.instruction)) for order in orders), default=0)
+        self._origin = max((len(_origin(order)) for order in orders), default=0)
         how = "under physics" if asked["mode"] == "physics" else "without physics"
         self.heading = f"{_count(len(orders), 'instruction')} in {asked['environment']}, {how}"
         self._print(f"plan: {self.heading}\n")
@@ -168,7 +168,7 @@ def _origin(order: Order) -> str:
 def _ending(execution: Execution, steps: int) -> str:
     how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
     told = {
-        Status.DONE: "every effect of every instruction is confirmed",
+        Status.DONE: "every effect of every instruction is confirmed" if execution.steps else "there was nothing to do",
         Status.RECOVERED: f"everything that the plan is for is confirmed, {how}",
         Status.STOPPED: execution.reason,
     }[execution.status]

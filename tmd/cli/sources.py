@@ -19,6 +19,9 @@ from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.syntax import read_text
 
+ASKED, CHANGED = "asked", "changed"
+"""Goals by name, for a text: what it asks for, and everything that its plan changes."""
+
 
 @dataclass(frozen=True, slots=True)
 class Asked:
@@ -50,6 +53,9 @@ def planned_source(roots: Roots, asked: Asked) -> Planned | NoPlan:
         click.UsageError: An option has no meaning for this source.
     """
     path = Path(asked.source)
+    of_text = asked.text is not None or path.suffix == ".json"
+    if asked.goal in (ASKED, CHANGED) and not of_text:
+        raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
     if path.is_dir():
         from tmd.cli.run_source import prediction
 
@@ -127,8 +133,9 @@ def _of_environment(roots: Roots, asked: Asked) -> Planned | NoPlan:
     if asked.text is not None:
         orders = orders_of_text(asked.text, corpus, world, asked.planner or IN_PROCESS)
         if orders.status:
-            return NoPlan("".join(orders.remarks).strip().removeprefix("no plan: "), orders.code)
-        return _checked(problem, tuple(order.instruction for order in orders.orders), asked.goal)
+            return NoPlan(orders.remarks[-1].strip().removeprefix("no plan: "), orders.code)
+        goal = _goal(asked, orders.grounding or {})
+        return _checked(problem, tuple(order.instruction for order in orders.orders), goal)
     if asked.plan is None:
         return _solved(with_goal(problem, asked.goal or ""), asked.planner)
     if asked.goal:
@@ -157,7 +164,24 @@ def _of_json(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
         steps = tuple(Instruction(step["action"], tuple(step["args"])) for step in plans[0]["steps"])
     except (KeyError, TypeError) as error:
         raise TmdError(f"{path}: the first plan has no steps with action and args") from error
-    return _checked(world.task.problem, steps, asked.goal)
+    return _checked(world.task.problem, steps, _goal(asked, value))
+
+
+def _goal(asked: Asked, grounding: Mapping[str, Any]) -> str | None:
+    """The goal for the plan of a text; ``None`` for everything that the plan changes.
+
+    Raises:
+        TmdError: What the text asks for is wanted, and not known.
+    """
+    stated = grounding["plans"][0].get("goal")
+    if asked.goal == ASKED and not isinstance(stated, str):
+        raise TmdError(
+            "what the text asks for is not known: it was grounded by a model without goals, or by an older tmd",
+            hint=f"ground it again, or take --goal {CHANGED}",
+        )
+    if asked.goal in (None, ASKED):
+        return stated if isinstance(stated, str) else None
+    return None if asked.goal == CHANGED else asked.goal
 
 
 def _json(text: str, path: Path) -> Mapping[str, Any]:
@@ -171,7 +195,7 @@ def _json(text: str, path: Path) -> Mapping[str, Any]:
 
 
 def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) -> Planned | NoPlan:
-    """A plan without a stated goal: what it brings about is its goal."""
+    """A plan that reaches ``goal``; where none is stated, what the plan brings about is its goal."""
     refused = _refusal(with_goal(problem, goal) if goal else problem, Plan(plan))
     if refused:
         return refused

@@ -107,7 +107,7 @@ def _text(results: Sequence[SentenceResult]) -> str:
             lines += [f"    goal: {goal}" for goal in result.goals]
             if result.plan:
                 lines.append(f"    plan: {' '.join(result.plan)}")
-            lines += [f"    {line.strip()}" for line in result.warnings]
+            lines += [f"    warning: {warning}" for warning in result.warnings]
     kinds = sorted({kind for result in results for kind in result.test.kinds})
     for kind in kinds:
         own = [result for result in results if kind in result.test.kinds]

@@ -56,7 +56,7 @@ class Found:
 
     def ending(self, verdict: Verdict) -> ExitCode:
         """How the program ends, given what the validator says of the plan."""
-        if self.of_text and not self.subject.steps:
+        if self.of_text and not (self.subject.steps or self.subject.plans):
             return ExitCode.NOT_GROUNDED
         return ExitCode.OK if verdict.valid else ExitCode.INVALID_PLAN
 

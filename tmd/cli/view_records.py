@@ -68,6 +68,7 @@ def _grounding_subject(
         made=rows,
         ran=done,
         strip=strip,
+        refused=record.refused,
     )
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from tmd.cli.grounding import GroundingOptions, answer
-from tmd.cli.remarks import remarks
+from tmd.cli.remarks import refusal, remarks
 from tmd.cli.roots import Roots
 from tmd.cli.scene import load_scene
 from tmd.cli.sources import load_problem
@@ -47,8 +47,9 @@ def subject_of_text(roots: Roots, text: str, environment: str, domain: str | Non
         unseen=grounded.unseen,
         unknown=found.unknown,
         made=rows,
+        refused=refusal(grounded),
     )
-    told = tuple(remarks(grounded, found.unknown, found.verbs, found.likened))
+    told = tuple(remarks(grounded, found.warnings))
     return Found(subject, Path(f"{found.world.name}.html"), told, of_text=True)
 
 

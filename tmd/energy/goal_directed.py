@@ -21,7 +21,7 @@ from tmd.goals.reading import Refused, Why
 from tmd.goals.steps import Role
 from tmd.goals.steps import Step as GoalStep
 from tmd.language.clause import Clause, Parsed
-from tmd.pddl.model import Formula
+from tmd.pddl.model import And, Formula
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.eliminate import eliminate
 from tmd.planning.result import Filled, Planner, Unreachable
@@ -154,6 +154,11 @@ class _Text:
     def _towards(self, way: _Way, target: Target) -> list[_Way] | Refused:
         """Every way of reaching the goal of a step that was proposed or planned."""
         planned = self._planned(target, way.path.state)
+        if isinstance(planned, Refused) and self._in_passing(target, way.path.state):
+            after = self.inference.follower.reached(target, way.context, way.path.state)
+            note = "not all of it at once: done with what follows"
+            goal = replace(_step_goal(target), formula=None, note=note)
+            return [way.taken(_NOTHING, way.path.state, replace(after, kept=way.context.kept), goal)]
         if isinstance(planned, Refused):
             return self._without_goal(target.step, way, planned)
         instructions, aim = planned
@@ -165,6 +170,22 @@ class _Text:
             after = self.inference.follower.reached(target, way.context, end)
             found.append(way.taken(choice, end, after, _step_goal(target)))
         return found
+
+    def _in_passing(self, target: Target, state: Bits) -> bool:
+        """Whether a goal of several parts is one for each, but not for all at once, and the next clause goes on with them.
+
+        *Pick up the boxes and the cans and put them in the bag*: no robot has so many hands, and none is asked for.
+        """
+        goal, number = target.goal, target.step.number
+        following = self.clauses[number + 1] if number + 1 < len(self.clauses) else None
+        if goal is None or not isinstance(goal.formula, And) or following is None:
+            return False
+        direct = set(target.step.clause.direct)
+        goes_on = any(direct & set(names) for names in following.antecedents.values())
+        reader = self.inference.follower.reader
+        return goes_on and all(
+            isinstance(self.planner.fill(state, reader.cubes(part)), Filled) for part in goal.formula.parts
+        )
 
     # ------------------------------------------------------------------ planning
 

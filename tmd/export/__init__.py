@@ -4,6 +4,7 @@
 module              holds
 ==================  ==============================================================================
 ``planned``         a problem with a plan that works: what everything here begins with
+``end_goal``        what a text asks for, as one condition
 ``formats``         the formats by name, and the files that each consists of
 ``directory``       writing a directory, whole or not at all
 ``strips``          plan-resolved ground STRIPS, and plans for it brought back

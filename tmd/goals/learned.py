@@ -18,7 +18,7 @@ from tmd.errors import TmdError
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.grounder import FALSE, Grounder, Moments
 from tmd.goals.nouns import Nouns
-from tmd.goals.senses import words_of
+from tmd.goals.senses import results, words_of
 from tmd.goals.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, read_row
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon import Declared, Lexicon
@@ -333,6 +333,9 @@ class _Learner:
         ]
         parts = [core, *companions[:2]]
         condition = parts[0] if len(parts) == 1 else f"(and {' '.join(parts)})"
+        held = {word for word in results("take") if not word.startswith("-")}
+        if verb not in ("take", "hold", "bring") and any(word in core for word in held):
+            return  # what is in the hand is the way, not the goal
         pattern = f"{verb} X" + (f" {groups[1]} Y" if len(groups) > 1 else "")
         evidence = f"holds after {count.held} of {count.possible} clauses, became true in {count.changed}"
         yield from self._row(pattern, condition, evidence, count.support)

@@ -21,7 +21,7 @@ from tmd.goals.grounder import (
 )
 from tmd.goals.nouns import Bound, Memory, Mode, Nouns, Referent, mode_of, relations_said
 from tmd.goals.senses import family, results, words_of
-from tmd.goals.table import RELATION, GoalRow, GoalTable, Slot, slot_types
+from tmd.goals.table import PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.why import why_impossible
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon import Lexicon
@@ -35,7 +35,8 @@ BE = "be"
 _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on", "out": "from", "off": "from"}
-_ADVERBS = frozenset({"of"})
+_SELECTING = frozenset({"except", "besides", "apart_from", "for", "where", "from", "out_of", "off"})
+"""Relations that only tell which thing is meant."""
 _RESTRICTING = frozenset({"of", "with", "where", "containing"})
 
 
@@ -107,6 +108,8 @@ class _Reading:
     meant: dict[str, tuple[str, ...]] = field(default_factory=dict)
     approach: list[Formula] = field(default_factory=list)
     released: list[str] = field(default_factory=list)
+    asked: set[str] = field(default_factory=set)
+    """The nouns whose meaning is being asked for: none leads to itself."""
     strict: bool = False
     """Every place that was said must have a slot."""
     pronoun: str | None = None
@@ -121,7 +124,6 @@ class GoalReader:
         world: The environment.
         tables: What verbs mean, the surest source first; adjectives and groups are those of the first.
         lexicon: The domain's words.
-        further: Makes rows for a verb that no table has: read off the actions.
         guess: Whether a thing may be taken for what a noun is only like in meaning.
     """
 
@@ -131,13 +133,11 @@ class GoalReader:
         tables: Sequence[GoalTable],
         lexicon: Lexicon,
         *,
-        further: Callable[[str, Clause], Sequence[GoalRow]] | None = None,
         guess: bool = False,
     ) -> None:
         self.world = world
         self.tables = tuple(tables)
         self.lexicon = lexicon
-        self.further = further
         self.domain = world.task.problem.domain
         self.grounder = Grounder(world)
         self.nouns = Nouns(world, tables[0] if tables else GoalTable(), self.grounder, guess=guess)
@@ -149,27 +149,39 @@ class GoalReader:
         reading = _Reading(clause, state, Moments(state, memory.first), memory)
         if (clause.verb == BE or clause.result) and not self._rows_with(clause):
             return self._state(reading)
-        failure: Refused | None = None
         own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
         plain = clause.verb.partition("_")[0]
         if plain != clause.verb:
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
-        for strict, verbs in ((True, own), (False, own), (False, self._family(own))):
-            for verb in verbs:
-                for rows in self._sources(verb, clause):
-                    found = self._by_rows(rows, replace_reading(reading, strict))
-                    if isinstance(found, ClauseGoal):
-                        return found
-                    if failure is None or failure.why is Why.NOT_UNDERSTOOD:
-                        failure = found
-            settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
-            if failure is not None and settled and (not strict or self._is_placing(clause)):
-                return failure
+        failure: Refused | None = None
+        for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
+            found = self._by_table(table, own, reading)
+            if isinstance(found, ClauseGoal):
+                return found
+            failure = failure or found
+            if found is not None and found.why is not Why.NOT_UNDERSTOOD:
+                return found
         return failure or self._unknown(clause)
+
+    def _by_table(self, table: GoalTable, own: Sequence[str], reading: _Reading) -> ClauseGoal | Refused | None:
+        """The goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""
+        failure: Refused | None = None
+        others = self._family(own)
+        for strict, verbs in ((True, own), (True, others), (False, own), (False, others)):
+            for rows in filter(None, map(table.of, verbs)):
+                found = self._by_rows(rows, replace_reading(reading, strict))
+                if isinstance(found, ClauseGoal):
+                    return found
+                if failure is None or failure.why is Why.NOT_UNDERSTOOD:
+                    failure = found
+            settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
+            if settled and (not strict or self._is_placing(reading.clause)):
+                return failure
+        return failure
 
     def _is_placing(self, clause: Clause) -> bool:
         """Whether a clause says where something shall go: if it cannot go there, nothing less will do."""
-        placing = {"put", "place"} & {clause.verb, *self._synonyms(clause.verb), *family(clause.verb)}
+        placing = {"put", "place", "pour", "add"} & {clause.verb, *self._synonyms(clause.verb), *family(clause.verb)}
         return bool(placing) and any(r.source in clause.direct and r.relation != "of" for r in clause.relations)
 
     def _rows_with(self, clause: Clause) -> bool:
@@ -184,15 +196,6 @@ class GoalReader:
     def _family(self, own: Sequence[str]) -> list[str]:
         """Verbs that ask for the same as ``own`` in English, whatever the domain."""
         return [verb for verb in dict.fromkeys(name for one in own for name in family(one)) if verb not in own]
-
-    def _sources(self, verb: str, clause: Clause) -> Iterator[tuple[GoalRow, ...]]:
-        for table in self.tables:
-            if table.of(verb):
-                yield table.of(verb)
-        if self.further is not None:
-            rows = tuple(self.further(verb, clause))
-            if rows:
-                yield rows
 
     def _unknown(self, clause: Clause) -> Refused:
         known = sorted({verb for table in self.tables for verb in table.verbs()} - {BE})
@@ -423,6 +426,7 @@ class GoalReader:
         slots: list[tuple[Slot, list[Referent]]] = []
         if row.direct is not None and direct is not None:
             slots.append((row.direct, self._referents(direct, row, row.direct, leftover, reading)))
+            slots[0] = (row.direct, [self._at_origin(r, places, reading) for r in slots[0][1]])
         relations: dict[str, tuple[str, ...]] = {}
         for slot, relation, target in places:
             relations[slot.variable] = relations_said(relation, slot.prepositions)
@@ -448,6 +452,17 @@ class GoalReader:
                 reading.meant[referent.noun] = referent.names
             return formula
         return failure or Refused(Why.IMPOSSIBLE, f"'{print_clause_text(reading.clause)}' cannot be done here")
+
+    def _at_origin(
+        self, referent: Referent, places: Sequence[tuple[Slot, str, str | None]], reading: _Reading
+    ) -> Referent:
+        """*Everything off the table*: of what is meant, what is there now."""
+        for _, relation, target in places:
+            if target is not None and relation in PREPOSITIONS["from"]:
+                ends = self._targets(target, reading)
+                there = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments)
+                referent = replace(referent, names=there or referent.names)
+        return referent
 
     def _formula(
         self,
@@ -531,13 +546,17 @@ class GoalReader:
             noun = referent.noun
             relations = leftover if noun == direct else self._relations_of(noun, reading.clause)
             for relation, target in relations:
-                if relation in ("except", "besides", "for", "where", "from", "out_of", "off"):
+                if relation in _SELECTING or relation.startswith("not_"):
                     continue
                 names = self._targets(target, reading)
-                if relation == "without":
+                if relation == "without" or reading.clause.phrase(target).quantifier is Quantifier.NONE:
                     found.append(self._without(row, pairs, names, reading))
                     continue
                 if not names or set(names) <= set(referent.names):
+                    continue
+                beside = self.nouns.constants(target, ("object",), reading.state)
+                if relation in ("with", "and") and beside and self._is_substance(referent):
+                    found.append(self._beside(row, variable, beside))
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue
@@ -577,6 +596,28 @@ class GoalReader:
         if formula not in (FALSE, TRUE):
             reading.approach.append(formula)
         reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
+
+    def _is_substance(self, referent: Referent) -> bool:
+        return bool(referent.names) and all(name in self.world.profiles.constants for name in referent.names)
+
+    def _beside(self, row: GoalRow, variable: str, names: Sequence[str]) -> Callable[[Mapping[str, str]], Formula]:
+        """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
+
+        def goal(binding: Mapping[str, str]) -> Formula:
+            now = Moments(0, 0)
+            own = self.grounder.ground(row.condition, {**binding, RELATION: "in"}, binding, now)
+            ways = []
+            for atom in sorted(atoms_of(own)):
+                if binding[variable] not in atom.args:
+                    continue
+                for name in names:
+                    other = atom._replace(args=tuple(name if a == binding[variable] else a for a in atom.args))
+                    if other in self.world.task.index:
+                        both = (Atom(atom.predicate, atom.args), Atom(other.predicate, other.args))
+                        ways.append(conjunction(both))
+            return disjunction(ways) if ways else FALSE
+
+        return goal
 
     def _tool(self, names: Sequence[str], reading: _Reading) -> bool:
         """Whether things are said to be used: they are taken first, where they can be."""
@@ -663,6 +704,12 @@ class GoalReader:
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: _Reading) -> Referent:
         """What a pronoun means if it stands for ``antecedent``: what that turned out to be."""
+        if pronoun in ("one", "ones"):
+            said = reading.clause.phrase(pronoun)
+            relations = self._relations_of(pronoun, reading.clause)
+            return replace(
+                self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
+            )
         bound = reading.memory.bound.get(antecedent)
         many = pronoun in ("them", "they", "these", "those", "both", "all")
         if bound is not None:
@@ -730,6 +777,12 @@ class GoalReader:
             if relation in ("except", "besides", "apart_from"):
                 referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
                 continue
+            if relation.startswith("not_"):
+                now = self.nouns.related_now(
+                    referent, relation.removeprefix("not_"), names, reading.state, reading.moments
+                )
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
+                continue
             if relation in ("without", "for") or not names:
                 continue
             now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
@@ -739,6 +792,15 @@ class GoalReader:
 
     def _targets(self, noun: str, reading: _Reading) -> tuple[str, ...]:
         """The objects or constants that a noun behind a preposition may mean."""
+        if noun in reading.asked:
+            return ()
+        reading.asked.add(noun)
+        try:
+            return self._meant_by(noun, reading)
+        finally:
+            reading.asked.discard(noun)
+
+    def _meant_by(self, noun: str, reading: _Reading) -> tuple[str, ...]:
         if is_pronoun(noun):
             names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self._targets(a, reading))
             names = names or tuple(

@@ -210,8 +210,36 @@ def _settings(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _opposites(tokens: list[Token]) -> None:
+    """Give "the lamp off" of "turn on the tv and the lamp off" a verb of its own; "crack open" is open."""
+    for at, verb in enumerate(tokens):
+        following = tokens[at + 1] if at + 1 < len(tokens) else None
+        if verb.kind is not Kind.V or following is None:
+            continue
+        if following.text in ("open", "shut") and _following(tokens, at + 1) is not None:
+            lead = _following(tokens, at + 1)
+            if lead is not None and lead.kind in _NP and verb.stem not in _RESULT_VERBS:
+                _absorb(verb, [following], "open" if following.text == "open" else "close")
+        if verb.stem not in ("turn_on", "turn_off"):
+            continue
+        for place in range(at + 1, len(tokens) - 2):
+            link = tokens[place]
+            end = place + 1
+            while end < len(tokens) and tokens[end].kind in (Kind.DET, Kind.NUM, Kind.ADJ, Kind.N):
+                end += 1
+            said = end < len(tokens) and end > place + 1 and tokens[end].text in ("on", "off")
+            last = end + 1 >= len(tokens) or tokens[end + 1].kind in (Kind.STOP, Kind.CC, Kind.COMMA)
+            if link.kind in _LINKS and said and last:
+                link.kind, link.form, link.strength = Kind.V, "base", 3
+                _absorb(link, [tokens[end]], f"turn_{tokens[end].text}")
+                break
+            if link.kind in (Kind.V, Kind.STOP):
+                break
+
+
 def _particles(tokens: list[Token], lexicon: Lexicon) -> None:
     """Join each verb with its particle, beside it or behind its object."""
+    _opposites(tokens)
     for at, verb in enumerate(tokens):
         if verb.kind is Kind.V and verb.stem:
             _join_multiword(tokens, at) or _join_particle(tokens, at, lexicon)

@@ -282,7 +282,13 @@ class _Folder:
     def _relative(self, at: int) -> int:
         copula = self._peek(at)
         if self._kind(copula) is Kind.AUX and self.tokens[copula].text in section("be"):
-            place = self._peek(copula, frozenset({Kind.ADV, Kind.PARTICIPLE, Kind.ING}))
+            denied = self.tokens[copula].text.endswith("n't") or self._kind(copula + 1) is Kind.NEG
+            place = self._peek(copula, frozenset({Kind.ADV, Kind.PARTICIPLE, Kind.ING, Kind.NEG}))
+            if denied and self._kind(place) is Kind.P and self.out:
+                end = place + 1
+                while self._kind(end) in (Kind.DET, Kind.ADJ, Kind.NUM, Kind.N):
+                    end += 1
+                return self._fold(at, end, Kind.MOD, "relative")
             described = bool(self.out) and self.out[-1] is not self.verb and self.out[-1].text not in PERSONS
             if self._kind(place) is Kind.P and described:
                 self._filler(*self.tokens[at:place])

@@ -16,7 +16,9 @@ _NEEDS = frozenset({"need", "needs", "have"})
 _MAY = frozenset({"can", "could", "may", "might"})
 _SPEAKERS = frozenset({"i", "we", "i'd", "we'd", "i'll", "we'll", "i'm", "we're", "me", "us"})
 _NOUN_PHRASE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON})
-_BELONG = frozenset({"go", "goes", "belong", "belongs", "live", "lives"})
+_BELONG = frozenset(
+    {"go", "goes", "belong", "belongs", "live", "lives", "stand", "stands", "sit", "sits", "lie", "lies"}
+)
 _OUGHT = frozenset({"should", "must", "need", "needs", "ought", "has", "have", "like", "want"})
 _DUTIES = frozenset(
     {"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"}
@@ -42,7 +44,7 @@ def _sentence(tokens: list[Token], count: int) -> list[Token]:
     """One sentence: each request in it, cut at commas and conjunctions before a new subject."""
     if not any(t.kind in (Kind.N, Kind.PRON) for t in tokens):
         return tokens
-    rewritten = _belonging(_wish(tokens))
+    rewritten = _belonging(_there(_wish(tokens)))
     return _bare(rewritten, alone=count == 1)
 
 
@@ -99,6 +101,17 @@ def _names_thing(tokens: list[Token], at: int) -> bool:
     )
 
 
+def _there(tokens: list[Token]) -> list[Token]:
+    """Read "there should be water in the glass" as a state that is asked for."""
+    words = [t.text for t in tokens]
+    for at in range(len(tokens) - 3):
+        if words[at] == "there" and words[at + 1] in ("should", "must") and words[at + 2] == "be":
+            verb = _verb("be", *tokens[at : at + 3])
+            verb.form = "base"
+            return [*tokens[:at], verb, *tokens[at + 3 :]]
+    return tokens
+
+
 def _belonging(tokens: list[Token]) -> list[Token]:
     """Read "the mug should go on the shelf", "both books belong on it" as "put the mug on the shelf"."""
     for at, token in enumerate(tokens):
@@ -128,6 +141,8 @@ def _belonging(tokens: list[Token]) -> list[Token]:
             continue
         duties = [t for t in tokens[begin:at] if t.text in _DUTIES and t.kind not in (Kind.DET, Kind.N)]
         subject = [t for t in tokens[begin:at] if t not in duties]
+        if not duties and token.text in ("stands", "sits", "lies", "stand", "sit", "lie"):
+            continue  # "the cup that stands there" states something
         bare = token.text in ("go", "live") and not duties
         plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
@@ -162,12 +177,23 @@ def _subject_start(tokens: list[Token], at: int) -> int | None:
     return begin if begin < at else None
 
 
+def _goes_on(token: Token, rest: list[Token]) -> bool:
+    """Tell whether an instruction of its own follows a comma or a conjunction."""
+    ahead = next((t for t in rest if t.kind not in (Kind.CC, Kind.ADV, Kind.FILLER)), None)
+    links = token.kind in (Kind.COMMA, Kind.CC)
+    return links and ahead is not None and ahead.kind in (Kind.V, Kind.LET, Kind.NEG, Kind.SUBJECT, Kind.ENSURE)
+
+
 def _bare(tokens: list[Token], *, alone: bool) -> list[Token]:
     """Read "Two scoops of ice cream, please." as "have two scoops of ice cream"."""
     subordinate = next((i for i, t in enumerate(tokens) if t.kind is Kind.SUB), len(tokens))
     if subordinate < len(tokens) and any(t.kind is Kind.N for t in tokens[:subordinate]):
         head = _bare(tokens[:subordinate], alone=alone)
         return [*head, *tokens[subordinate:]]
+    cut = next((i for i, t in enumerate(tokens[:-1]) if _goes_on(t, tokens[i + 1 :])), None)
+    if cut is not None and any(t.kind is Kind.N for t in tokens[:cut]):
+        head = _bare(tokens[:cut], alone=False)
+        return [*head, *tokens[cut:]]
     spoken = {Kind.V, Kind.AUX, Kind.FINITE, Kind.LET, Kind.ENSURE, Kind.NEG, Kind.SUB, Kind.TO, Kind.SUBJECT, Kind.ING}
     if any(t.kind in spoken for t in tokens):
         return tokens

@@ -229,6 +229,13 @@ def read_relative(
         return ([], [("where", found[0].objects[0])], found[0]) if found and found[0].objects else ([], [], None)
     if len(rest) > 1 and rest[0] in _BE:
         last = [w for w in rest[1:] if w not in _SOFT and w not in ("not",)]
+        if "not" in rest and last and last[0] in section("prepositions") and len(last) > 1:
+            found = read(" ".join(["find", *last[1:]]))
+            return (
+                ([], [(f"not_{last[0]}", found[0].objects[0])], found[0])
+                if found and found[0].objects
+                else ([], [], None)
+            )
         if last and last[0] not in section("prepositions"):
             word = f"not_{last[-1]}" if "not" in rest else last[-1]
             return [word], [], None

@@ -11,6 +11,8 @@ module                holds
 ``layout``            where the parts of an object are drawn
 ``graph``             the object graph of one object, as SVG
 ``candidates``        ranked plans: energies by factor, why each lost
+``wording``           facts and conditions in plain words: the comments of the domain's predicates
+``goals``             what the steps of a text ask for, in words, and where in a plan it comes to hold
 ``subject``           what a page is about
 ``demonstrated``      a demonstration as that
 ``grounding_record``  what `tmd ground --json` printed, read back

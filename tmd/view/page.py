@@ -4,15 +4,20 @@ from __future__ import annotations
 
 import re
 from base64 import b64encode
+from collections import defaultdict
+from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 
 from tmd import __version__
 from tmd.language.clause import Clause
 from tmd.language.notation import print_clause
+from tmd.pddl.model import TRUE
 from tmd.pddl.validator import Verdict, validate
+from tmd.pddl.writer import format_formula
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
+from tmd.view.goals import ShownGoal, all_reached, followed
 from tmd.view.markup import data, style, templates
 from tmd.view.pictures import Strip, Tile
 from tmd.view.run_record import Ran, RanStep
@@ -58,6 +63,7 @@ class _ClauseRow:
 def render(subject: Subject) -> Page:
     """Write the page; the same subject gives the same page."""
     steps, verdict = shown_steps(subject.problem, subject.steps)
+    goals = followed(subject.goals, subject.problem, [step.instruction for step in subject.steps])
     script = data("page.js")
     said = subject.said
     html = (
@@ -66,6 +72,10 @@ def render(subject: Subject) -> Page:
         .render(
             subject=subject,
             verdict=verdict,
+            outcome=_outcome(subject, verdict, goals),
+            goals=goals,
+            ticks=_ticks(goals),
+            pddl=format_formula,
             steps=steps,
             folded=len(steps) > FEW,
             undrawn=next((step.number for step in steps if step.reached and not step.drawn), None),
@@ -80,6 +90,26 @@ def render(subject: Subject) -> Page:
         )
     )
     return Page(_UNFIT.sub("\N{REPLACEMENT CHARACTER}", html), verdict)
+
+
+def _outcome(subject: Subject, verdict: Verdict, goals: Sequence[ShownGoal]) -> str:
+    """What the plan is good for, in a word or two: to be executable is not yet to reach what was asked for."""
+    if not verdict.valid:
+        return "✗ does not work"
+    if goals:
+        return "✓ reaches its goals" if all_reached(goals) else "✗ executable, but not all of its goals are reached"
+    return "✓ executable" if subject.problem.goal == TRUE else "✓ reaches its goal"
+
+
+def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
+    """For the steps after which a goal holds, or does not any more, a sign and the goal in words."""
+    found: defaultdict[int, list[tuple[str, str]]] = defaultdict(list)
+    for shown in goals:
+        if shown.since:
+            found[shown.since].append(("✓", shown.words))
+        if shown.until:
+            found[shown.until].append(("no longer", shown.words))
+    return found
 
 
 def _candidates(subject: Subject, verdict: Verdict) -> str:

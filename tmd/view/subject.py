@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from tmd.energy.plans import RankedPlan, Refusal
+from tmd.energy.plans import RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
 from tmd.veil.world import World
@@ -62,6 +62,7 @@ class Subject:
         ran: What a robot made of it.
         strip: The pictures of that.
         made: What decides all this, as names and values.
+        refused: Why there is no plan for what was said; empty where there is one, or where nobody knows.
     """
 
     title: str
@@ -73,6 +74,12 @@ class Subject:
     ran: Ran | None = None
     strip: Strip | None = None
     made: tuple[tuple[str, str], ...] = ()
+    refused: str = ""
+
+    @property
+    def goals(self) -> tuple[StepGoal, ...]:
+        """What the steps of the text ask for, of the plan that is shown."""
+        return self.plans[0].goals if self.plans else ()
 
 
 def grounded_subject(
@@ -87,6 +94,7 @@ def grounded_subject(
     made: Iterable[tuple[str, str]] = (),
     ran: Ran | None = None,
     strip: Strip | None = None,
+    refused: str = "",
 ) -> Subject:
     """The best plan of a grounded text; without any plan the text alone."""
     problem = world.task.problem
@@ -106,4 +114,5 @@ def grounded_subject(
         ran,
         strip,
         tuple(made),
+        refused,
     )

@@ -1,0 +1,62 @@
+"""What a text asks for, taken all in all: one PDDL condition on the end of its plan."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+
+from tmd.energy.plans import RankedPlan
+from tmd.pddl.conjunctions import conjuncts
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import And, Atom, Formula, Not, Or
+from tmd.pddl.semantics import holds
+from tmd.pddl.task import Task
+
+
+def end_goal(plan: RankedPlan, task: Task) -> Formula | None:
+    """What the steps of a text asked for and later steps did not undo, as one condition; ``None`` without goals.
+
+    A conjunct that does not hold at the end of ``plan`` was undone by a later step: *open the fridge, …, close it*. Of
+    alternatives only those are left that hold at the end, if a later step speaks of what was chosen: in *fill a cup and
+    put it in the microwave* the cup in the microwave must be full.
+
+    Args:
+        plan: A plan for the text.
+        task: The environment that the text was grounded in.
+    """
+    if not plan.goals:
+        return None
+    end, objects = task.decode(plan.state), universe(task.problem)
+    asked = [conjuncts(goal.formula) if goal.formula is not None else [] for goal in plan.goals]
+    found: dict[Formula, None] = {}
+    for number, parts in enumerate(asked, start=1):
+        later = {name for others in asked[number:] for other in others for name in _objects(other)}
+        for part in parts:
+            if holds(part, end, objects):
+                standing = [inner for inner in _alternatives(part) if holds(inner, end, objects)]
+                found[_narrowed(part, standing, later)] = None
+    return next(iter(found)) if len(found) == 1 else And(tuple(found))
+
+
+def _narrowed(part: Formula, standing: list[Formula], later: Collection[str]) -> Formula:
+    """A disjunction without what was not chosen, where later steps speak of what was."""
+    every = set.intersection(*(_objects(inner) for inner in _alternatives(part)))
+    chosen = {name for inner in standing for name in _objects(inner)} - every
+    if not chosen & set(later):
+        return part
+    return standing[0] if len(standing) == 1 else Or(tuple(standing))
+
+
+def _alternatives(part: Formula) -> tuple[Formula, ...]:
+    return part.parts if isinstance(part, Or) else (part,)
+
+
+def _objects(formula: Formula) -> set[str]:
+    """The objects that a condition over ground atoms speaks of."""
+    match formula:
+        case Atom(_, terms):
+            return set(terms)
+        case Not(part):
+            return _objects(part)
+        case And(parts) | Or(parts):
+            return {name for part in parts for name in _objects(part)}
+    raise TypeError(f"not ground: {formula}")

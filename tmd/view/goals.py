@@ -1,0 +1,114 @@
+"""What the steps of a text ask for, in words, and where in a plan each of it comes to hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.energy.plans import StepGoal
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State
+from tmd.pddl.semantics import holds
+from tmd.pddl.validator import validate
+from tmd.view.wording import Wording
+
+GUESS = "a guess"
+"""A note on a step without a goal begins with this where its instructions were guessed."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShownGoal:
+    """The goal of a step as it is shown.
+
+    Attributes:
+        goal: The goal.
+        words: What it says; empty where there is none.
+        since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
+        until: Where it was reached and does not hold in the end, the number of the step that undid it.
+        reached: Whether it holds when its own part of the plan is done.
+    """
+
+    goal: StepGoal
+    words: str
+    since: int | None = None
+    until: int | None = None
+    reached: bool = False
+
+    @property
+    def asked(self) -> bool:
+        """Whether there is something that a state shows."""
+        return self.goal.formula not in (None, TRUE)
+
+    @property
+    def told(self) -> str:
+        """The words, or why there are none: *nothing is done: the condition does not hold*."""
+        goal = self.goal
+        if self.asked:
+            return self.words
+        return goal.note if goal.formula is not None or goal.note.startswith(GUESS) else f"nothing is done: {goal.note}"
+
+    @property
+    def standing(self) -> str:
+        """When it holds: *already so*, *holds after step 3*, *already so since step 3, until step 7*, *not reached*."""
+        if not self.asked:
+            return ""
+        if not self.reached:
+            return "not reached"
+        if self.goal.already:
+            since = f"already so since step {self.since}" if self.since else "already so"
+        else:
+            since = f"holds after step {self.since}"
+        return since + (f", until step {self.until}" if self.until else "")
+
+    @property
+    def sign(self) -> str:
+        """A tick for what holds in the end or held when it was asked for, a cross for what was not reached."""
+        if not self.asked:
+            return "?" if self.goal.note.startswith(GUESS) else "–"
+        return "✓" if self.reached else "✗"
+
+
+def in_words(goals: Iterable[StepGoal], problem: Problem) -> list[ShownGoal]:
+    """The goals in words."""
+    wording = Wording(problem)
+    return [ShownGoal(goal, _words(goal.formula, wording)) for goal in goals]
+
+
+def _words(formula: Formula | None, wording: Wording) -> str:
+    return "" if formula in (None, TRUE) else wording.condition(formula)
+
+
+def followed(goals: Sequence[StepGoal], problem: Problem, plan: Iterable[Instruction]) -> list[ShownGoal]:
+    """The goals in words, each with where in ``plan`` it comes to hold.
+
+    Args:
+        goals: The goals.
+        problem: Where the plan begins.
+        plan: The plan; what follows an instruction that cannot be executed is left out.
+    """
+    states = validate(problem, plan, trace=True).trace if goals else ()
+    return [_placed(shown, states, problem) for shown in in_words(goals, problem)]
+
+
+def _placed(shown: ShownGoal, states: Sequence[State], problem: Problem) -> ShownGoal:
+    goal = shown.goal
+    if goal.formula is None or not shown.asked:
+        return shown
+    objects = universe(problem)
+    true = [holds(goal.formula, state, objects) for state in states]
+    if goal.last >= len(true) or not true[goal.last]:
+        return shown
+    place = len(true) - 1 if true[-1] else goal.last
+    since = next((before + 1 for before in reversed(range(place)) if not true[before]), 0)
+    until = next((after for after in range(place, len(true)) if not true[after]), None)
+    return ShownGoal(goal, shown.words, since, until, reached=True)
+
+
+def all_reached(goals: Iterable[ShownGoal]) -> bool:
+    """Whether every goal was reached, and nothing was guessed."""
+    return all(shown.reached if shown.asked else not shown.goal.note.startswith(GUESS) for shown in goals)
+
+
+def why_refused(clause: int, message: str, hint: str | None) -> str:
+    """Why there is no plan for what was said: *clause 1: nothing here is called 'zebra' (name a thing …)*."""
+    return f"clause {clause + 1}: {message}" + (f" ({hint})" if hint else "")
