@@ -7,6 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
+from tmd.language.clause import Mood
 from tmd.language.coverage import FOREIGN, NO_VERB, NO_WORDS, is_filler
 from tmd.language.tokens import Kind, tokenise
 
@@ -32,7 +33,7 @@ def test_the_paper_s_example() -> None:
         ("turn the stove on", ["(turn_on, [stove])"]),
         ("Turn on the stove", ["(turn_on, [stove])"]),
         ("turn the knob on the stove", ["(turn, [knob, stove], on: knob -> stove)"]),
-        ("a cup of water", []),
+        ("a cup of water", ["(have, [cup, water], of: cup -> water)"]),
         ("take a cup of water", ["(take, [cup, water], of: cup -> water)"]),
         ("take some of the cups", ["(take, [cup])"]),
         ("Fill the raspberry syrups", ["(fill, [raspberry_syrup])"]),
@@ -117,15 +118,20 @@ def test_folds(text: str, field: str, value: str) -> None:
         ("Nimm die Tasse und stell sie auf den Tisch", FOREIGN),
         ("Prends la tasse et mets-la dans le four", FOREIGN),
         ("возьми чашку и поставь", FOREIGN),
-        ("the red cup", NO_VERB),
+        ("cups", NO_VERB),
         ("The cup is on the table.", "a statement, not an instruction"),
-        ("Do not touch the stove.", "says what not to do"),
     ],
 )
 def test_no_clause_but_a_reason(text: str, reason: str) -> None:
     parsed = parse(text)
     assert parsed.clauses == ()
     assert [s.reason for s in parsed.skipped] == [reason]
+
+
+def test_a_prohibition_is_a_constraint_and_no_instruction() -> None:
+    parsed = parse("Do not touch the stove.")
+    assert parsed.clauses == parsed.skipped == ()
+    assert [(c.verb, c.objects, c.mood) for c in parsed.constraints] == [("touch", ("stove",), Mood.AVOID)]
 
 
 def test_quantities_and_numbers() -> None:
@@ -235,8 +241,8 @@ _ANY = st.text(alphabet=string.printable + "äß|\u2013\u2019🙂\u0000\u200b中
 
 
 def lost(parsed: Parsed) -> list[str]:
-    """Return the words that neither a clause nor an entry of ``skipped`` covers and that are no filler."""
-    spans = [c.span for c in parsed.clauses] + [s.span for s in parsed.skipped]
+    """Return the words that no clause, constraint or entry of ``skipped`` covers and that are no filler."""
+    spans = [c.span for c in (*parsed.clauses, *parsed.constraints)] + [s.span for s in parsed.skipped]
     return [
         token.text
         for token in tokenise(parsed.text)

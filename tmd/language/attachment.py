@@ -137,7 +137,7 @@ class Draft:
         mentions = self.mentions()
         return Clause(
             verb=self.verb.stem,
-            objects=tuple(p.name for p in mentions),
+            objects=tuple(dict.fromkeys([*(p.name for p in mentions), *self.further])),
             relations=tuple(dict.fromkeys(self.relations)),
             span=span,
             text=text[span.start : span.end],
