@@ -14,7 +14,7 @@ JOBLIB = "joblib"
 DASK = "dask"
 DEFAULT_MODELS = (
     *("empty", "chance", "templates", "tree", "no_nl", "nearest", "no_domain", "no_latent", "full"),
-    *("paper", "policy"),
+    *("paper", "policy", "goals"),
 )
 """Table II, and what is measured beside it."""
 

@@ -1,9 +1,11 @@
-"""Which predictions of a run a robot carries out: in each environment one, of the row that is best on the whole."""
+"""Which predictions of a run a robot carries out: in each environment one, of the model that ships."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+from tmd.energy.config import DEFAULT
 from tmd.evaluation.records import Line, Run
 from tmd.evaluation.summary import EMPTY
 
@@ -26,19 +28,25 @@ class Choice:
 def choices(run: Run) -> list[Choice]:
     """One for each environment that was tested in, in the order of the run.
 
-    The row has the greatest END on average, in a tie the last. Of its predictions in an environment the first is taken
-    that can be executed under PDDL: what the person did is not looked at, so nothing is picked for its score.
+    The row is the model that ships, so that the films show what users get; where a run is without it, the row with the
+    greatest END on average, in a tie the last. Of its predictions in an environment the first is taken that can be
+    executed under PDDL, and that reaches its goal if one does.
     """
     rows = [name for name in run.metrics.models if name != EMPTY]
     if not rows:
         return []
-    best = max(reversed(rows), key=lambda name: run.metrics.models[name].average.END)
+    best = DEFAULT if DEFAULT in rows else max(reversed(rows), key=lambda name: run.metrics.models[name].average.END)
     lines = run.of(best)
     environments = sorted({line.environment for line in lines})
     return [
-        Choice(where, best, next((line for line in lines if line.environment == where and _works(line)), None))
+        Choice(where, best, _first([line for line in lines if line.environment == where and _works(line)]))
         for where in environments
     ]
+
+
+def _first(lines: Sequence[Line]) -> Line | None:
+    """The first that reaches its goal, or the first."""
+    return next((line for line in lines if line.success), next(iter(lines), None))
 
 
 def _works(line: Line) -> bool:
