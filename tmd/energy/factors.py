@@ -7,7 +7,6 @@ from collections.abc import Collection, Sequence
 from tmd.energy.config import AKIN
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube
 from tmd.veil.instantiate import Instantiation
 from tmd.veil.states import differences
 
@@ -80,12 +79,3 @@ def delta_cover(names: Collection[str], used: Collection[str]) -> float:
     the bowl* from being served by what somebody did for *get it boiling*. 0 where the clause speaks of no object.
     """
     return sum(name not in used for name in names) / len(names) if names else 0.0
-
-
-def delta_stated(stated: Sequence[Sequence[Cube]], end: Bits) -> float:
-    """The share of the relations that the clause states which do not hold in the end.
-
-    Not in the paper, where nothing asks whether *put the cup on the table* leaves the cup on the table but that
-    somebody did so in a demonstration. 0 where the clause states none.
-    """
-    return sum(not any(cube.holds(end) for cube in cubes) for cubes in stated) / len(stated) if stated else 0.0

@@ -102,7 +102,6 @@ class Crf:
         absent = (
             *(() if config.extended else OURS),
             *(() if config.policy else ("words", "generated")),
-            *(() if config.goals else ("stated",)),
             *(() if config.language else _SPOKEN),
             *(() if config.knowledge else _BLIND),
             *(() if config.latent else _LATENT),

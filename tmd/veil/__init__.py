@@ -10,7 +10,6 @@ module              holds
 ``states``          what can be said of one object in a state: its own states, its relations
 ``template``        generalising a demonstrated sequence: objects become variables
 ``library``         the templates of a corpus, by verb; what a demonstration shows, clause by clause
-``stated``          what a clause says shall hold when it is done
 ``mentions``        nouns of a clause to the objects of an environment
 ``world``           an environment, ground, with its objects' states, kinds and nouns
 ``instantiate``     a template in a new environment: the three rules of section V-A

@@ -21,10 +21,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from tmd.language.clause import Clause
+from tmd.language.clause import Clause, Relation
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.stated import resolved_relations
 from tmd.veil.states import Profile, shared
 from tmd.veil.template import Template
 from tmd.veil.world import World
@@ -74,6 +73,16 @@ def instantiate(
 def replace(instructions: Sequence[Instruction], grounding: Mapping[str, str]) -> tuple[Instruction, ...]:
     """The instructions with each variable replaced by its object: the paper's *replace*."""
     return tuple(Instruction(i.name, tuple(grounding.get(a, a) for a in i.args)) for i in instructions)
+
+
+def resolved_relations(clause: Clause) -> list[Relation]:
+    """The relations of a clause with pronouns replaced by what they most likely mean."""
+
+    def meant(name: str | None) -> str | None:
+        likeliest = clause.antecedents.get(name or "", ())
+        return likeliest[0] if likeliest else name
+
+    return [Relation(r.relation, meant(r.source), meant(r.target) or r.target) for r in clause.relations]
 
 
 def _by_language(template: Template, clause: Clause, world: World, state: Bits) -> Iterator[tuple[str, str]]:
