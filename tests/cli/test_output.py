@@ -15,9 +15,9 @@ DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 TEXT = "Fill the pot with water."
 GROUND_KEYS = [
     "text", "domain", "environment", "clauses", "skipped", "unseen_verbs", "unknown_nouns", "plans", "refusals",
-    "environment_file", "made_with",
+    "refused", "warnings", "environment_file", "made_with",
 ]  # fmt: skip
-PLAN_KEYS = ["steps", "energy", "factors", "valid", "cost", "why_not_first", "choices"]
+PLAN_KEYS = ["steps", "energy", "factors", "valid", "cost", "why_not_first", "choices", "goal", "goals"]
 
 
 def test_ground_json(tmd: Tmd, environment: Path) -> None:
@@ -178,19 +178,20 @@ def test_a_million_characters(tmd: Tmd) -> None:
     assert "more than 1,000,000" in ended.err
 
 
-def test_what_is_unknown_is_told(tmd: Tmd, environment: Path) -> None:
-    ended = tmd(
-        "ground", "--environment", environment, "--text", f"{TEXT} Flurble it. Put the zebra in the sink.", "--json"
-    )
+def test_what_is_unknown_is_told_by_models_without_goals(tmd: Tmd, environment: Path) -> None:
+    text = f"{TEXT} Flurble it. Put the zebra in the sink."
+    ended = tmd("ground", "--environment", environment, "--model", "policy", "--text", text, "--json")
     told = json.loads(ended.out)
     assert told["unseen_verbs"] == ["flurble"]
     assert told["unknown_nouns"] == ["zebra"]
     assert "warning: no demonstration has the verb 'flurble'" in ended.err
     assert "warning: nothing here is called 'zebra'" in ended.err
+    assert ended.err.splitlines() == [f"warning: {warning}" for warning in told["warnings"]]
 
 
-def test_what_is_only_alike_in_meaning_is_told(tmd: Tmd, environment: Path) -> None:
-    ended = tmd("ground", "--environment", environment, "--text", "Put the cauldron in the sink.")
+@pytest.mark.parametrize("options", [["--guess"], ["--model", "policy"]], ids=["guess", "policy"])
+def test_what_is_only_alike_in_meaning_is_told(tmd: Tmd, environment: Path, options: list[str]) -> None:
+    ended = tmd("ground", "--environment", environment, "--text", "Put the cauldron in the sink.", *options)
     said = re.search(
         "nothing here is called 'cauldron'; by likeness of meaning it was taken for ([a-z0-9_]+)", ended.err
     )
@@ -213,12 +214,16 @@ def test_output_is_not_half_written(tmd: Tmd, tmp_path: Path, environment: Path)
 
 
 def test_domains_of_ones_own(tmd: Tmd, tmp_path: Path) -> None:
-    """A folder with a plain domain.pddl is a domain; it has no demonstrations yet, and tmd says so."""
+    """A folder with a plain domain.pddl is a domain; it has no demonstrations yet, and models that need them say so."""
     folder = tmp_path / "own" / "blocks"
     folder.mkdir(parents=True)
     (folder / "domain.pddl").write_bytes(DOMAIN.read_bytes())
     roots = ("--domains", tmp_path / "own", "--problems", tmp_path)
     assert tmd(*roots, "plan", "blocks", PROBLEM).code == ExitCode.OK
-    ended = tmd(*roots, "ground", "--environment", PROBLEM, "--domain", "blocks", "--text", "take block a")
+    asked = (*roots, "ground", "--environment", PROBLEM, "--domain", "blocks", "--text", "take block a")
+    ended = tmd(*asked, "--model", "policy")
     assert ended.code == ExitCode.NOT_GROUNDED
     assert "the domain has no demonstrations" in ended.err
+    ended = tmd(*asked)
+    assert ended.code == ExitCode.NOT_GROUNDED
+    assert ended.err.startswith("no plan: clause 1: ")

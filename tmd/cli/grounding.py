@@ -145,7 +145,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     )
     made = made_with(options.planner, options.model_name, config, options.weights, options.top)
     unknown = tuple(unknown_nouns(grounded.parsed.clauses, world))
-    likened = likened_nouns(grounded.parsed.clauses, world)
+    likened = likened_nouns(grounded.parsed.clauses, world) if config.guess or not config.goals else {}
     warned = tuple(warnings(grounded, unknown, frequent_verbs(knowledge.library), likened))
     return Answer(grounded, corpus, world, unknown, warned, made)
 

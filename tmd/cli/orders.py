@@ -42,7 +42,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     """
     from tmd.cli.grounding import made_with
     from tmd.cli.remarks import remarks, warnings
-    from tmd.cli.scene import frequent_verbs, likened_nouns, unknown_nouns
+    from tmd.cli.scene import frequent_verbs, unknown_nouns
     from tmd.cli.show_plans import grounded_json
     from tmd.ground import ground
     from tmd.learned.store import known
@@ -50,8 +50,7 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     knowledge = known(corpus, learned)
     grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
     unknown = unknown_nouns(grounded.parsed.clauses, world)
-    likened = likened_nouns(grounded.parsed.clauses, world)
-    warned = warnings(grounded, unknown, frequent_verbs(knowledge.library), likened)
+    warned = warnings(grounded, unknown, frequent_verbs(knowledge.library), {})
     told = tuple(remarks(grounded, warned))
     record = grounded_json(grounded, corpus.folder.name, world.name, unknown, warned)
     record["made_with"] = made_with(planner)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from difflib import get_close_matches
 
 from tmd.ground import Grounded
@@ -34,23 +34,24 @@ def warnings(
         likened: Nouns that were taken for things of another name that mean something alike.
     """
     if grounded.goal_directed:
-        return warnings_of(grounded)
-    return list(dict.fromkeys(_of_words(grounded, unknown, verbs, likened)))
+        told = [*warnings_of(grounded), *(_likened(likened) if grounded.plans else ())]
+    else:
+        told = [
+            *(f"no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen),
+            *(
+                f"nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
+                for noun in unknown
+            ),
+            *_likened(likened),
+        ]
+    return list(dict.fromkeys(told))
 
 
-def _of_words(
-    grounded: Grounded, unknown: Sequence[str], verbs: Sequence[str], likened: Mapping[str, Sequence[str]]
-) -> list[str]:
-    """Words that a model without goals could not use."""
-    lines = [f"no demonstration has the verb '{_plain(verb)}' ({_other(verb, verbs)})" for verb in grounded.unseen]
-    lines += [
-        f"nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
-        for noun in unknown
-    ]
+def _likened(likened: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """What nouns were taken for that name nothing here."""
     for noun, names in likened.items():
         taken = ", ".join(names[:_SHOWN]) + (" or others" if len(names) > _SHOWN else "")
-        lines.append(f"nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}")
-    return lines
+        yield f"nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}"
 
 
 def warnings_of(grounded: Grounded) -> list[str]:

@@ -62,7 +62,7 @@ def _of_part(shown: ShownGoal, clauses: Sequence[Clause]) -> str:
 
 
 def _told(shown: ShownGoal) -> str:
-    return f"already so: {shown.told}" if shown.asked and shown.goal.already else shown.told
+    return f"{shown.told} (already so)" if shown.asked and shown.goal.already else shown.told
 
 
 def _below(shown: ShownGoal) -> list[str]:
