@@ -58,10 +58,12 @@ def _clauses(plans: Sequence[RankedPlan]) -> list[str]:
 
 def _choices(plan: RankedPlan) -> str:
     lines = []
-    for choice in plan.choices:
+    owners = [goal.clause for goal in plan.goals] or range(len(plan.choices))
+    for owner, choice in zip(owners, plan.choices, strict=True):
         parts = [f"{name} {number(value)}" for name, value in choice.factors.items() if round(value, 2)]
         source = choice.source if choice.source is not None else "no template"
-        lines.append(f"<li><b>{number(choice.energy)}</b> {escape(', '.join(parts))}<br>from {escape(source)}</li>")
+        told = f"<b>{number(choice.energy)}</b> {escape(', '.join(parts))}<br>from {escape(source)}"
+        lines.append(f"<li value='{owner + 1}'>{told}</li>")
     return "".join(lines)
 
 
