@@ -108,6 +108,7 @@ class _Text:
         self.task = constraints.task
         self.planner = inference.planner(self.task)
         self.resort: Planner | None = None
+        self.far = True
         self.top = top
         self.refusals: dict[Refusal, None] = {}
 
@@ -116,6 +117,7 @@ class _Text:
         found: list[_Way] = []
         refused: Refused | None = None
         for way in ways:
+            self.far = not found  # what takes long is planned for once, on the best way that there is
             answer = self._from(step, way)
             if isinstance(answer, Refused):
                 refused = refused or answer
@@ -214,7 +216,7 @@ class _Text:
     def _fill(self, state: Bits, aim: Sequence[Cube], *, far: bool = True) -> Filled | Unreachable | None:
         """The quick planner's answer, or else that of the one that goes further."""
         answer = self.planner.fill(state, aim)
-        if isinstance(answer, Filled | Unreachable) or not far or not self.inference.config.last_resort:
+        if isinstance(answer, Filled | Unreachable) or not (far and self.far and self.inference.config.last_resort):
             return answer if isinstance(answer, Filled | Unreachable) else None
         if self.resort is None:
             self.resort = self.inference.resort(self.task)

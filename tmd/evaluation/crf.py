@@ -256,12 +256,11 @@ class Crf:
         planner = planner_for(data, example.environment, config.cap)
         planners = TaskPlanners(world.task, planner, IN_PROCESS, config)
         said = self._said(example, data)
+        if config.goals:
+            # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
+            config = replace(config, guess=True)
         ground = partial(ground_clauses, said, world, taught.library, energy, planners, policy=policy, top=top)
-        plans = ground(config, goals=taught.goals).plans
-        if plans or not config.goals:
-            return plans
-        # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
-        return ground(replace(config, guess=True), goals=taught.goals).plans
+        return ground(config, goals=taught.goals).plans
 
     def _said(self, example: Example, data: Worlds) -> Parsed:
         if not self.config.language:

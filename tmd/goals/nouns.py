@@ -16,7 +16,7 @@ from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
-_INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
+INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 """Relations said the other way round: what is under the pot is what the pot stands on."""
 _CONTENTS = frozenset({"of", "with", "containing"})
 
@@ -200,8 +200,8 @@ class Nouns:
 
     def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
         """That ``name`` stands in a relation to ``target``: as the table says it, or as the facts themselves do."""
-        if relation in _INVERSE and not self._declared(relation):
-            return self.related(_INVERSE[relation], target, name, moments)
+        if relation in INVERSE and not self._declared(relation):
+            return self.related(INVERSE[relation], target, name, moments)
         for row in self.table.of("be"):
             direct, places = row.direct, row.places
             if direct is None or len(places) != 1:

@@ -19,13 +19,14 @@ from tmd.goals.grounder import (
     negation,
     only_negative,
 )
-from tmd.goals.nouns import Bound, Memory, Mode, Nouns, Referent, mode_of, relations_said
+from tmd.goals.nouns import INVERSE, Bound, Memory, Mode, Nouns, Referent, mode_of, relations_said
 from tmd.goals.senses import family, results, words_of
-from tmd.goals.table import PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot, slot_types
+from tmd.goals.table import FIRST, PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot, slot_types, split_predicate
 from tmd.goals.why import why_impossible
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon import Lexicon
 from tmd.language.pronouns import is_pronoun
+from tmd.pddl.conjunctions import predicates_of
 from tmd.pddl.grounding import ground_condition
 from tmd.pddl.model import And, Atom, Formula, Not, Or
 from tmd.pddl.task import Bits, Cube
@@ -108,6 +109,8 @@ class _Reading:
     meant: dict[str, tuple[str, ...]] = field(default_factory=dict)
     approach: list[Formula] = field(default_factory=list)
     released: list[str] = field(default_factory=list)
+    wanted: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """Adjectives of nouns that tell what shall be, not which thing is meant."""
     asked: set[str] = field(default_factory=set)
     """The nouns whose meaning is being asked for: none leads to itself."""
     strict: bool = False
@@ -286,13 +289,23 @@ class GoalReader:
         if unit.direct is None or not self._points_back(unit.direct):
             return self._with_rows(rows, unit, reading)
         failure: Refused | None = None
+        held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
         reading.pronoun = unit.direct
-        for number in range(len(self._antecedents(unit.direct, reading)) or 1):
+        options = self._antecedents(unit.direct, reading)
+        for number in range(len(options) or 1):
             reading.antecedent = number
+            before = dict(reading.meant)
             found = self._with_rows(rows, unit, reading)
-            if not isinstance(found, Refused):
+            if isinstance(found, Refused):
+                failure = failure or found
+            elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
+                held = held or (found, reading.meant)  # so already: rather what is not
+                reading.meant = before
+            elif held is None or not options[number][1] or _looks_back(found[1]):
                 return found
-            failure = failure or found
+        if held is not None:
+            reading.meant = held[1]
+            return held[0]
         assert failure is not None
         return failure
 
@@ -571,7 +584,19 @@ class GoalReader:
                     continue
                 found.append(self._relation_goal(variable, relation, names, reading))
         found += self._substance_attributes(row, pairs, reading)
+        for variable, referent in pairs:
+            if referent.noun in reading.wanted:
+                found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
         return found
+
+    def _state_wanted(
+        self, variable: str, words: Sequence[str], reading: _Reading
+    ) -> Callable[[Mapping[str, str]], Formula]:
+        def goal(binding: Mapping[str, str]) -> Formula:
+            said = (self.nouns.attribute(word, binding[variable], reading.moments) for word in words)
+            return conjunction(formula for formula in said if formula is not None)
+
+        return goal
 
     def _relation_goal(
         self, variable: str, relation: str, names: Sequence[str], reading: _Reading
@@ -747,8 +772,15 @@ class GoalReader:
         mode, number = mode_of(phrase, group=group, thing=True)
         if mode is not Mode.ANY and not group:
             objects, group = self._all_kinds(noun, objects, types, reading)
+        if phrase.number == 2 and mode is Mode.ALL:
+            mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
         referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
+        whole = referent.names
         referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
+        if whole and not referent.names and any(relation == "of" for relation, _ in relations):
+            # "a hot cup of coffee": the cup shall be so, with what is in it
+            reading.wanted[noun] = phrase.attributes
+            referent = replace(referent, names=whole)
         if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
             referent = replace(referent, names=())
         reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
@@ -765,6 +797,11 @@ class GoalReader:
     ) -> tuple[tuple[str, ...], bool]:
         """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
         matches = self.world.mentions.of(noun, reading.state)
+        if len(objects) == 1 and noun in self.lexicon.nouns:
+            wider = set(self.lexicon.nouns[noun])
+            kinds = self.world.mentions.kinds
+            names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
+            return (tuple(names), True) if len(names) > 1 else (objects, False)
         if not matches or matches[0].how != "alias":
             return objects, False
         names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
@@ -786,8 +823,8 @@ class GoalReader:
             if relation in ("without", "for") or not names:
                 continue
             now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
-            if now:
-                referent = replace(referent, names=now)
+            if now or relation in INVERSE or relation == "where":
+                referent = replace(referent, names=now)  # what stands on nothing has no burner under it
         return referent
 
     def _targets(self, noun: str, reading: _Reading) -> tuple[str, ...]:
@@ -990,6 +1027,11 @@ def replace_reading(reading: _Reading, strict: bool) -> _Reading:
 def print_clause_text(clause: Clause) -> str:
     """The clause as it was said, for messages."""
     return " ".join(clause.text.split()) or clause.verb.replace("_", " ")
+
+
+def _looks_back(row: GoalRow) -> bool:
+    """Whether a row speaks of how things were at first: *put it back* is said of what was moved."""
+    return any(split_predicate(name)[1] == FIRST for name in predicates_of(row.condition))
 
 
 def _product(options: Sequence[Sequence[Referent]]) -> Iterator[tuple[Referent, ...]]:

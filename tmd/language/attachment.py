@@ -18,7 +18,7 @@ from tmd.language.tokens import IMPLIED, NAME, Kind, Token
 from tmd.language.words import section
 
 _ORIGIN = frozenset({"from", "out_of", "off"})
-_NEVER_HOSTS = frozenset({"with", "for", "using", "of", "containing"})
+_NEVER_HOSTS = frozenset({"with", "without", "except", "for", "using", "of", "containing"})
 _MULTIPLE = "; "
 WHOLES = frozenset({"everything", "anything", "all", "everybody", "both", "each", "every_thing"})
 """Words that mean all there is."""
@@ -84,7 +84,7 @@ class Phrase:
         return NounPhrase(
             self.name,
             quantifier,
-            number_of(self.quantity) if self.quantity else None,
+            number_of(self.quantity) if self.quantity else 2 if "both" in words else None,
             any(w in _DEFINITE for w in self.lead)
             or (self.determined and not any(w in _INDEFINITE for w in self.lead)),
             self.plural,

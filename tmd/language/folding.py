@@ -309,6 +309,9 @@ class _Folder:
         verb = False
         for place in range(at + 1, end):
             token = self.tokens[place]
+            inside = self.tokens[place - 1].kind is Kind.PRON and self.tokens[place - 2].kind is Kind.P
+            if verb and inside and token.kind in (Kind.P, Kind.TO):
+                return place  # "the cup that has water in it | in the sink"
             if verb and said and token.kind in (Kind.P, Kind.TO) and token.text in _WHITHER and token.form != "inf":
                 return place
             said = said or (verb and (token.kind in (Kind.N, Kind.PRON, Kind.ADJ) or token.text in ("there", "here")))

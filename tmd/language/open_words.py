@@ -29,6 +29,9 @@ def read_word(
         return Kind.N
     if _is_result(token, previous, following):
         return Kind.ADV
+    determined = previous is not None and previous.kind is Kind.DET
+    if determined and token.text in section("drop_adjectives") and following is not None and following.text == "can":
+        return Kind.ADJ  # "the empty can": the noun, which looks like an auxiliary
     if at and tokens[at - 1].text in _DEGREES and not (following and following.kind in ARTICLES):
         return Kind.ADJ
     turning = previous is not None and previous.kind is Kind.V and previous.stem in ("turn", "go", "look", "head")

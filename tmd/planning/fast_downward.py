@@ -38,7 +38,7 @@ def fast_downward(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
     return UnifiedPlanner(task, spec(task.problem.domain, time_limit))
 
 
-def first_plan(task: Task, *, time_limit: float = 20.0) -> UnifiedPlanner:
+def first_plan(task: Task, *, time_limit: float = 10.0) -> UnifiedPlanner:
     """Fast Downward for ``task``, content with the first plan it finds; arguments and errors as above."""
     _installed()
     search = {"fast_downward_search_config": FIRST}
