@@ -1,0 +1,51 @@
+"""Bundled domains, and texts grounded in them by the model that ships."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import tmd
+from tmd.api import DomainKit
+from tmd.ground import Grounded
+from tmd.pddl.model import Formula
+from tmd.pddl.writer import format_formula
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+@cache
+def corpus(domain: str) -> Corpus:
+    return Corpus(DomainFolder(ROOT / "domains" / domain), ROOT / "problems" / domain)
+
+
+@cache
+def kit(domain: str) -> DomainKit:
+    return tmd.load_domain(domain, domains=ROOT / "domains", problems=ROOT / "problems")
+
+
+def said(domain: str, environment: str, text: str) -> Grounded:
+    return kit(domain).ground(text, environment)
+
+
+def pddl(formula: Formula | None) -> str:
+    return "" if formula is None else " ".join(format_formula(formula).split())
+
+
+def goals(grounded: Grounded) -> list[str]:
+    """The goals of the steps of the first plan; empty for a step that asks for nothing."""
+    return [pddl(goal.formula) for goal in grounded.plans[0].goals]
+
+
+def steps(grounded: Grounded) -> list[str]:
+    """The first plan, which the validator vouches for."""
+    assert grounded.verdicts[0].valid
+    return [str(instruction) for instruction in grounded.plans[0].instructions]
+
+
+def end(grounded: Grounded) -> set[str]:
+    """The facts that hold when the first plan is done."""
+    assert grounded.verdicts[0].valid
+    return {str(atom) for atom in grounded.world.task.decode(grounded.plans[0].state)}
