@@ -16,8 +16,8 @@ from tmd.energy.constraints import Constraints as Needs
 from tmd.energy.energy import Energy
 from tmd.energy.plans import Choice, Inferred, Path, RankedPlan, Refusal, Step, StepGoal, why_lost
 from tmd.energy.proposers import PLANNER_SOURCE, Candidate, Instructions, Proposer, Situation
+from tmd.goals.clause_goal import Refused, Why
 from tmd.goals.follow import Constraints, Context, Follower, Target
-from tmd.goals.reading import Refused, Why
 from tmd.goals.steps import Role
 from tmd.goals.steps import Step as GoalStep
 from tmd.language.clause import Clause, Parsed
@@ -174,9 +174,9 @@ class _Text:
         return found
 
     def _in_passing(self, target: Target, state: Bits) -> bool:
-        """Whether a goal of several parts is one for each, but not for all at once, and the next clause goes on with them.
+        """Whether each part of a goal can be reached, but not all at once, and the next clause goes on with them.
 
-        *Pick up the boxes and the cans and put them in the bag*: no robot has so many hands, and none is asked for.
+        *Pick up the boxes and the cans and put them in the bag*: nobody has so many hands.
         """
         goal, number = target.goal, target.step.number
         following = self.clauses[number + 1] if number + 1 < len(self.clauses) else None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from tmd.goals.reading import Refused
+from tmd.goals.clause_goal import Refused
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 

@@ -9,7 +9,7 @@ from itertools import product
 
 from tmd.pddl.conjunctions import conjuncts, signed_atoms
 from tmd.pddl.model import Atom, Domain, Formula, GroundAtom
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Cube, Operator, Task
 
 _MOST = 512
 """So many conjunctions are made of a goal and of what must be kept."""
@@ -153,12 +153,16 @@ def _named(cubes: Sequence[Cube], task: Task) -> set[str]:
 
 
 def without_operators(task: Task, forbidden: Bits, names: Collection[str] = ()) -> Task:
-    """The task without the operators that may make an atom of ``forbidden`` true, or handle one of ``names``."""
-    operators = tuple(
-        o
-        for o in task.operators
-        if not o.add & forbidden
-        and not any(effect.add & forbidden for effect in o.conditional)
-        and not set(o.instruction.args) & set(names)
-    )
+    """The task without the operators that make an atom of ``forbidden`` true, or handle one of ``names``.
+
+    An operator that does so under a condition is there where that does not hold.
+    """
+    kept = (o for o in task.operators if not o.add & forbidden and not set(o.instruction.args) & set(names))
+    operators = tuple(_harmless(operator, forbidden) for operator in kept)
     return replace(task, operators=operators, by_instruction={o.instruction: o for o in operators})
+
+
+def _harmless(operator: Operator, forbidden: Bits) -> Operator:
+    """The operator, but for the states where a condition of it would make something forbidden true."""
+    harmful = tuple(effect.condition for effect in operator.conditional if effect.add & forbidden)
+    return replace(operator, forbidden=(*operator.forbidden, *harmful)) if harmful else operator

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+from tmd.goals.clause_goal import ClauseGoal, Refused, Why
 from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.nouns import Memory, Referent
-from tmd.goals.reading import ClauseGoal, GoalReader, Refused, Why, bindings_of
+from tmd.goals.reading import GoalReader, bindings_of
 from tmd.goals.steps import Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
 from tmd.language.pronouns import is_pronoun
@@ -196,7 +197,7 @@ class Follower:
         if clause.verb in _NEVER and not self._declared(clause.verb):
             names = {n for noun in clause.direct for n in self.reader.nouns.things(noun, state)}
             if not names:
-                return self.reader.missing(clause)
+                return self.reader.referents.not_there(clause)
             for name in tuple(names):
                 names.update(self.reader.grounder.relatives(name, 0))
             return 0, names, []
@@ -250,7 +251,9 @@ class Follower:
             return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
         if not names:
-            return self.reader.missing(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
+            return (
+                self.reader.referents.not_there(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
+            )
         constants = self.reader.world.profiles.constants
         found = []
         for atom in self.task.names(state):

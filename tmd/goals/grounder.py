@@ -57,6 +57,12 @@ class Grounder:
         """Whether an object is of one of ``types``."""
         return self._objects.is_a(name, types)
 
+    def fits(self, name: str, types: tuple[str, ...]) -> bool:
+        """Whether an object, a part of it or what it controls is of one of ``types``: it may stand where they do."""
+        return self.is_a(name, types) or any(
+            self.is_a(other, types) for level in range(2) for other in self.relatives(name, level)
+        )
+
     def of_types(self, types: tuple[str, ...]) -> tuple[str, ...]:
         """The objects of any of ``types``."""
         return self._objects.of(types)
@@ -136,7 +142,7 @@ class Grounder:
         return []
 
     def relatives(self, name: str, level: int) -> tuple[str, ...]:
-        """What may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 the other parts of that."""
+        """What may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 other parts."""
         if name not in self._relatives:
             self._relatives[name] = self._find_relatives(name)
         return self._relatives[name][level]

@@ -76,7 +76,7 @@ def _named(clause: Clause) -> list[str]:
 
 
 def _condition(condition: Condition, draft: Draft, scenes: list[_Scene]) -> Condition:
-    """A condition with the antecedents of its pronouns: from the clauses before, or from its own if it stands behind."""
+    """A condition with the antecedents of its pronouns: from the clauses before, or from its own."""
     ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
     recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
     behind = tuple(p.name for p in draft.mentions() if not p.pronoun)

@@ -1,0 +1,102 @@
+"""What a clause asks for, and why it may have no goal: the data of :mod:`tmd.goals`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from tmd.goals.grounder import Moments
+from tmd.goals.nouns import Memory
+from tmd.goals.table import GoalRow
+from tmd.language.clause import Clause
+from tmd.pddl.model import Formula
+from tmd.pddl.task import Bits, Cube
+
+
+class Why(StrEnum):
+    """Why there is no goal, or no plan."""
+
+    NO_SUCH_THING = "no-such-thing"
+    IMPOSSIBLE = "impossible"
+    UNKNOWN_VERB = "unknown-verb"
+    NOT_UNDERSTOOD = "not-understood"
+    CONDITION = "condition"
+    CONTRADICTION = "contradiction"
+    GAVE_UP = "gave-up"
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """Why a clause has no goal here; ``hint`` is what could be said or done instead."""
+
+    why: Why
+    message: str
+    hint: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ClauseGoal:
+    """What a clause asks for.
+
+    Attributes:
+        clause: The clause.
+        formula: The goal, over ground atoms.
+        cubes: The same as a disjunction of conjunctions over the task's atoms.
+        row: The row it was read by; ``None`` for a state ("the door is open").
+        meant: For each noun the objects it may mean.
+        approach: What shall hold on the way, before the goal does: *in the microwave*, *with the remote*.
+        released: Objects whose earlier commitments need not be kept: what is poured leaves where it was.
+        touches: Things that were named; a plan that touches none of a group did something else.
+        notes: What of the clause was not taken into account.
+    """
+
+    clause: Clause
+    formula: Formula
+    cubes: tuple[Cube, ...]
+    row: GoalRow | None = None
+    meant: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    approach: tuple[Formula, ...] = ()
+    released: tuple[str, ...] = ()
+    touches: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class Unit:
+    """One thing that the verb acts on, with what stands behind prepositions."""
+
+    direct: str | None
+    relations: list[tuple[str, str]]
+
+
+@dataclass(slots=True)
+class ClauseReading:
+    """What one clause is read with, in one state."""
+
+    clause: Clause
+    state: Bits
+    moments: Moments
+    memory: Memory
+    notes: list[str] = field(default_factory=list)
+    meant: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    approach: list[Formula] = field(default_factory=list)
+    released: list[str] = field(default_factory=list)
+    wanted: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """Adjectives of nouns that tell what shall be, not which thing is meant."""
+    asked: set[str] = field(default_factory=set)
+    """The nouns whose meaning is being asked for: none leads to itself."""
+    strict: bool = False
+    """Every place that was said must have a slot."""
+    pronoun: str | None = None
+    antecedent: int | None = None
+    """Which of what ``pronoun`` may mean is tried."""
+
+    def again(self, *, strict: bool) -> ClauseReading:
+        """A fresh reading of the same clause."""
+        return ClauseReading(self.clause, self.state, self.moments, self.memory, strict=strict)
+
+
+def text_of(clause: Clause) -> str:
+    """The clause as it was said, for messages."""
+    return " ".join(clause.text.split()) or clause.verb.replace("_", " ")

@@ -1,0 +1,232 @@
+"""What the nouns and pronouns of a clause mean, by what was said of them and what was spoken of before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from tmd.goals.clause_goal import ClauseReading, Refused, Why
+from tmd.goals.grounder import Grounder, Moments
+from tmd.goals.nouns import INVERSE, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.senses import words_of
+from tmd.goals.table import GoalRow, GoalTable, Slot, slot_types
+from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
+from tmd.language.lexicon import Lexicon
+from tmd.language.pronouns import is_pronoun
+from tmd.veil.world import World
+
+
+class Referents:
+    """Finds what noun phrases mean in one environment.
+
+    Args:
+        world: The environment.
+        table: What adjectives and groups mean.
+        lexicon: The domain's words.
+        guess: Whether a thing may be taken for what a noun is only like in meaning.
+    """
+
+    def __init__(self, world: World, table: GoalTable, lexicon: Lexicon, *, guess: bool = False) -> None:
+        self.world = world
+        self.lexicon = lexicon
+        self.domain = world.task.problem.domain
+        self.grounder = Grounder(world)
+        self.nouns = Nouns(world, table, self.grounder, guess=guess)
+
+    def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
+        """The relations in which a noun stands, each with what it is related to."""
+        found = [
+            (r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)
+        ]
+        if clause.setting and name in (*clause.direct, ""):
+            found.append(("to", clause.setting.split()[-1]))
+        return [(r, t) for r, t in found if t not in PERSONS]
+
+    def points_back(self, noun: str) -> bool:
+        """Whether a noun, or its absence, stands for something that was spoken of."""
+        return not noun or is_pronoun(noun) or noun in words_of("anaphors")
+
+    def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
+        """What a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
+        clause, memory = reading.clause, reading.memory
+        if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
+            return [(noun, False)]
+        nouns = [(name, False) for name in clause.antecedents.get(noun, ())]
+        seen = {n for name, _ in nouns for n in (memory.bound[name].names if name in memory.bound else ())}
+        return [*nouns, *((name, True) for name in memory.recent if name not in seen)]
+
+    def referents(
+        self, noun: str, row: GoalRow, slot: Slot, relations: Iterable[tuple[str, str]], reading: ClauseReading
+    ) -> list[Referent]:
+        """What may stand in a slot, likeliest first: one reading for a noun, one for each antecedent of a pronoun."""
+        types = slot_types(row.condition, slot.variable, self.domain)
+        clause = reading.clause
+        phrase = clause.phrase(noun)
+        if not self.points_back(noun):
+            return [self._named(noun, phrase, types, list(relations), reading)]
+        if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
+            return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+        options = self.antecedents(noun, reading)
+        if reading.antecedent is not None and noun == reading.pronoun:
+            options = options[reading.antecedent : reading.antecedent + 1]
+        found = []
+        for name, is_object in options:
+            if not is_object:
+                found.append(self._antecedent(name, noun, types, reading))
+            elif self.grounder.is_a(name, types):
+                found.append(Referent(noun or "it", (name,), definite=True))
+            else:
+                inside = tuple(c for c in self.nouns.contents(name, reading.state) if self.grounder.is_a(c, types))
+                found.append(Referent(noun or "it", inside))
+        return [referent for referent in found if referent.names] or [Referent(noun or "it", ())]
+
+    def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        """What a pronoun means if it stands for ``antecedent``: what that turned out to be."""
+        if pronoun in ("one", "ones"):
+            said = reading.clause.phrase(pronoun)
+            relations = self.relations_of(pronoun, reading.clause)
+            return replace(
+                self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
+            )
+        bound = reading.memory.bound.get(antecedent)
+        many = pronoun in ("them", "they", "these", "those", "both", "all")
+        if bound is not None:
+            names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
+            if not names:
+                inside = (c for n in (*bound.names, *bound.containers) for c in self.nouns.contents(n, reading.state))
+                names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+                return Referent(antecedent, names)
+            mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
+            return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
+        return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
+
+    def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        names: dict[str, None] = {}
+        for noun in nouns:
+            names.update(dict.fromkeys(self._antecedent(noun, "them", types, reading).names))
+        return Referent(pronoun, tuple(names), Mode.ALL)
+
+    def _named(
+        self,
+        noun: str,
+        phrase: NounPhrase,
+        types: tuple[str, ...],
+        relations: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Referent:
+        """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
+        things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.fits(n, types))
+        wanted_constants = tuple(n for n in self.nouns.constants(noun, types, reading.state))
+        objects = tuple(n for n in things if n not in self.world.profiles.constants)
+        group = self.nouns.is_group(noun)
+        if not objects and wanted_constants:
+            mode, number = mode_of(phrase, group=False, thing=False)
+            return Referent(noun, wanted_constants, mode, number, phrase.definite)
+        mode, number = mode_of(phrase, group=group, thing=True)
+        if mode is not Mode.ANY and not group:
+            objects, group = self._all_kinds(noun, objects, types, reading)
+        if phrase.number == 2 and mode is Mode.ALL:
+            mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
+        referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
+        whole = referent.names
+        referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
+        if whole and not referent.names and any(relation == "of" for relation, _ in relations):
+            # "a hot cup of coffee": the cup shall be so, with what is in it
+            reading.wanted[noun] = phrase.attributes
+            referent = replace(referent, names=whole)
+        if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
+            referent = replace(referent, names=())
+        reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
+        referent = self._restricted(referent, relations, reading)
+        bound = reading.memory.bound.get(noun)
+        if bound is not None and phrase.quantifier is Quantifier.OTHER:
+            return replace(referent, names=tuple(n for n in referent.names if n not in bound.names))
+        if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
+            return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
+        return referent
+
+    def _all_kinds(
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading
+    ) -> tuple[tuple[str, ...], bool]:
+        """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
+        matches = self.world.mentions.of(noun, reading.state)
+        if len(objects) == 1 and noun in self.lexicon.nouns:
+            wider = set(self.lexicon.nouns[noun])
+            kinds = self.world.mentions.kinds
+            names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
+            return (tuple(names), True) if len(names) > 1 else (objects, False)
+        if not matches or matches[0].how != "alias":
+            return objects, False
+        names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
+        return tuple(n for n in names if self.grounder.is_a(n, types)), True
+
+    def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> Referent:
+        """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
+        for relation, target in relations:
+            names = self.targets(target, reading)
+            if relation in ("except", "besides", "apart_from"):
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
+                continue
+            if relation.startswith("not_"):
+                now = self.nouns.related_now(
+                    referent, relation.removeprefix("not_"), names, reading.state, reading.moments
+                )
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
+                continue
+            if relation in ("without", "for") or not names:
+                continue
+            now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
+            if now or relation in INVERSE or relation == "where":
+                referent = replace(referent, names=now)  # what stands on nothing has no burner under it
+        return referent
+
+    def targets(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """The objects or constants that a noun behind a preposition may mean."""
+        if noun in reading.asked:
+            return ()
+        reading.asked.add(noun)
+        try:
+            return self._meant_by(noun, reading)
+        finally:
+            reading.asked.discard(noun)
+
+    def _meant_by(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        if is_pronoun(noun):
+            names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self.targets(a, reading))
+            names = names or tuple(
+                n for a in reading.clause.direct[:1] if noun == "one" for n in self.targets(a, reading)
+            )
+            for relation, target in self.relations_of(noun, reading.clause):
+                ends = self.targets(target, reading)
+                referent = Referent(noun, names)
+                names = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments) or names
+            return names
+        bound = reading.memory.bound.get(noun)
+        things = self.nouns.things(noun, reading.state)
+        if bound is not None and set(bound.names) & set(things):
+            return tuple(n for n in things if n in bound.names)
+        constants = self.nouns.constants(noun, ("object",), reading.state)
+        return tuple(dict.fromkeys((*things, *constants)))
+
+    def not_there(self, clause: Clause) -> Refused:
+        """That the thing a clause acts on is not there."""
+        reading = ClauseReading(clause, 0, Moments(0, 0), Memory())
+        return self.missing(Referent(clause.direct[0] if clause.direct else "it", ()), reading)
+
+    def missing(self, referent: Referent, reading: ClauseReading) -> Refused:
+        """Why a noun means nothing here."""
+        phrase = reading.clause.phrase(referent.noun)
+        words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
+        known = self.nouns.things(referent.noun, reading.state)
+        if known and phrase.attributes:
+            return Refused(
+                Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}"
+            )
+        if known:
+            return Refused(
+                Why.NOT_UNDERSTOOD,
+                f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here",
+            )
+        return Refused(
+            Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses"
+        )

@@ -1,0 +1,187 @@
+"""What a clause asks for besides its row: contents, *without*, adjectives of substances, places, tools."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
+
+from tmd.goals.clause_goal import ClauseReading
+from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disjunction
+from tmd.goals.nouns import Referent
+from tmd.goals.referents import Referents
+from tmd.goals.senses import results
+from tmd.goals.table import RELATION, GoalRow
+from tmd.language.clause import Quantifier
+from tmd.pddl.model import Atom, Formula, Not
+
+Requirement: TypeAlias = Callable[[Mapping[str, str]], Formula]
+"""Given what the slots are filled with, what must hold besides."""
+_SELECTING = frozenset({"except", "besides", "apart_from", "for", "where", "from", "out_of", "off"})
+"""Relations that only tell which thing is meant."""
+_RESTRICTING = frozenset({"of", "with", "where", "containing"})
+"""Relations of what is acted on that are no place where it is done."""
+
+
+class Requirements:
+    """Finds what must hold besides.
+
+    Args:
+        referents: What nouns mean.
+    """
+
+    def __init__(self, referents: Referents) -> None:
+        self.referents = referents
+        self.world = referents.world
+        self.grounder = referents.grounder
+        self.nouns = referents.nouns
+
+    def further(
+        self,
+        row: GoalRow,
+        pairs: Sequence[tuple[str, Referent]],
+        direct: str | None,
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> list[Requirement]:
+        """What must hold besides: contents, *without*, adjectives of a substance, where further nouns are."""
+        found: list[Requirement] = []
+        for variable, referent in pairs:
+            noun = referent.noun
+            relations = leftover if noun == direct else self.referents.relations_of(noun, reading.clause)
+            for relation, target in relations:
+                if relation in _SELECTING or relation.startswith("not_"):
+                    continue
+                names = self.referents.targets(target, reading)
+                if relation == "without" or reading.clause.phrase(target).quantifier is Quantifier.NONE:
+                    found.append(self._without(row, pairs, names, reading))
+                    continue
+                if not names or set(names) <= set(referent.names):
+                    continue
+                beside = self.nouns.constants(target, ("object",), reading.state)
+                if relation in ("with", "and") and beside and self._is_substance(referent):
+                    found.append(self._beside(row, variable, beside))
+                    continue
+                if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
+                    continue
+                tool = noun == direct and relation in ("with", "using", "by", "via", "through")
+                if tool and self._tool(names, reading):
+                    continue
+                if noun == direct and relation not in _RESTRICTING and row.places != ():
+                    self._approach(referent, relation, names, reading)
+                    continue
+                if noun == direct and relation not in _RESTRICTING:
+                    self._approach(referent, relation, names, reading)
+                    continue
+                found.append(self._relation_goal(variable, relation, names, reading))
+        found += self._substance_attributes(row, pairs, reading)
+        for variable, referent in pairs:
+            if referent.noun in reading.wanted:
+                found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
+        return found
+
+    def _state_wanted(self, variable: str, words: Sequence[str], reading: ClauseReading) -> Requirement:
+        def goal(binding: Mapping[str, str]) -> Formula:
+            said = (self.nouns.attribute(word, binding[variable], reading.moments) for word in words)
+            return conjunction(formula for formula in said if formula is not None)
+
+        return goal
+
+    def _relation_goal(self, variable: str, relation: str, names: Sequence[str], reading: ClauseReading) -> Requirement:
+        def goal(binding: Mapping[str, str]) -> Formula:
+            return disjunction(
+                self.nouns.related(relation, binding[variable], name, reading.moments)
+                for name in names
+                if name != binding[variable]
+            )
+
+        return goal
+
+    def _approach(self, referent: Referent, relation: str, names: Sequence[str], reading: ClauseReading) -> None:
+        """Do it there, or with that: a place or a tool that no slot takes."""
+        formula = disjunction(
+            self.nouns.related(relation, name, target, reading.moments)
+            for name in referent.names
+            for target in names
+            if name != target
+        )
+        if formula not in (FALSE, TRUE):
+            reading.approach.append(formula)
+        reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
+
+    def _is_substance(self, referent: Referent) -> bool:
+        return bool(referent.names) and all(name in self.world.profiles.constants for name in referent.names)
+
+    def _beside(self, row: GoalRow, variable: str, names: Sequence[str]) -> Requirement:
+        """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
+
+        def goal(binding: Mapping[str, str]) -> Formula:
+            now = Moments(0, 0)
+            own = self.grounder.ground(row.condition, {**binding, RELATION: "in"}, binding, now)
+            ways = []
+            for atom in sorted(atoms_of(own)):
+                if binding[variable] not in atom.args:
+                    continue
+                for name in names:
+                    other = atom._replace(args=tuple(name if a == binding[variable] else a for a in atom.args))
+                    if other in self.world.task.index:
+                        both = (Atom(atom.predicate, atom.args), Atom(other.predicate, other.args))
+                        ways.append(conjunction(both))
+            return disjunction(ways) if ways else FALSE
+
+        return goal
+
+    def _tool(self, names: Sequence[str], reading: ClauseReading) -> bool:
+        """Whether things are said to be used: they are taken first, where they can be."""
+        if any(name in self.world.profiles.constants for name in names):
+            return False
+        contents = [n for n in names if self.nouns.contents(n, reading.state)]
+        held = [self.nouns.state_of(results("hold"), name) for name in names]
+        formula = disjunction(f for f in held if f is not None)
+        if formula in (FALSE, TRUE):
+            return not contents
+        reading.approach.append(formula)
+        reading.meant.setdefault(f"with {names[0]}", tuple(names))
+        return True
+
+    def _without(
+        self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], names: Sequence[str], reading: ClauseReading
+    ) -> Requirement:
+        """None of ``names`` where the goal puts something else of their kind."""
+
+        def goal(binding: Mapping[str, str]) -> Formula:
+            own = self.grounder.ground(row.condition, {**binding, RELATION: "in"}, binding, reading.moments)
+            found = []
+            for atom in atoms_of(own):
+                for place, argument in enumerate(atom.args):
+                    for name in names:
+                        other = atom._replace(args=(*atom.args[:place], name, *atom.args[place + 1 :]))
+                        alike = self.world.mentions.types[name][1:2] == self.world.mentions.types.get(argument, ())[1:2]
+                        same = self.world.mentions.types[name][0] == self.world.mentions.types.get(argument, ("",))[0]
+                        if (alike or same) and other in self.world.task.index:
+                            found.append(Not(Atom(other.predicate, other.args)))
+            return conjunction(found)
+
+        return goal
+
+    def _substance_attributes(
+        self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], reading: ClauseReading
+    ) -> list[Requirement]:
+        """*Hot milk*: what contains the milk in the end shall be hot."""
+        found: list[Requirement] = []
+        for variable, referent in pairs:
+            words = reading.clause.phrase(referent.noun).attributes
+            if not words or not all(name in self.world.profiles.constants for name in referent.names):
+                continue
+
+            def goal(binding: Mapping[str, str], variable: str = variable, words: tuple[str, ...] = words) -> Formula:
+                own = self.grounder.ground(row.condition, {**binding, RELATION: "in"}, binding, reading.moments)
+                ways = []
+                for atom in sorted(atoms_of(own)):
+                    things = [a for a in atom.args if a not in self.world.profiles.constants]
+                    said = [self.nouns.attribute(word, things[0], reading.moments) for word in words] if things else []
+                    if binding[variable] in atom.args and things and all(f is not None for f in said):
+                        ways.append(conjunction((Atom(atom.predicate, atom.args), *(f for f in said if f is not None))))
+                return disjunction(ways) if ways else TRUE
+
+            found.append(goal)
+        return found
