@@ -64,14 +64,34 @@ CASES = {
     "unknown-verb": (
         ExitCode.NOT_GROUNDED,
         [*KITCHEN, "--text", "Flurble the pot"],
-        r"no demonstration has the verb 'flurble' \(.+\)\nno plan: no demonstration has any of its verbs; .+",
+        r"no plan: .*nobody has shown or declared what 'flurble' means",
     ),
     "not-english": (
         ExitCode.NOT_GROUNDED,
         [*KITCHEN, "--text", "Bonjour, je voudrais une tasse de café s'il vous plaît"],
         r"no plan: the text has no instruction \(.*not English\); say what is to be done",
     ),
-    "no-instruction": (ExitCode.NOT_GROUNDED, [*KITCHEN, "--text", "hello there"], r"no plan: the text has no instruc"),
+    "no-instruction": (ExitCode.NOT_GROUNDED, [*KITCHEN, "--text", "!?"], r"no plan: the text has no instruc"),
+    "chatter": (
+        ExitCode.NOT_GROUNDED,
+        [*KITCHEN, "--text", "hello there"],
+        r"no plan: .*nothing here is called 'hello'",
+    ),
+    "no-such-thing": (
+        ExitCode.NOT_GROUNDED,
+        [*KITCHEN, "--text", "Take the unicorn"],
+        r"no plan: .*nothing here is called 'unicorn'",
+    ),
+    "cannot-be-here": (
+        ExitCode.NOT_GROUNDED,
+        ["ground", "--domain", "02_table", "--environment", "corner1", "--text", "Put the table on the shelf"],
+        r"no plan: .*'Put the table on the shelf' cannot be done here: ",
+    ),
+    "contradiction": (
+        ExitCode.NOT_GROUNDED,
+        ["ground", "--domain", "03_drawer", "--environment", "study1", "--text", "Open the drawer and leave it closed"],
+        r"no plan: .*contradicts what was said before",
+    ),
     "no-command": (ExitCode.USAGE, ["bogus"], r"error: No such command 'bogus'"),
     "no-option": (ExitCode.USAGE, ["--bogus"], r"error: No such option"),
     "no-argument": (ExitCode.USAGE, ["plan", DOMAIN], r"error: Missing argument 'PROBLEM'"),
@@ -231,6 +251,18 @@ def test_internal_error_in_debugging(tmd: Tmd) -> None:
     assert "Traceback" in ended.err
 
 
+def test_sentence_tests(tmd: Tmd, tmp_path: Path) -> None:
+    line = '{"id": "%s", "domain": "02_table", "environment": "corner1", "text": "Hand me the book.", "goal": "%s"}\n'
+    cases = tmp_path / "my.sentences.jsonl"
+    cases.write_text(line % ("right", "(holding pr2 book1)") + line % ("wrong", "(holding pr2 cup1)"))
+    ended = tmd("test", "--cases", cases)
+    assert ended.code == ExitCode.TESTS_FAILED
+    assert ended.out.startswith("wrong: wrong: Hand me the book.\n")
+    _no_traceback(ended)
+    cases.write_text(line % ("right", "(holding pr2 book1)"))
+    assert tmd("test", "--cases", cases).code == ExitCode.OK
+
+
 def test_nested_too_deeply(tmd: Tmd) -> None:
     broken = BREAK_PARSER.replace("ZeroDivisionError('division by zero')", "RecursionError")
     ended = tmd("parse", "--text", "take the cup", before=broken)
@@ -277,7 +309,7 @@ def test_the_disk_is_full(arguments: list[str]) -> None:
 def test_every_code_is_provoked() -> None:
     """The codes of the table above and those that have a test of their own (NOT_EXECUTED in test_run.py)."""
     own = {
-        ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND, ExitCode.INTERNAL,
-        ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED,
+        ExitCode.TESTS_FAILED, ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND,
+        ExitCode.INTERNAL, ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED,
     }  # fmt: skip
     assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)
