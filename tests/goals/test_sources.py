@@ -1,0 +1,75 @@
+"""Where meanings come from when nobody declares them: the names of actions, and demonstrations."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tests.goals.conftest import corpus, pddl
+from tmd.goals.actions import rows_of_actions
+from tmd.goals.follow import Follower
+from tmd.goals.learned import learn_goals, rows_from_json, rows_to_json
+from tmd.goals.reading import Refused, Why
+from tmd.goals.sources import declared_goals, goal_reader
+from tmd.ground import ground
+from tmd.language import parse
+from tmd.learned.knowledge import study
+from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def test_a_domain_without_a_table_has_the_rows_of_its_actions() -> None:
+    table = rows_of_actions(corpus("03_drawer").folder.domain)
+    assert {"open", "close"} <= set(table.verbs())
+    assert {row.source for row in table.rows} == {"actions"}
+    assert pddl(table.of("open")[0].condition) == "(opened ?x)"
+    assert pddl(table.of("close")[0].condition) == "(not (opened ?x))"
+
+
+def test_what_actions_say_is_enough_to_ground(tmp_path: Path) -> None:
+    bundled = corpus("03_drawer")
+    folder = tmp_path / "03_drawer"
+    folder.mkdir()
+    for file in (ROOT / "domains" / "03_drawer").iterdir():
+        if file.is_file() and file.name != "lexicon.yaml":
+            (folder / file.name).write_bytes(file.read_bytes())
+    (folder / "lexicon.yaml").write_text("nouns:\n  biro: [pen]\n")
+    bare = Corpus(DomainFolder(folder), bundled.directory)
+    assert declared_goals(bare.lexicon, bare.folder.domain).rows == ()
+    knowledge = study(bare)
+    grounded = ground("Open the drawer.", bare.world("study1"), knowledge.library, reward=knowledge.reward)
+    assert [(g.source, pddl(g.formula)) for g in grounded.plans[0].goals] == [("actions", "(opened desk1_drawer)")]
+    assert grounded.verdicts[0].valid
+
+
+def test_only_the_sources_that_are_asked_answer() -> None:
+    bundled = corpus("03_drawer")
+    world = bundled.world("study1")
+    clause = parse("Empty the drawer.", bundled.lexicon).clauses[0]
+    for sources, known in ((("declared",), True), (("actions",), False)):
+        follower = Follower(goal_reader(world, bundled.lexicon, sources=sources))
+        begun = follower.begin(parse("Empty the drawer.", bundled.lexicon), world.task.init)
+        assert not isinstance(begun, Refused)
+        answer = follower.reader.read(clause, world.task.init, begun[1].memory)
+        assert isinstance(answer, Refused) != known
+        assert not isinstance(answer, Refused) or answer.why is Why.NOT_UNDERSTOOD
+
+
+def test_demonstrations_teach_what_verbs_bring_about() -> None:
+    rooms = corpus("living_room")
+    table = learn_goals(rooms.demonstrations(), rooms.world, rooms.lexicon)
+    assert {row.source for row in table.rows} == {"learned"}
+    said = {verb: [pddl(row.condition) for row in table.of(verb)] for verb in ("open", "close", "turn_on")}
+    assert "(opened ?x)" in said["open"]
+    assert "(not (opened ?x))" in said["close"]
+    assert "(active ?x)" in said["turn_on"]
+    for row in table.rows:
+        assert row.evidence
+        assert 0.7 <= row.probability <= 1
+    again = rows_from_json(rows_to_json(table), rooms.folder.domain)
+    assert rows_to_json(again) == rows_to_json(table)
+    assert [(r.verbs, r.slots, r.condition, r.noun, r.result) for r in again.rows] == [
+        (r.verbs, r.slots, r.condition, r.noun, r.result) for r in table.rows
+    ]
+    assert learn_goals([], rooms.world, rooms.lexicon).rows == ()
