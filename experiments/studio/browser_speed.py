@@ -45,7 +45,7 @@ PLANNED = """
   const look = () => {
     const said = document.querySelector('[role=status]').innerText;
     news = news || said !== old;
-    if (news && /plans in/.test(said) && document.querySelectorAll('.tmd ol > li').length) {
+    if (news && /Planned in/.test(said) && document.querySelectorAll('.tmd ol > li').length) {
       watcher.disconnect(); done(performance.now() - begun);
     }
   };

@@ -36,7 +36,7 @@ def played(url: str, kitchen: str) -> tuple[int, list[tuple[int, float]]]:
         time.sleep(SETTLED)
         visitor.put("Text", text_of(kitchen))
         visitor.press("Plan it")
-        visitor.told("plans in")
+        visitor.told("Planned in")
         visitor.put("Steps a second", PER_SECOND)
         steps = int(str(visitor.elements[visitor.find("Plan")]["value"]).split()[-2])
         seen = [(shown(visitor), time.perf_counter())]

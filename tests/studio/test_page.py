@@ -3,11 +3,14 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tmd.energy.plans import StepGoal
+from tmd.pddl.goal import with_goal
 from tmd.pddl.model import GroundAtom
 from tmd.studio.about import about
 from tmd.studio.offers import Offers
-from tmd.studio.page import changed, fragment, notice, object_facts, refused, step_list
+from tmd.studio.page import changed, fragment, goal_list, notice, object_facts, refused, step_list
 from tmd.veil.world import World
+from tmd.view.goals import in_words
 
 
 @given(st.text())
@@ -21,6 +24,23 @@ def test_what_people_type_is_text(typed: str) -> None:
     ):
         assert "<script" not in html
         assert "<b>" not in html
+
+
+def test_goals_are_ticked_where_they_hold(kitchen1: World) -> None:
+    problem = kitchen1.task.problem
+    formulas = [with_goal(problem, text).goal for text in ("(hot pot1)", "(not (hot pot1))")]
+    steps = [
+        StepGoal(0, "x", formulas[0]),
+        StepGoal(1, "y", formulas[1], already=True),
+        StepGoal(2, "z", None, note="<b>"),
+    ]
+    goals = in_words(steps, problem)
+    first, second, third = goal_list(goals, problem.init, problem).partition("</style>")[2].split("</li>")[:3]
+    assert "○" in first and "pot1 and what it contains are hot" in first and "clause 1" in first
+    assert "✓" in second and "already so" in second and "already so" not in first
+    assert "–" in third and "nothing is done: &lt;b&gt;" in third
+    assert "✓" in goal_list(goals[:1], problem.init | {GroundAtom("hot", ("pot1",))}, problem)
+    assert goal_list([], problem.init, problem) == ""
 
 
 def test_the_step_that_was_taken_last_is_told_by_a_sign_too() -> None:

@@ -81,7 +81,6 @@ def test_boiling_water_from_nothing(tmp_path: Path) -> None:
     corpus = Corpus(DomainFolder(ROOT / "domains" / "kitchen"), environments.parent)
     teacher = Teacher(corpus)
     text = "Boil some water in the kettle."
-    assert answer(teacher, text, "kitchen3") == []
     teacher.learn_one(show(corpus, "kitchen1", text, BOIL))
     world = corpus.world("kitchen2")
     grounded = teacher.ground(text, world)

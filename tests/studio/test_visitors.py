@@ -184,3 +184,38 @@ def test_serving_ends(server: Server) -> None:
     ended = Event()
     ended.set()
     server.serve(ended)
+
+
+def test_goals_are_ticked_off_and_refusals_say_what_to_do(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.shows("○</span> cup1 is on shelf1")
+        buttons = next(uuid for uuid, each in visitor.elements.items() if "▶|" in each.get("options", ()))
+        visitor.send({"type": "GuiUpdateMessage", "uuid": buttons, "updates": {"value": "▶|"}})
+        visitor.shows("✓</span> cup1 is on shelf1")
+        visitor.put("Text", "Put the zebra on the shelf.")
+        visitor.press("Plan it")
+        visitor.told("No plan: clause 1: nothing here is called &#x27;zebra&#x27;.")
+        visitor.told("name a thing that is there")
+
+
+def test_a_correction_may_state_a_goal(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct.")
+        for goal, answer in (("(at cup9 shelf1 on)", "unknown object"), ("(at cup1 shelf1 on)", "under Demonstrate")):
+            visitor.put("What must hold at the end", goal)
+            visitor.press("Done: look at it, and save it")
+            visitor.told(answer)
+        visitor.put("Goal (optional)", "(holding pr2 cup1)")
+        visitor.press("Save (K)")
+        visitor.told("does not hold")
+        visitor.put("Goal (optional)", "(at cup1 shelf1 on)")
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-corner1-")
+    assert [record["goal"] for record in corpus(server)] == ["(at cup1 shelf1 on)"]

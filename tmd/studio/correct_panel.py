@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from tmd.errors import TmdError
+from tmd.pddl.goal import with_goal
 from tmd.pddl.model import Instruction
 from tmd.studio.correction import Correction
+from tmd.studio.demonstrate_panel import GOAL_HINT
 from tmd.studio.page import fragment, step_list
 from tmd.studio.session import Step
 from tmd.studio.widgets import chosen, put
@@ -52,6 +54,7 @@ class CorrectPanel:
             self._what: GuiDropdownHandle[str] = gui.add_dropdown("Instruction", (NOTHING,))
             gui.add_button("Insert before this step").on_click(guarded(self._insert))
             gui.add_button("Let the planner put in what is missing").on_click(guarded(self._mend))
+            self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             gui.add_button("Done: look at it, and save it", color="blue").on_click(guarded(self._finish))
 
     def entered(self) -> None:
@@ -67,6 +70,7 @@ class CorrectPanel:
         names = visitor.setting.names()
         self._new.options = self._with.options = (NOTHING, *names)
         self._all.visible = True
+        put(self._goal, "")
         self._refresh()
         visitor.tell("The plan is under Correct.", aloud=True)
 
@@ -131,8 +135,11 @@ class CorrectPanel:
 
     def _finish(self) -> None:
         session = self._going().session(self._visitor.studio.teacher.habits)
+        goal = self._goal.value.strip()
+        if goal:
+            with_goal(session.world.task.problem, goal, "goal")
         self.entered()
-        self._visitor.demonstrate.take(session)
+        self._visitor.demonstrate.take(session, goal)
 
     # showing
 

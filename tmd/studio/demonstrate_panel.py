@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 
 OWN = "(own words)"
 NONE = "(no object)"
+GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
 NUMBERED = 9
 """So many of the instructions that apply have a hot key: 1 to 9."""
 _LOOK = 1.0
@@ -68,6 +69,7 @@ class DemonstratePanel:
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
+            self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
             self._who = gui.add_text("Who (optional)", "")
             self._when = gui.add_checkbox("Save the time as well", False)
             gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
@@ -98,10 +100,11 @@ class DemonstratePanel:
         self._open(visitor.studio.session(visitor.setting, self._text.value))
         visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
 
-    def take(self, session: Session) -> None:
-        """Go on with a plan that was corrected."""
+    def take(self, session: Session, goal: str = "") -> None:
+        """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
         put(self._text, session.text)
         self._open(session)
+        put(self._goal, goal)
         self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
 
     def _open(self, session: Session) -> None:
@@ -109,6 +112,7 @@ class DemonstratePanel:
         with visitor.holding():
             visitor.stop()
             self._session = session
+            put(self._goal, "")
             self._reel = Reel(visitor.setting)
             for handle in (self._edit, self._do, self._keep):
                 handle.visible = True
@@ -130,7 +134,8 @@ class DemonstratePanel:
         visitor = self._visitor
         with visitor.holding():
             session = self._going()
-            saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value)
+            goal = self._goal.value.strip() or None
+            saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
             visitor.studio.drafts.discard(visitor.identity)
             self._close()
         visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.", aloud=True)

@@ -8,9 +8,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from html import escape
 
-from tmd.pddl.model import GroundAtom
+from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.pddl.semantics import holds
 from tmd.studio.about import About
 from tmd.studio.offers import Group
+from tmd.view.goals import ShownGoal
 
 MOST = 60
 """So many instructions that do not apply are listed."""
@@ -31,6 +33,7 @@ white-space:nowrap}
 .tmd .numbers tbody th{text-align:left;font-weight:400}.tmd .numbers tr{border-bottom:1px solid #bbb}
 @media (max-width:36em){.mantine-Paper-root[style*="20em"],.mantine-Paper-root[style*="20em"] div[style*="20em"]
 {width:100vw!important}}
+.tmd .goals{list-style:none;padding-left:.2rem}
 .tmd summary{cursor:pointer;margin-top:.4rem}
 </style>"""
 
@@ -75,6 +78,19 @@ def step_list(
         below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
         rows.append(f'<li>{name}<span class="tag">{escape(purpose)}</span>{below}</li>')
     return fragment(f"<ol>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+
+
+def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str:
+    """What the steps of a text ask for, with a tick at each goal that holds in ``state``."""
+    rows = []
+    for shown in goals:
+        formula = shown.goal.formula
+        true = formula is not None and shown.asked and holds(formula, state, problem)
+        sign = ("✓" if true else "○") if shown.asked else shown.sign
+        so = '<span class="tag">already so</span>' if shown.asked and shown.goal.already else ""
+        words = f'<span class="plus">{sign}</span> {escape(shown.told)}'
+        rows.append(f'<li>{words}<span class="tag">clause {shown.goal.clause + 1}</span>{so}</li>')
+    return fragment(f'<ul class="goals">{"".join(rows)}</ul>') if rows else ""
 
 
 def changed(added: Iterable[GroundAtom], removed: Iterable[GroundAtom]) -> list[str]:

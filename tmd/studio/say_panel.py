@@ -7,13 +7,15 @@ import time
 from typing import TYPE_CHECKING
 
 from tmd.errors import TmdError
+from tmd.goals.clause_goal import Why
 from tmd.ground import Grounded
 from tmd.studio.correction import steps_of
 from tmd.studio.energies import energies
-from tmd.studio.page import changed, fragment, step_list
+from tmd.studio.page import changed, fragment, goal_list, step_list
 from tmd.studio.reel import Reel
 from tmd.studio.widgets import chosen, put
 from tmd.view.clauses import lit_choice, lit_sentence
+from tmd.view.goals import ShownGoal, in_words
 from tmd.view.markup import style
 
 if TYPE_CHECKING:
@@ -38,6 +40,7 @@ class SayPanel:
         self._visitor = visitor
         self._grounded: Grounded | None = None
         self._reels: list[Reel] = []
+        self._asked: list[ShownGoal] = []
         self._step = 0
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
@@ -50,6 +53,7 @@ class SayPanel:
         self._buttons = gui.add_button_group("Step", _BUTTONS, visible=False)
         self._buttons.on_click(guarded(self._pressed))
         self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
+        self._goals = gui.add_html("")
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
         self._more.visible = False
@@ -74,7 +78,7 @@ class SayPanel:
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
         self._grounded, self._reels = None, []
-        self._understood.content = self._steps.content = ""
+        self._understood.content = self._goals.content = self._steps.content = ""
         for handle in (self._which, self._buttons, self._speed, self._more, self._after):
             handle.visible = False
 
@@ -91,9 +95,21 @@ class SayPanel:
             grounded = visitor.studio.teacher.ground(text, visitor.setting.world, top=TOP)
             self._show(grounded)
             took = time.perf_counter() - begun
+        self._tell(grounded, took)
+
+    def _tell(self, grounded: Grounded, took: float) -> None:
+        """Say what came of it: how many plans there are, or why there is none."""
+        visitor = self._visitor
         if grounded.plans:
             valid = grounded.verdicts[0].valid
-            visitor.tell(f"{len(grounded.plans)} plans in {took:.1f} s." + ("" if valid else " The best is not valid."))
+            count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
+            so = "" if grounded.plans[0].steps else " There is nothing to do: it is so already."
+            visitor.tell(f"Planned in {took:.1f} s: {count}." + (so if valid else " The best is not valid."))
+        elif grounded.refused is not None:
+            clause, refused = grounded.refused
+            shown = "Show it under Demonstrate." if refused.why is Why.UNKNOWN_VERB else None
+            hint = "; or: ".join(filter(None, (refused.hint, shown))) or None
+            visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
         elif grounded.unseen:
             verbs = ", ".join(f"'{verb}'" for verb in grounded.unseen)
             visitor.tell(f"No plan: nobody has shown {verb_phrase(verbs)}.", "Show it under Demonstrate.", fault=True)
@@ -118,8 +134,9 @@ class SayPanel:
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         self._energies.content = fragment(energies(grounded.plans, lines, grounded.refusals))
         if not found:
-            self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=grounded.unseen))
-            self._steps.content = ""
+            unseen = () if grounded.refused is not None else grounded.unseen
+            self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
+            self._goals.content = self._steps.content = ""
             return
         self._which.options = tuple(
             f"{number}: energy {plan.energy:.3g}, {len(plan.steps)} steps"
@@ -137,6 +154,7 @@ class SayPanel:
         plan = self._grounded.plans[number]
         world = self._visitor.setting.world
         self._understood.content = _styled(lit_choice(self._grounded.parsed, plan, world))
+        self._asked = in_words(plan.goals, world.task.problem)
         self._step = 0
         self._look()
 
@@ -163,6 +181,8 @@ class SayPanel:
         number = self._number()
         reel, plan = self._reels[number], grounded.plans[number]
         self._visitor.watch(reel, self._step)
+        problem = self._visitor.setting.world.task.problem
+        self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
         gains: list[str] = []
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)

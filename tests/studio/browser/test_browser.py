@@ -77,7 +77,7 @@ def test_a_sentence_becomes_a_plan_and_is_stepped_through(
     with visiting(browser, kitchen_studio) as page:
         page.screenshot(path=screens / "01-welcome.png")
         say(page, RAMEN)
-        told(page, "plans in")
+        told(page, "Planned in")
         steps = shown(page)
         assert len(steps) > 8 and any(step.startswith(("find(pot1)", "find(kettle1)")) for step in steps)
         assert page.locator(".tmd-verb").count() >= 3
@@ -131,7 +131,7 @@ def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser:
         assert not {"who", "when"} & set(json.loads(line))
         tab(page, "Say")
         press(page, "Plan it")
-        told(page, "plans in")
+        told(page, "Planned in")
         assert any("turn(stove1_knob" in step for step in shown(page))
         page.screenshot(path=screens / "08-learned.png")
         tab(page, "Demonstrate")
@@ -139,7 +139,7 @@ def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser:
         told(page, "Everything was learned anew")
         tab(page, "Say")
         press(page, "Plan it")
-        told(page, "plans in")
+        told(page, "Planned in")
         assert any("turn(stove1_knob" in step for step in shown(page))
 
 
@@ -156,7 +156,7 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
     corpus = Path(kitchen_studio.arguments[1]) / "kitchen" / "shown" / "demonstrations.jsonl"
     with visiting(browser, kitchen_studio) as page:
         say(page, "Boil some water in the pot.")
-        told(page, "plans in")
+        told(page, "Planned in")
         before = [step.split("\n")[0] for step in shown(page)]
         press(page, "Correct this plan")
         tab(page, "Correct")
@@ -218,7 +218,7 @@ def test_by_keys_alone(table_studio: Served, browser: Browser, screens: Path) ->
         page.wait_for_timeout(300)
         reach(page, "BUTTON", "Plan it")
         keys.press("Enter")
-        told(page, "plans in")
+        told(page, "Planned in")
         for key, number in (("n", 1), ("n", 2), ("b", 1)):
             keys.press(key)
             page.locator(f"ol:visible > li:nth-child({number}) [aria-current=step]").wait_for()
