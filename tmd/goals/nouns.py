@@ -107,7 +107,17 @@ class Nouns:
                 return tuple(found)
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
-        return tuple(best) or self._called_after(noun)
+        return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _siblings(self, noun: str) -> tuple[str, ...]:
+        """For a guess: where there is no kettle, but the domain knows what one is, other vessels."""
+        declared = {t.name: t.parent for t in self.world.task.problem.domain.types}
+        names = (noun, *self.world.mentions.lexicon.nouns.get(noun, ()))
+        parents = [declared[name] for name in names if name in declared]
+        broad = set(declared.values()) - set(declared) | {declared.get(parent, "") for parent in parents}
+        return tuple(
+            n for n in self.world.profiles.objects if any(p in self._kinds(n) and p not in broad for p in parents)
+        )
 
     def _called_after(self, noun: str) -> tuple[str, ...]:
         """Objects with the noun in their names: *the peas* for ``pea_seeds``, where nothing is a pea."""

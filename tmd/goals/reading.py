@@ -26,6 +26,8 @@ from tmd.veil.world import World
 
 _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
+_ELIDED = ("in", "on", "from")
+"""The places that a verb may leave to what was spoken of."""
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on", "out": "from", "off": "from"}
 
 
@@ -58,7 +60,7 @@ class GoalReader:
             return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
         own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
         plain = clause.verb.partition("_")[0]
-        if plain != clause.verb:
+        if plain != clause.verb and not clause.verb.endswith(("_out", "_away", "_off")):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         failure: Refused | None = None
         for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
@@ -117,6 +119,8 @@ class GoalReader:
         for unit in self._units(reading):
             found = self._unit(rows, unit, reading)
             if isinstance(found, Refused):
+                found = self._measured(rows, unit, reading) or found
+            if isinstance(found, Refused):
                 return found
             formula, used = found
             formulas.append(formula)
@@ -124,8 +128,19 @@ class GoalReader:
         whole = disjunction(formulas) if either else conjunction(formulas)
         return self._finished(whole, used, reading)
 
+    def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | None:
+        """*Two spoons of coffee* is some coffee, where nothing can be said of the spoons."""
+        inner = next((target for relation, target in unit.relations if relation == "of"), None)
+        if inner is None or not self.nouns.constants(inner, ("object",), reading.state):
+            return None
+        others = [(r, t) for r, t in unit.relations if r != "of"]
+        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, reading.clause)), reading)
+        return None if isinstance(found, Refused) else found
+
     def _finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refused:
-        if any(reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct):
+        if reading.clause.direct and all(
+            reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct
+        ):
             formula = negation(formula)
         try:
             cubes = self.cubes(formula)
@@ -166,7 +181,12 @@ class GoalReader:
         direct = [name for name in clause.direct if name not in PERSONS]
         if not direct:
             direct = [""] if "" in clause.antecedents else []
+        none = [name for name in direct if clause.phrase(name).quantifier is Quantifier.NONE]
+        if 0 < len(none) < len(direct):
+            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
         units = [Unit(name, self.referents.relations_of(name, clause)) for name in direct]
+        for unit in units if len(none) and none != direct else ():
+            unit.relations += [("without", name) for name in none if name not in direct]
         for unit in units:
             measured = next((t for r, t in unit.relations if r == "of"), None)
             if unit.direct in words_of("measures") and measured is not None:
@@ -183,7 +203,7 @@ class GoalReader:
     def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | Refused:
         """The goal of one thing; a pronoun is what it most likely means of that which a row fits."""
         if unit.direct is None or not self.referents.points_back(unit.direct):
-            return self._with_rows(rows, unit, reading)
+            return self._with_places(rows, unit, reading)
         failure: Refused | None = None
         held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
         reading.pronoun = unit.direct
@@ -204,6 +224,20 @@ class GoalReader:
             return held[0]
         assert failure is not None
         return failure
+
+    def _with_places(
+        self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
+    ) -> tuple[Formula, GoalRow] | Refused:
+        """As :meth:`_with_rows`; a place that was not said is what was spoken of last that a row fits."""
+        if any((p, None) in self._fillers(s, unit, reading) for r in rows for s in r.places for p in _ELIDED):
+            reading.pronoun = ""
+            for number in range(len(self.referents.antecedents("", reading))):
+                reading.antecedent = number
+                found = self._with_rows(rows, unit, reading)
+                if not isinstance(found, Refused):
+                    return found
+            reading.antecedent = None
+        return self._with_rows(rows, unit, reading)
 
     def _with_rows(
         self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading

@@ -66,6 +66,10 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
             for inner in condition.clauses:
                 yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True)
     yield Step(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
+    if clause.duration and not clause.verb.startswith("wait"):
+        # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
+        waiting = Clause("wait", span=clause.span, text=clause.text)
+        yield Step(waiting, number, Role.LATER, guards, clause.otherwise, optional=True)
     for condition in clause.conditions:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:

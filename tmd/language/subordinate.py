@@ -63,6 +63,8 @@ def read_condition(words: Sequence[str], lexicon: Lexicon, read: Reader) -> Cond
         return Condition("with", _state(list(words[1:-1]), [words[-1]], lexicon, read), False, " ".join(words))
     opener, rest = words[0], [w for w in words[1:] if w not in ("that", ",")]
     text = " ".join(words)
+    if len(rest) == 2 and rest[0] == "its":
+        rest = ["it's", rest[1]]  # as people write it: "when its done"
     rest = [part for word in rest for part in _expanded(word)]
     negated = any(w in ("not", "no", "never") or w.endswith("n't") for w in rest)
     plain = [w for w in rest if w not in ("not", "never") and w not in ("any",)]
