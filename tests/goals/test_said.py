@@ -139,8 +139,9 @@ def test_what_was_forbidden_does_not_happen() -> None:
     assert "(contains cup1 milk)" not in end(grounded)
 
 
-def test_without_leaves_it_out() -> None:
-    grounded = said("04_tea", "pantry1", "Make tea without milk.")
+@pytest.mark.parametrize("text", ["Make tea without milk.", "Make tea, no sugar."])
+def test_without_leaves_it_out(text: str) -> None:
+    grounded = said("04_tea", "pantry1", text)
     made = [v for v in ("cup1", "kettle1") if {f"(contains {v} tea)", f"(hot {v})"} <= end(grounded)]
     assert made
     assert not any(f"(contains {v} milk)" in end(grounded) for v in made)
@@ -172,7 +173,6 @@ WRONG = [
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
     ("03_drawer/study2", "Put everything in the drawers on the table.", {"(at key1 table1 on)", "(at pen1 table1 on)"}),
     ("04_tea/pantry1", "Make tea with sugar.", None),
-    ("04_tea/pantry1", "Make tea, no sugar.", {"(contains cup1 tea)"}),
     ("04_tea/pantry1", "Fill the cup with coffee.", None),
     ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),
     ("lab_bench/lab1", "Add ethanol to the beaker with the pipette.", {"(contains beaker1 ethanol)"}),

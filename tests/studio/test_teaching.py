@@ -93,7 +93,7 @@ def test_what_is_learned_at_once_is_what_is_learned_later(table: Corpus) -> None
     teacher = Teacher(table)
     for task, text in [
         ("set_table", "Put the cup on the shelf."),
-        ("a_task", "Lift the cup to the shelf."),
+        ("a_task", "Bring the cup to the shelf."),
         ("zoo", "x"),
     ]:
         teacher.learn_one(show(table, "corner1", text, TABLE, task))
@@ -101,7 +101,7 @@ def test_what_is_learned_at_once_is_what_is_learned_later(table: Corpus) -> None
         everything = learn(later.demonstrations(), later.world, later.lexicon)
         assert library_to_json(teacher.knowledge.library) == library_to_json(everything)
     assert ("zoo-corner1-01", "x") in teacher.knowledge.library.unaligned
-    assert answer(teacher, "Lift the cup to the shelf.", "corner1") == TABLE
+    assert answer(teacher, "Bring the cup to the shelf.", "corner1") == TABLE
 
 
 def test_what_others_saved_or_removed_is_taken_up(table: Corpus) -> None:
@@ -179,7 +179,7 @@ def test_what_cannot_be_saved_is_used_all_the_same(table: Corpus, tmp_path: Path
 
 def test_who_grounds_meanwhile_has_what_was_known_before_or_after(table: Corpus) -> None:
     teacher = Teacher(table)
-    text = "Hide the cup on the shelf."
+    text = "Polish the cup on the shelf."
     world = table.world("corner1")
     before = answer(teacher, text, "corner1")
     seen: list[list[str]] = []
