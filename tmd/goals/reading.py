@@ -26,9 +26,9 @@ from tmd.veil.world import World
 
 _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
-_ELIDED = ("in", "on", "from")
+_ELIDED = ("in", "on")
 """The places that a verb may leave to what was spoken of."""
-_PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on", "out": "from", "off": "from"}
+_PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
 
 
 class GoalReader:

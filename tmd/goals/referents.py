@@ -12,6 +12,7 @@ from tmd.goals.senses import words_of
 from tmd.goals.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
 from tmd.language.lexicon import Lexicon
+from tmd.language.nouns import split_name
 from tmd.language.pronouns import is_pronoun
 from tmd.veil.world import World
 
@@ -116,6 +117,8 @@ class Referents:
     ) -> Referent:
         """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
         things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.fits(n, types))
+        if phrase.definite and not phrase.plural and not relations:
+            things = self._part_of_recent(noun, reading) or things
         wanted_constants = tuple(n for n in self.nouns.constants(noun, types, reading.state))
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
         group = self.nouns.is_group(noun)
@@ -144,6 +147,16 @@ class Referents:
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
+
+    def _part_of_recent(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """*The door*, after the microwave was spoken of, is its door."""
+        profiles = self.world.profiles
+        for name in reading.memory.recent:
+            for whole in dict.fromkeys((name, profiles.wholes.get(name, name))):
+                found = tuple(p for short, p in profiles.parts.get(whole, ()) if split_name(short)[-1:] == (noun,))
+                if found:
+                    return found
+        return ()
 
     def _all_kinds(
         self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading
