@@ -103,6 +103,9 @@ def _said(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clause, ...
     finite = next((i for i, w in enumerate(words) if i and _finite(w, lexicon)), None)
     if finite is not None:
         return _event(words[:finite], words[finite:], lexicon, read)
+    last = lexicon.verb(words[-1])
+    if len(words) > 1 and last is not None and last[1] == "s":
+        return _event(words[:-1], words[-1:], lexicon, read)  # "when the kettle whistles"
     if len(words) == 1 or words[0] in _SOFT:
         return _state([], words, lexicon, read)
     return _named(words, read)

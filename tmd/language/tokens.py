@@ -108,6 +108,9 @@ _TOKEN = re.compile(
 _COPULA = re.compile(r"(that|which|who)'s")
 """Behind another word these open a relative clause: "the cup that's on the table"."""
 
+_WHEN = frozenset({"when", "once", "if", "until", "untill", "till", "unless"})
+_DONE = frozenset({"done", "ready", "hot", "warm", "boiling", "boiled", "cooked", "cold", "finished", "full", "empty"})
+
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
@@ -127,6 +130,12 @@ def tokenise(text: str) -> list[Token]:
         )
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
+        if word in _DONE and len(tokens) > 1 and tokens[-1].text == "its" and tokens[-2].text in _WHEN:
+            its = tokens.pop().span  # as people write it: "when its done"
+            tokens += [
+                Token(kind, "it", Span(its.start, its.start + 2)),
+                Token(kind, "is", Span(its.start + 2, its.end)),
+            ]
         copula = _COPULA.fullmatch(word)
         if copula and tokens and tokens[-1].kind is Kind.WORD:
             cut = span.start + len(copula[1])
