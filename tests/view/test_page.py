@@ -176,7 +176,10 @@ def test_demonstrations_have_pages(domain: str) -> None:
         shown = demonstrated_subject(demonstration, world, corpus(domain).lexicon)
         page = render(shown)
         assert page.verdict.valid
-        assert len(Reader(page.html).of_class("step")) == len(demonstration.instructions)
+        reader = Reader(page.html)
+        assert len(reader.of_class("step")) == len(demonstration.instructions)
+        assert (demonstration.goal is None) == ("✓ executable" in reader.text)
+        assert demonstration.goal is None or demonstration.goal in reader.text
         assert shown.said is not None and shown.said.meant is not None
         used = {arg for instruction in demonstration.instructions for arg in instruction.args}
         assert any(name in used for meaning in shown.said.meant for names in meaning.values() for name in names)

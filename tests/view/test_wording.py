@@ -30,6 +30,10 @@ CONDITIONS = {
         "pot1 and what it contains are hot, and (cup1 and what it contains are hot, or "
         "(there is something in cup1, and there is something in mug1))"
     ),
+    "(and (hot cup1) (not (contains cup1 milk)) (filled cup1) (not (contains cup1 sugar)) (not (hot mug1)))": (
+        "cup1 and what it contains are hot, and not: there is some milk or sugar in cup1, "
+        "and there is something in cup1, and not: mug1 and what it contains are hot"
+    ),
     "(and)": "nothing",
     "(exists (?x - thing) (hot ?x))": "(exists (?x - thing) (hot ?x))",
 }

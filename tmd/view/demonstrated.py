@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon import Lexicon
+from tmd.pddl.goal import with_goal
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World
 from tmd.view.meaning import Meaning, after, meaning
@@ -16,7 +17,12 @@ from tmd.view.subject import PlannedStep, Said, Subject
 def demonstrated_subject(
     demonstration: Demonstration, world: World, lexicon: Lexicon, made: Iterable[tuple[str, str]] = ()
 ) -> Subject:
-    """A demonstration, with its text parsed and its instructions by segment."""
+    """A demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
+
+    Raises:
+        TmdError: The goal is no condition of the environment.
+    """
+    problem = world.task.problem
     parsed = parse(demonstration.text, lexicon)
     steps = [
         PlannedStep(instruction, f"segment {number}", " ".join(demonstration.text[part.start : part.end].split()))
@@ -25,10 +31,15 @@ def demonstrated_subject(
     ]
     return Subject(
         f"{demonstration.id}: a demonstration in {demonstration.environment}",
-        world.task.problem,
+        problem if demonstration.goal is None else with_goal(problem, demonstration.goal, "goal"),
         tuple(steps),
         Said(parsed, tuple(_meanings(parsed.clauses, demonstration.segments, world))),
-        made=(*made, ("task", demonstration.task), ("stated end", " ".join(demonstration.end_state) or "none")),
+        made=(
+            *made,
+            ("task", demonstration.task),
+            ("stated end", " ".join(demonstration.end_state) or "none"),
+            ("goal", demonstration.goal or "none"),
+        ),
     )
 
 

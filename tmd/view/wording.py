@@ -65,11 +65,22 @@ class Wording:
             case Not(part):
                 return f"not: {self._inner(part)}"
             case And(parts):
-                return ", and ".join(map(self._inner, parts)) or "nothing"
+                return ", and ".join(self._all(parts)) or "nothing"
             case Or(parts):
                 return self._among(parts) or ", or ".join(_few([self._inner(part) for part in parts])) or "never"
             case _:
                 return format_formula(condition)
+
+    def _all(self, parts: Sequence[Formula]) -> Iterable[str]:
+        """What each part says; denials of one thing are told at once: *not: there is some milk or tea in cup1*."""
+        denied: dict[str, list[Formula]] = {}
+        for part in parts:
+            if isinstance(part, Not) and isinstance(part.part, Atom):
+                denied.setdefault(part.part.predicate, []).append(part.part)
+        together: dict[Formula, str] = {
+            Not(atom): told for atoms in denied.values() if (told := self._among(atoms)) for atom in atoms
+        }
+        return dict.fromkeys(f"not: {together[part]}" if part in together else self._inner(part) for part in parts)
 
     def _inner(self, part: Formula) -> str:
         """What a part of a condition says, in brackets where it would not be told from its neighbours."""
