@@ -7,7 +7,7 @@ from typing import Any
 
 from tmd.energy.plans import RankedPlan
 from tmd.export.end_goal import end_goal
-from tmd.goals.reading import Refused
+from tmd.goals.clause_goal import Refused
 from tmd.ground import Grounded
 from tmd.language.clause import Clause
 from tmd.pddl.goal import aimed_at
