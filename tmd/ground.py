@@ -21,12 +21,12 @@ from tmd.energy.plans import Inferred, RankedPlan, Refusal
 from tmd.energy.proposers import SequenceModel, proposers_of
 from tmd.energy.statistics import count
 from tmd.energy.weights import Weights, named_weights
+from tmd.goals.clause_goal import Refused
 from tmd.goals.follow import Follower
-from tmd.goals.reading import Refused
 from tmd.goals.sources import goal_reader
 from tmd.goals.table import GoalTable
 from tmd.language import parse
-from tmd.language.clause import Parsed
+from tmd.language.clause import Clause, Parsed
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
@@ -123,7 +123,11 @@ def infer(
         return inference.infer(parsed.clauses, world.task.init, top)
     reader = goal_reader(world, library.lexicon, goals, sources=config.sources, guess=config.guess)
     follower = Follower(reader)
-    directed = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort)
+
+    def shown(clause: Clause) -> bool:
+        return bool(library.propose(clause))
+
+    directed = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort, shown)
     return directed.infer(parsed, world.task.init, top)
 
 

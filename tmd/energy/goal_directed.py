@@ -60,6 +60,7 @@ class GoalInference:
         follower: Says what each step asks for.
         planner: Makes the planner that fills gaps and reaches goals.
         resort: Makes the planner that is asked where that one gives up.
+        shown: Whether a demonstration has the verb of a clause.
     """
 
     def __init__(
@@ -71,6 +72,7 @@ class GoalInference:
         follower: Follower,
         planner: PlannerOf,
         resort: PlannerOf,
+        shown: Callable[[Clause], bool],
     ) -> None:
         self.world = world
         self.energy = energy
@@ -79,6 +81,7 @@ class GoalInference:
         self.follower = follower
         self.planner = planner
         self.resort = resort
+        self.shown = shown
         self.needs = Needs(world.task)
 
     def infer(self, parsed: Parsed, state: Bits, top: int = 1) -> Inferred:
@@ -145,11 +148,15 @@ class _Text:
         return self._towards(replace(way, context=context), target)
 
     def _without_goal(self, step: GoalStep, way: _Way, refused: Refused) -> list[_Way] | Refused:
-        """Where a guess is allowed, what was shown for the verb, or nothing."""
-        if not self.inference.config.guess:
+        """What was shown for the verb, where it was shown and nothing says what for, or where a guess is allowed."""
+        guess = self.inference.config.guess
+        shown = refused.why is Why.UNKNOWN_VERB and self.inference.shown(step.clause) and step.role is Role.MAIN
+        if not (guess or shown):
             return refused
-        noted = _noted(step, refused)
+        noted = _noted(step, refused) if guess else _as_shown(step)
         proposed = self._proposed(step, way, None) if step.role is Role.MAIN else []
+        if not proposed and not guess:
+            return refused
         choices = proposed or [(_NOTHING, way.path.state)]
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 
@@ -186,7 +193,7 @@ class _Text:
         goes_on = any(direct & set(names) for names in following.antecedents.values())
         reader = self.inference.follower.reader
         return goes_on and all(
-            isinstance(self.planner.fill(state, reader.cubes(part)), Filled) for part in goal.formula.parts
+            isinstance(self.planner.fill(state, reader.grounder.cubes(part)), Filled) for part in goal.formula.parts
         )
 
     # ------------------------------------------------------------------ planning
@@ -343,6 +350,13 @@ def _step_goal(target: Target) -> StepGoal:
         target.already,
         note,
     )
+
+
+def _as_shown(step: GoalStep) -> StepGoal:
+    """A step whose verb was shown too seldom to tell what it is for."""
+    verb = step.clause.verb.replace("_", " ")
+    note = f"done as it was shown: nothing says what '{verb}' is to bring about"
+    return StepGoal(step.number, " ".join(step.clause.text.split()), None, note=note)
 
 
 def _noted(step: GoalStep, refused: Refused) -> StepGoal:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from tmd.goals.clause_goal import ClauseGoal, Refused, Why
 from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
-from tmd.goals.nouns import Memory, Referent
-from tmd.goals.reading import GoalReader, bindings_of
+from tmd.goals.nouns import Bound, Memory, Referent
+from tmd.goals.reading import GoalReader
 from tmd.goals.steps import Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
 from tmd.language.pronouns import is_pronoun
@@ -132,7 +132,7 @@ class Follower:
     def _ways(self, goal: ClauseGoal) -> tuple[tuple[Cube, ...], ...]:
         found = []
         for formula in goal.approach:
-            cubes = self.reader.cubes(formula)
+            cubes = self.reader.grounder.cubes(formula)
             if cubes:
                 found.append(cubes)
         return tuple(found)
@@ -261,6 +261,32 @@ class Follower:
             if atom.args and atom.args[0] in names and (len(things) > 1 or len(atom.args) > 1):
                 found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
         return found
+
+
+def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
+    """What later clauses remember of a clause whose goal was reached as ``cube``."""
+    task = reader.world.task
+    atoms = task.names(cube.positive | cube.negative)
+    mentioned = dict.fromkeys(a for atom in atoms for a in atom.args)
+    constants = reader.world.profiles.constants
+    bound = dict(memory.bound)
+    recent: dict[str, None] = {}
+    for noun, names in goal.meant.items():
+        chosen = tuple(n for n in names if n in mentioned) or tuple(
+            n for n in names if any(o in mentioned for level in range(4) for o in reader.grounder.relatives(n, level))
+        )
+        chosen = chosen or names
+        containers: tuple[str, ...] = ()
+        if all(n in constants for n in chosen):
+            containers = tuple(
+                dict.fromkeys(a.args[0] for a in atoms if set(a.args[1:]) & set(chosen) and a.args[0] not in constants)
+            )
+        bound.pop(noun, None)
+        bound[noun] = Bound(chosen, containers)
+        recent.update(dict.fromkeys((*(n for n in chosen if n not in constants), *containers)))
+    recent.update(dict.fromkeys(a for a in mentioned if a not in constants))
+    recent.update(dict.fromkeys(memory.recent))
+    return replace(memory, bound=bound, recent=tuple(recent))
 
 
 def _single(cube: Cube) -> list[Cube]:

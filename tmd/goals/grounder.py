@@ -10,11 +10,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
+from tmd.errors import TmdError
 from tmd.goals.table import FIRST, WAS, split_predicate
+from tmd.pddl.grounding import ground_condition
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or
 from tmd.pddl.semantics import bindings
-from tmd.pddl.task import Bits
+from tmd.pddl.task import Bits, Cube
 from tmd.veil.states import PART_OF
 from tmd.veil.world import World
 
@@ -79,6 +81,20 @@ class Grounder:
             case Or(parts):
                 return any(self.truth(part, state) for part in parts)
         raise TypeError(f"not ground: {formula}")
+
+    def cubes(self, formula: Formula) -> tuple[Cube, ...]:
+        """A ground condition as cubes; where there are too many cases, with fewer choices.
+
+        Raises:
+            TmdError: There are too many even so.
+        """
+        for most in (None, 8, 3, 1):
+            try:
+                return ground_condition(self.task, formula if most is None else _fewer(formula, most))
+            except TmdError:
+                if most == 1:
+                    raise
+        return ()
 
     def ground(self, formula: Formula, binding: Mapping[str, str], slots: Iterable[str], moments: Moments) -> Formula:
         """``formula`` over ground atoms that may hold, joined by ``and``, ``or`` and ``not``.
@@ -232,3 +248,13 @@ def only_negative(formula: Formula) -> bool:
         case And(parts) | Or(parts):
             return all(only_negative(part) for part in parts)
     return False
+
+
+def _fewer(formula: Formula, most: int) -> Formula:
+    """A ground condition with at most so many alternatives in each disjunction."""
+    match formula:
+        case And(parts):
+            return conjunction(_fewer(part, most) for part in parts)
+        case Or(parts):
+            return disjunction(_fewer(part, most) for part in parts[:most])
+    return formula

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations, islice, pairwise
+from itertools import combinations, islice, pairwise, product
 
 from tmd.errors import TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
 from tmd.goals.grounder import FALSE, Moments, atoms_of, conjunction, disjunction, negation, only_negative
-from tmd.goals.nouns import Bound, Memory, Mode, Referent, relations_said
+from tmd.goals.nouns import Memory, Mode, Referent, relations_said
 from tmd.goals.referents import Referents
 from tmd.goals.requirements import Requirements
 from tmd.goals.senses import family, words_of
@@ -19,13 +19,14 @@ from tmd.goals.why import why_impossible
 from tmd.language.clause import PERSONS, Clause, Quantifier
 from tmd.language.lexicon import Lexicon
 from tmd.pddl.conjunctions import predicates_of
-from tmd.pddl.grounding import ground_condition
-from tmd.pddl.model import And, Formula, Or
-from tmd.pddl.task import Bits, Cube
+from tmd.pddl.model import Formula
+from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
 _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
+_NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
+"""Relations whose nouns must name something."""
 _ELIDED = ("in", "on")
 """The places that a verb may leave to what was spoken of."""
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
@@ -143,7 +144,7 @@ class GoalReader:
         ):
             formula = negation(formula)
         try:
-            cubes = self.cubes(formula)
+            cubes = self.grounder.cubes(formula)
         except TmdError as error:
             return Refused(Why.NOT_UNDERSTOOD, error.message, error.hint)
         if not cubes:
@@ -160,20 +161,6 @@ class GoalReader:
             groups,
             tuple(dict.fromkeys(reading.notes)),
         )
-
-    def cubes(self, formula: Formula) -> tuple[Cube, ...]:
-        """A ground condition as cubes; where there are too many cases, with fewer choices.
-
-        Raises:
-            TmdError: There are too many even so.
-        """
-        for most in (None, 8, 3, 1):
-            try:
-                return ground_condition(self.world.task, formula if most is None else _fewer(formula, most))
-            except TmdError:
-                if most == 1:
-                    raise
-        return ()
 
     def _units(self, reading: ClauseReading) -> list[Unit]:
         """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
@@ -336,6 +323,9 @@ class GoalReader:
         leftover = [pair for pair in unit.relations if pair not in consumed]
         if reading.strict and any(self._unplaced(unit, *pair, reading) for pair in leftover):
             return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of")
+        unknown = self._unknown_thing(leftover, reading)
+        if unknown is not None:
+            return unknown
         formulas = []
         for choice in choices:
             found = self._combination(row, unit.direct, choice, leftover, reading)
@@ -347,6 +337,16 @@ class GoalReader:
         if not formulas:
             return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
         return disjunction(formulas) if alternatives else conjunction(formulas)
+
+    def _unknown_thing(self, leftover: Sequence[tuple[str, str]], reading: ClauseReading) -> Refused | None:
+        """A thing that was named and that is not there: whatever is done without it is something else."""
+        if self.nouns.guess:
+            return None
+        for relation, target in leftover:
+            named = not self.referents.points_back(target) and target not in reading.clause.quantities
+            if named and relation in _NAMING and not self.referents.targets(target, reading):
+                return self.referents.missing(Referent(target, ()), reading)
+        return None
 
     def _combination(
         self,
@@ -373,7 +373,7 @@ class GoalReader:
                 )
             )
         failure: Refused | None = None
-        for chosen in _product([options for _, options in slots]):
+        for chosen in product(*(options for _, options in slots)):
             if any(not referent.names for referent in chosen):
                 missing = next(referent for referent in chosen if not referent.names)
                 failure = failure or self.referents.missing(missing, reading)
@@ -486,52 +486,6 @@ class GoalReader:
         return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")
 
 
-def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
-    """What later clauses remember of a clause whose goal was reached as ``cube``."""
-    task = reader.world.task
-    atoms = task.names(cube.positive | cube.negative)
-    mentioned = dict.fromkeys(a for atom in atoms for a in atom.args)
-    constants = reader.world.profiles.constants
-    bound = dict(memory.bound)
-    recent: dict[str, None] = {}
-    for noun, names in goal.meant.items():
-        chosen = tuple(n for n in names if n in mentioned) or tuple(
-            n for n in names if any(o in mentioned for level in range(4) for o in reader.grounder.relatives(n, level))
-        )
-        chosen = chosen or names
-        containers: tuple[str, ...] = ()
-        if all(n in constants for n in chosen):
-            containers = tuple(
-                dict.fromkeys(a.args[0] for a in atoms if set(a.args[1:]) & set(chosen) and a.args[0] not in constants)
-            )
-        bound.pop(noun, None)
-        bound[noun] = Bound(chosen, containers)
-        recent.update(dict.fromkeys((*(n for n in chosen if n not in constants), *containers)))
-    recent.update(dict.fromkeys(a for a in mentioned if a not in constants))
-    recent.update(dict.fromkeys(memory.recent))
-    return replace(memory, bound=bound, recent=tuple(recent))
-
-
 def _looks_back(row: GoalRow) -> bool:
     """Whether a row speaks of how things were at first: *put it back* is said of what was moved."""
     return any(split_predicate(name)[1] == FIRST for name in predicates_of(row.condition))
-
-
-def _product(options: Sequence[Sequence[Referent]]) -> Iterator[tuple[Referent, ...]]:
-    """Every combination, the likeliest of the first slots first."""
-    if not options:
-        yield ()
-        return
-    for first in options[0]:
-        for rest in _product(options[1:]):
-            yield (first, *rest)
-
-
-def _fewer(formula: Formula, most: int) -> Formula:
-    """A ground condition with at most so many alternatives in each disjunction."""
-    match formula:
-        case And(parts):
-            return conjunction(_fewer(part, most) for part in parts)
-        case Or(parts):
-            return disjunction(_fewer(part, most) for part in parts[:most])
-    return formula

@@ -58,7 +58,8 @@ class Requirements:
                 if not names or set(names) <= set(referent.names):
                     continue
                 beside = self.nouns.constants(target, ("object",), reading.state)
-                if relation in ("with", "and") and beside and self._is_substance(referent):
+                supplied = any(n in self.world.profiles.constants for n in names) or all(map(self._is_supply, names))
+                if relation in ("with", "and") and beside and supplied and self._is_substance(referent):
                     found.append(self._beside(row, variable, beside))
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
@@ -110,6 +111,13 @@ class Requirements:
 
     def _is_substance(self, referent: Referent) -> bool:
         return bool(referent.names) and all(name in self.world.profiles.constants for name in referent.names)
+
+    def _is_supply(self, thing: str) -> bool:
+        """Whether a thing has what it contains from the start, and never anything else: a bottle of syrup."""
+        constants = self.world.profiles.constants
+        facts = [a for a in self.nouns.facts_about(thing) if len(a.args) == 2 and a.args[0] == thing]
+        inside = {a.args[1] for a in facts if a.args[1] in constants}
+        return len(inside) == 1 and set(self.nouns.contents(thing, self.world.task.init)) == inside
 
     def _beside(self, row: GoalRow, variable: str, names: Sequence[str]) -> Requirement:
         """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
