@@ -66,6 +66,10 @@ def executed(page: Path, command: str, directory: Path) -> str:
     return _printed(command, directory, directory / "bin")
 
 
+_PROGRESS = ("learning from the demonstrations of ", "compiling the search")
+"""How lines of progress begin: whether they are printed depends on how quick the machine is."""
+
+
 def _printed(command: str, directory: Path, programs: Path) -> str:
     programs.mkdir(exist_ok=True)
     for name, arguments in (("tmd", "-m tmd "), ("python", "")):
@@ -87,7 +91,8 @@ def _printed(command: str, directory: Path, programs: Path) -> str:
         timeout=120,
         check=False,
     )
-    return done.stdout.decode("utf-8")
+    lines = done.stdout.decode("utf-8").splitlines(keepends=True)
+    return "".join(line for line in lines if not line.startswith(_PROGRESS))
 
 
 def walked(page: Path, directory: Path) -> str:
