@@ -173,7 +173,6 @@ WRONG = [
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
     ("03_drawer/study2", "Put everything in the drawers on the table.", {"(at key1 table1 on)", "(at pen1 table1 on)"}),
     ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),
-    ("lab_bench/lab1", "Add ethanol to the beaker with the pipette.", {"(contains beaker1 ethanol)"}),
 ]
 
 

@@ -64,11 +64,13 @@ class Requirements:
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue
-                tool = noun == direct and relation in ("with", "using", "by", "via", "through")
+                never = all(
+                    self.nouns.related(relation, name, target, reading.moments) == FALSE
+                    for name in referent.names
+                    for target in names
+                )
+                tool = (noun == direct or never) and relation in ("with", "using", "by", "via", "through")
                 if tool and self._tool(names, reading):
-                    continue
-                if noun == direct and relation not in _RESTRICTING and row.places != ():
-                    self._approach(referent, relation, names, reading)
                     continue
                 if noun == direct and relation not in _RESTRICTING:
                     self._approach(referent, relation, names, reading)
