@@ -53,7 +53,9 @@ def test_what_was_kept_is_what_was_learned(lab: Corpus, knowledge: Knowledge) ->
     for verb in knowledge.library.verbs():
         assert list(again.library.templates(verb)) == list(knowledge.library.templates(verb))
         # what a clause is compared by does not tell all of it
-        assert [asdict(t) for t in again.library.templates(verb)] == [asdict(t) for t in knowledge.library.templates(verb)]
+        assert [asdict(t) for t in again.library.templates(verb)] == [
+            asdict(t) for t in knowledge.library.templates(verb)
+        ]
     assert again.library.unaligned == knowledge.library.unaligned
     assert again.reward is not None
     assert knowledge.reward is not None

@@ -7,7 +7,7 @@ from pathlib import Path
 from tests.goals.conftest import corpus, pddl
 from tmd.goals.actions import rows_of_actions
 from tmd.goals.follow import Follower
-from tmd.goals.learned import learn_goals, rows_from_json, rows_to_json
+from tmd.goals.learned import learn_goals, table_from_json, table_to_json
 from tmd.goals.reading import Refused, Why
 from tmd.goals.sources import declared_goals, goal_reader
 from tmd.ground import ground
@@ -67,8 +67,8 @@ def test_demonstrations_teach_what_verbs_bring_about() -> None:
     for row in table.rows:
         assert row.evidence
         assert 0.7 <= row.probability <= 1
-    again = rows_from_json(rows_to_json(table), rooms.folder.domain)
-    assert rows_to_json(again) == rows_to_json(table)
+    again = table_from_json(table_to_json(table), rooms.folder.domain)
+    assert table_to_json(again) == table_to_json(table)
     assert [(r.verbs, r.slots, r.condition, r.noun, r.result) for r in again.rows] == [
         (r.verbs, r.slots, r.condition, r.noun, r.result) for r in table.rows
     ]

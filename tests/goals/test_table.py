@@ -6,8 +6,8 @@ import pytest
 
 from tests.goals.conftest import corpus, pddl
 from tmd.errors import Location, TmdError
-from tmd.goals.learned import rows_from_json, rows_to_json
-from tmd.goals.table import GoalTable, Slot, read_row, read_table, slot_types
+from tmd.goals.learned import table_from_json, table_to_json
+from tmd.goals.table import GoalTable, PutBack, Slot, read_row, read_table, slot_types
 from tmd.language.lexicon import Declared
 
 DRAWER = corpus("03_drawer").folder.domain
@@ -109,12 +109,14 @@ def test_learned_rows_survive_json() -> None:
         {"pattern": "open X", "condition": "(opened ?x)", "evidence": "9 of 10", "probability": 0.9},
         {"pattern": "put X in|on Y", "condition": "(at ?x ?y ?rel)", "evidence": "all", "probability": 1.0},
     ]
-    table = rows_from_json(entries, DRAWER)
+    data = {"rows": entries, "put_back": [["opened", "drawer", False]]}
+    table = table_from_json(data, DRAWER)
     assert {r.source for r in table.rows} == {"learned"}
-    assert rows_to_json(table) == entries
-    assert rows_from_json(rows_to_json(table), DRAWER) == table
-    assert rows_to_json(GoalTable()) == []
+    assert table.put_back == {PutBack("opened", "drawer", at_once=False)}
+    assert table_to_json(table) == data
+    assert table_from_json(table_to_json(table), DRAWER) == table
+    assert table_to_json(GoalTable()) == {"rows": [], "put_back": []}
     with pytest.raises(TmdError, match="no predicate"):
-        rows_from_json([{**entries[0], "condition": "(opend ?x)"}], DRAWER)
+        table_from_json({**data, "rows": [{**entries[0], "condition": "(opend ?x)"}]}, DRAWER)
     with pytest.raises(KeyError):
-        rows_from_json([{"pattern": "open X"}], DRAWER)
+        table_from_json({**data, "rows": [{"pattern": "open X"}]}, DRAWER)

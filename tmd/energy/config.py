@@ -73,7 +73,7 @@ class InferenceConfig:
 PAPER = InferenceConfig("paper")
 PAPER_EXTENDED = InferenceConfig("paper_extended", extended=True)
 POLICY = InferenceConfig("policy", extended=True, policy=True)
-GOALS = InferenceConfig("goals", extended=True, policy=True, goals=True)
+GOALS = InferenceConfig("goals", extended=True, policy=True, goals=True, beam=1)
 
 PRESETS: Mapping[str, InferenceConfig] = {
     "goals": GOALS,

@@ -2,13 +2,15 @@
 
 Templates, policy and planner propose *how*; the goal of a clause (:mod:`tmd.goals`) says *what*. A proposal that does
 not reach it, or that undoes what an earlier clause asked for, is completed by the planner, and is none where that
-fails. The energy ranks what is left. Not in the paper.
+fails; objects that it handles for nothing are left alone. The energy ranks what is left. What was opened or switched on
+by the way is put back where people do so. Not in the paper.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import islice
 
 from tmd.energy.config import InferenceConfig
@@ -17,14 +19,15 @@ from tmd.energy.energy import Energy
 from tmd.energy.plans import Choice, Inferred, Path, RankedPlan, Refusal, Step, StepGoal, why_lost
 from tmd.energy.proposers import PLANNER_SOURCE, Candidate, Instructions, Proposer, Situation
 from tmd.goals.clause_goal import Refused, Why
+from tmd.goals.commitments import passing_predicates
 from tmd.goals.follow import Constraints, Context, Follower, Target
 from tmd.goals.steps import Role
 from tmd.goals.steps import Step as GoalStep
 from tmd.language.clause import Clause, Parsed
-from tmd.pddl.model import And, Formula
+from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.eliminate import eliminate
-from tmd.planning.result import Filled, Planner, Unreachable
+from tmd.planning.eliminate import eliminate, untouched
+from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.veil.world import World
 
 PlannerOf = Callable[[Task], Planner]
@@ -46,6 +49,8 @@ class _Way:
         return _Way(self.path.extended(choice, end), context, (*self.goals, placed))
 
 
+_Executable = tuple[Candidate, Instructions, Instructions]
+"""A candidate that can be done, what must be done before it, and its own instructions."""
 _NOTHING = Choice(None, (), {}, {})
 
 
@@ -97,7 +102,8 @@ class GoalInference:
             if isinstance(found, Refused):
                 return Inferred((), tuple(text.refusals), (step.number, found))
             ways = found
-        plans = [RankedPlan(way.path.choices, way.path.state, goals=way.goals) for way in _distinct(ways, top)]
+        ways = _distinct([text.finished(way, state) for way in ways], top)
+        plans = [RankedPlan(way.path.choices, way.path.state, goals=way.goals) for way in ways]
         told = tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
         return Inferred(told, tuple(text.refusals))
 
@@ -132,7 +138,8 @@ class _Text:
         ends: dict[Bits, list[_Way]] = {}
         for way in sorted(found, key=lambda way: way.path.order):
             ends.setdefault(way.path.state, []).append(way)
-        kept = list(islice(ends.values(), self.inference.config.beam))
+        beam = self.inference.config.beam
+        kept = list(islice(ends.values(), beam and max(beam, self.top)))
         return [way for same in kept for way in _distinct(same, self.top)]
 
     def _from(self, step: GoalStep, way: _Way) -> list[_Way] | Refused:
@@ -154,31 +161,40 @@ class _Text:
         if not (guess or shown):
             return refused
         noted = _noted(step, refused) if guess else _as_shown(step)
-        proposed = self._proposed(step, way, None) if step.role is Role.MAIN else []
+        proposed = self._proposed(step, way) if step.role is Role.MAIN else []
         if not proposed and not guess:
             return refused
         choices = proposed or [(_NOTHING, way.path.state)]
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 
+    def finished(self, way: _Way, first: Bits) -> _Way:
+        """A way through all steps, with what people put back in the end."""
+        done = self._put_back(first, way.path.state, way.context, at_once=False)
+        if not done or not way.path.choices:
+            return way
+        last = way.path.choices[-1]
+        number = way.goals[-1].clause
+        steps = (*last.steps, *(Step(i, number, latent=True) for i in done))
+        path = replace(way.path, choices=(*way.path.choices[:-1], replace(last, steps=steps)))
+        path = replace(path, state=self._simulated(way.path.state, done))
+        goal = way.goals[-1]
+        return _Way(path, way.context, (*way.goals[:-1], replace(goal, last=goal.last + len(done))))
+
     def _towards(self, way: _Way, target: Target) -> list[_Way] | Refused:
         """Every way of reaching the goal of a step that was proposed or planned."""
-        planned = self._planned(target, way.path.state)
-        if isinstance(planned, Refused) and self._in_passing(target, way.path.state):
+        found = self._reaching(way, target)
+        if isinstance(found, Refused) and self._in_passing(target, way.path.state):
             after = self.inference.follower.reached(target, way.context, way.path.state)
             note = "not all of it at once: done with what follows"
             goal = replace(_step_goal(target), formula=None, note=note)
             return [way.taken(_NOTHING, way.path.state, replace(after, kept=way.context.kept), goal)]
-        if isinstance(planned, Refused):
-            return self._without_goal(target.step, way, planned)
-        instructions, aim = planned
-        found = []
-        candidates = [self._choice(target.step, way, PLANNER_SOURCE, (), instructions, {"generated": 1.0})]
-        if target.step.role is Role.MAIN:
-            candidates += self._proposed(target.step, way, (target, aim))
-        for choice, end in candidates:
+        if isinstance(found, Refused):
+            return self._without_goal(target.step, way, found)
+        ways = []
+        for choice, end in found:
             after = self.inference.follower.reached(target, way.context, end)
-            found.append(way.taken(choice, end, after, _step_goal(target)))
-        return found
+            ways.append(way.taken(choice, end, after, _step_goal(target)))
+        return ways
 
     def _in_passing(self, target: Target, state: Bits) -> bool:
         """Whether each part of a goal can be reached, but not all at once, and the next clause goes on with them.
@@ -198,20 +214,34 @@ class _Text:
 
     # ------------------------------------------------------------------ planning
 
-    def _planned(self, target: Target, state: Bits) -> tuple[Instructions, tuple[Cube, ...]] | Refused:
-        """The planner's way to the goal, with what must be so on the way; and which aim could be reached."""
+    def _reaching(self, way: _Way, target: Target) -> list[tuple[Choice, Bits]] | Refused:
+        """What is planned and proposed for the first aim that can be reached.
+
+        Proposals come before the planner that goes far: what was shown is at hand, and better than any plan.
+        """
+        state = way.path.state
         begun: Instructions = ()
         for ways in target.ways:
-            answer = self._fill(state, ways, far=False)
+            answer: Answer = self.planner.fill(state, ways)
             if isinstance(answer, Filled):
                 begun, state = (*begun, *answer.plan), answer.state
+        proposals = list(self._executables(target.step, way)) if target.step.role is Role.MAIN else []
         reason = ""
         for aim in target.aims:
-            answer = self._fill(state, aim)
-            if isinstance(answer, Filled):
-                return (*begun, *answer.plan), aim
+            answer = self.planner.fill(state, aim)
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
+                continue
+            found = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
+            if isinstance(answer, GaveUp) and not found:
+                answer = self._far(state, aim)
+            if isinstance(answer, Unreachable):
+                reason = reason or answer.reason
+            if isinstance(answer, Filled):
+                own = self._with_put_back(way, (*begun, *answer.plan), target)
+                found.append(self._choice(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}))
+            if found:
+                return found
         if reason:
             return Refused(Why.IMPOSSIBLE, f"'{_said(target)}' cannot be done here: {reason}")
         return Refused(
@@ -220,40 +250,48 @@ class _Text:
             "ask another planner with --planner",
         )
 
-    def _fill(self, state: Bits, aim: Sequence[Cube], *, far: bool = True) -> Filled | Unreachable | None:
-        """The quick planner's answer, or else that of the one that goes further."""
-        answer = self.planner.fill(state, aim)
-        if isinstance(answer, Filled | Unreachable) or not (far and self.far and self.inference.config.last_resort):
-            return answer if isinstance(answer, Filled | Unreachable) else None
+    def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:
+        """The answer of the planner that goes further than the quick one."""
+        if not (self.far and self.inference.config.last_resort):
+            return GaveUp("the quick planner")
         if self.resort is None:
             self.resort = self.inference.resort(self.task)
         answer = self.resort.fill(state, aim)
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
             return Filled(shorter, self._simulated(state, shorter), len(shorter))
-        return answer if isinstance(answer, Unreachable) else None
+        return answer
+
+    def _put_back(self, before: Bits, end: Bits, context: Context, *, at_once: bool) -> Instructions:
+        """The instructions that undo what people undo by themselves, where that is a short way."""
+        goal = self.inference.follower.put_back(before, end, context, at_once=at_once)
+        answer = self.planner.fill(end, goal) if goal else None
+        return answer.plan if isinstance(answer, Filled) else ()
+
+    def _with_put_back(self, way: _Way, instructions: Instructions, target: Target) -> Instructions:
+        """A sequence for a step, and what people undo at once when it is done."""
+        end = self._simulated(way.path.state, instructions)
+        after = self.inference.follower.reached(target, way.context, end)
+        return (*instructions, *self._put_back(way.path.state, end, after, at_once=True))
 
     # ------------------------------------------------------------------ proposals
 
-    def _proposed(
-        self, step: GoalStep, way: _Way, wanted: tuple[Target, tuple[Cube, ...]] | None
-    ) -> list[tuple[Choice, Bits]]:
-        """What templates and policy propose, as far as it reaches the goal, or can be completed so that it does."""
+    def _proposed(self, step: GoalStep, way: _Way) -> list[tuple[Choice, Bits]]:
+        """What templates and policy propose for a step without a goal, as far as it can be done."""
+        return [
+            self._choice(step, way, candidate.source, latent, own, candidate.raw)
+            for candidate, latent, own in self._executables(step, way)
+        ]
+
+    def _executables(self, step: GoalStep, way: _Way) -> Iterator[_Executable]:
+        """The likeliest candidates that can be done, each with what must be done before it."""
         situation = Situation(self.clauses, step.number, [way.path])
-        found: list[tuple[Choice, Bits]] = []
         for candidate in islice(self._queue(situation), self.inference.config.tried):
-            answer = self._executable(candidate, way.path.state)
-            if answer is None:
+            if any(i not in self.task.by_instruction for i in candidate.instructions):
                 continue
-            latent, own = answer
-            whole = (*latent, *own)
-            if wanted is not None:
-                rest = self._completed(way.path.state, whole, *wanted)
-                if rest is None:
-                    continue
-                own = (*own, *rest)
-            found.append(self._choice(step, way, candidate.source, latent, own, candidate.raw))
-        return found
+            answer = self.planner.fill(way.path.state, self.inference.needs.of(candidate.instructions))
+            if isinstance(answer, Filled):
+                yield candidate, answer.plan, candidate.instructions
 
     def _queue(self, situation: Situation) -> Iterator[Candidate]:
         proposed = []
@@ -265,31 +303,49 @@ class _Text:
                     proposed.append(candidate)
         yield from sorted(proposed, key=lambda candidate: candidate.energy)
 
-    def _executable(self, candidate: Candidate, state: Bits) -> tuple[Instructions, Instructions] | None:
-        """What must be done before a candidate, and the candidate; ``None`` where it cannot be done, or must not."""
-        if any(i not in self.task.by_instruction for i in candidate.instructions):
-            return None
-        answer = self.planner.fill(state, self.inference.needs.of(candidate.instructions))
-        return (answer.plan, candidate.instructions) if isinstance(answer, Filled) else None
-
     def _completed(
-        self, state: Bits, instructions: Instructions, target: Target, aim: tuple[Cube, ...]
-    ) -> Instructions | None:
-        """What is missing after ``instructions`` to reach the goal; ``None`` where that is too much, or was missed."""
-        for ways in target.ways:
-            if not any(cube.holds(s) for s in self._trace(state, instructions) for cube in ways):
-                return None
-        end = self._simulated(state, instructions)
-        answer = self.planner.fill(end, aim)
-        return answer.plan if isinstance(answer, Filled) else None
+        self, way: _Way, proposal: _Executable, target: Target, aim: tuple[Cube, ...]
+    ) -> tuple[Choice, Bits] | None:
+        """A proposal with what is missing to reach the goal; ``None`` where that is too much, or was missed.
 
-    def _trace(self, state: Bits, instructions: Instructions) -> Iterator[Bits]:
+        Objects that it handles for nothing are left alone.
+        """
+        candidate, latent, own = proposal
+        state = way.path.state
+
+        def on_the_way(instructions: Sequence[Instruction]) -> bool:
+            trace = list(self._trace(state, instructions))
+            return all(any(cube.holds(s) for s in trace for cube in ways) for ways in target.ways)
+
+        def reached(instructions: Sequence[Instruction]) -> bool:
+            end = self._simulated(state, instructions)
+            return any(cube.holds(end) for cube in aim) and on_the_way(instructions)
+
+        whole = (*latent, *own)
+        if not on_the_way(whole):
+            return None
+        answer = self.planner.fill(self._simulated(state, whole), aim)
+        if not isinstance(answer, Filled):
+            return None
+        whole = (*whole, *answer.plan)
+        kept = list(untouched(whole, self.task, state, reached, self._lasting))
+        first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
+        rest = self._with_put_back(way, (*first, *kept), target)[len(first) :]
+        return self._choice(target.step, way, candidate.source, tuple(first), rest, candidate.raw)
+
+    @cached_property
+    def _lasting(self) -> Bits:
+        """The atoms that do not pass by themselves."""
+        passing = passing_predicates(self.task.problem.domain)
+        return sum(1 << bit for bit, atom in enumerate(self.task.atoms) if atom.predicate not in passing)
+
+    def _trace(self, state: Bits, instructions: Sequence[Instruction]) -> Iterator[Bits]:
         yield state
         for instruction in instructions:
             state = self.task.by_instruction[instruction].apply(state)
             yield state
 
-    def _simulated(self, state: Bits, instructions: Instructions) -> Bits:
+    def _simulated(self, state: Bits, instructions: Sequence[Instruction]) -> Bits:
         for instruction in instructions:
             state = self.inference.world.task.by_instruction[instruction].apply(state)
         return state

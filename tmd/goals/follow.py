@@ -129,6 +129,22 @@ class Follower:
         )
         return replace(context, memory=memory, kept=(*still, *fresh))
 
+    def put_back(self, before: Bits, end: Bits, context: Context, *, at_once: bool) -> tuple[Cube, ...]:
+        """What people undo by themselves of that which became true between two states and which nobody asked for.
+
+        Together with all that is to be kept; empty where there is nothing to undo.
+        """
+        known = {(p.predicate, p.kind) for t in self.reader.tables for p in t.put_back if p.at_once == at_once}
+        kinds = self.reader.world.mentions.kinds
+        asked: Bits = 0
+        for kept in context.kept:
+            asked |= kept.ways[0].positive
+        undone: Bits = 0
+        for atom in self.task.names(end & ~before & ~asked) if known else ():
+            if len(atom.args) == 1 and (atom.predicate, kinds.get(atom.args[0], "")) in known:
+                undone |= 1 << self.task.index[atom]
+        return combined((Cube(0, undone),), context.kept) if undone else ()
+
     def _ways(self, goal: ClauseGoal) -> tuple[tuple[Cube, ...], ...]:
         found = []
         for formula in goal.approach:

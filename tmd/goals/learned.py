@@ -3,7 +3,8 @@
 For every verb with the same slots, each literal that could be a goal is counted: in how many clauses it *could* hold,
 in how many of these it held at the end, and in how many it became true. A literal that nearly always holds and often
 becomes true is what the verb is for; what comes about by the way is not. Dishes (*make ramen*) are learned from the
-ends of whole demonstrations. Not in the paper.
+ends of whole demonstrations. What is opened or switched on by the way and mostly undone again is learned as well. Not
+in the paper.
 """
 
 from __future__ import annotations
@@ -13,18 +14,19 @@ from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
+from typing import Any
 
 from tmd.errors import TmdError
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.grounder import FALSE, Grounder, Moments
 from tmd.goals.nouns import Nouns
 from tmd.goals.senses import results, words_of
-from tmd.goals.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, read_row
+from tmd.goals.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, PutBack, read_row
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon import Declared, Lexicon
 from tmd.language.nouns import NAME, Match
 from tmd.language.pronouns import is_pronoun
-from tmd.pddl.model import Domain, Predicate
+from tmd.pddl.model import Domain, Instruction, Predicate
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_formula
 from tmd.veil.demonstration import Demonstration
@@ -41,6 +43,10 @@ COMPANION = 0.8
 """The share of what the best literal has that a further one must have to join it."""
 DISH = 0.75
 """The share of whole demonstrations of a dish whose ends must agree."""
+UNDONE = 0.6
+"""The share of the cases in which people must have undone what they opened or switched on."""
+FEWEST_UNDONE = 5
+"""The cases of which that is a share."""
 _NAMES = re.compile(r"\((\S+)")
 """What stands behind parentheses: the predicates of a condition, and its connectives."""
 _MAKING = frozenset({"make", "prepare", "cook", "brew", "mix"})
@@ -81,12 +87,12 @@ def learn_goals(
     learner = _Learner(shown, world_of, lexicon)
     for demonstration in shown:
         learner.take(demonstration)
-    return GoalTable(tuple(learner.rows()))
+    return GoalTable(tuple(learner.rows()), put_back=learner.put_back())
 
 
-def rows_to_json(table: GoalTable) -> list[dict[str, object]]:
-    """The rows, as :func:`rows_from_json` reads them."""
-    return [
+def table_to_json(table: GoalTable) -> dict[str, object]:
+    """What was learned, as :func:`table_from_json` reads it."""
+    rows = [
         {
             "pattern": row.pattern,
             "condition": " ".join(format_formula(row.condition).split()),
@@ -95,19 +101,20 @@ def rows_to_json(table: GoalTable) -> list[dict[str, object]]:
         }
         for row in table.rows
     ]
+    return {"rows": rows, "put_back": [[p.predicate, p.kind, p.at_once] for p in sorted(table.put_back)]}
 
 
-def rows_from_json(data: Sequence[Mapping[str, object]], domain: Domain) -> GoalTable:
-    """The rows.
+def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
+    """What was learned.
 
     Raises:
-        KeyError, TypeError, ValueError, TmdError: They are none.
+        KeyError, TypeError, ValueError, TmdError: It is no such table.
     """
     rows = []
-    for entry in data:
+    for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
         rows.append(_with_evidence(row, str(entry["evidence"]), float(str(entry["probability"]))))
-    return GoalTable(tuple(rows))
+    return GoalTable(tuple(rows), put_back=frozenset(PutBack(*map(str, p[:2]), bool(p[2])) for p in data["put_back"]))
 
 
 def _with_evidence(row: GoalRow, evidence: str, probability: float) -> GoalRow:
@@ -131,6 +138,9 @@ class _Learner:
         self.shapes: dict[tuple[str, tuple[str, ...], bool], _Shape] = defaultdict(_Shape)
         self.dishes: dict[str, Counter[tuple[str, ...]]] = defaultdict(Counter)
         self.made: Counter[str] = Counter()
+        self.started: dict[PutBack, _Count] = defaultdict(_Count)
+        words = {word for verb in ("open", "turn_on") for word in results(verb)}
+        self.startable = {p.name for p in self.domain.predicates if words & {p.name, *p.name.split("_")}}
         self._grounders: dict[str, tuple[Grounder, Nouns]] = {}
         self._known_literals: dict[tuple[str, ...], list[tuple[str, GoalRow]]] = {}
         self.predicates = self._of_ends(demonstrations)
@@ -156,7 +166,9 @@ class _Learner:
         """Count what one demonstration shows."""
         world = self.world_of(demonstration.environment)
         whole = world.task.init, run(world, world.task.init, demonstration.instructions)
+        self._undone(world, world.task.init, demonstration.instructions, at_once=False)
         for lesson in lessons(demonstration, world, self.lexicon):
+            self._undone(world, lesson.states[0], lesson.instructions, at_once=True)
             if lesson.clause is not None and lesson.clause.mood is Mood.DO:
                 self._clause(lesson.clause, world, lesson.states, lesson.instructions)
                 self._dish(lesson.clause, world, whole)
@@ -183,6 +195,25 @@ class _Learner:
             after = grounder.truth(found, states[1])
             count.held += after
             count.changed += after and not grounder.truth(found, states[0])
+
+    def _undone(self, world: World, state: Bits, instructions: Sequence[Instruction], *, at_once: bool) -> None:
+        """Count what is opened or switched on, and whether that is undone before the end."""
+        first, ever = state, 0
+        for instruction in instructions:
+            operator = world.task.by_instruction.get(instruction)
+            if operator is None or not operator.applicable(state):
+                continue
+            state = operator.apply(state)
+            ever |= state & ~first
+        for atom in world.task.names(ever):
+            if atom.predicate in self.startable and len(atom.args) == 1:
+                count = self.started[PutBack(atom.predicate, world.mentions.kinds.get(atom.args[0], ""), at_once)]
+                count.possible += 1
+                count.held += not state >> world.task.index[atom] & 1
+
+    def put_back(self) -> frozenset[PutBack]:
+        """What is undone in most cases."""
+        return frozenset(p for p, c in self.started.items() if c.possible >= FEWEST_UNDONE and c.support >= UNDONE)
 
     def _slots(
         self, clause: Clause, world: World, state: Bits, done: Sequence[object]

@@ -97,6 +97,7 @@ class Referents:
                 inside = (c for n in (*bound.names, *bound.containers) for c in self.nouns.contents(n, reading.state))
                 names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
                 return Referent(antecedent, names)
+            names = self._by_now(names, types, reading)
             mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
             return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
         return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
@@ -119,7 +120,9 @@ class Referents:
         things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.fits(n, types))
         if phrase.definite and not phrase.plural and not relations:
             things = self._part_of_recent(noun, reading) or things
-        wanted_constants = tuple(n for n in self.nouns.constants(noun, types, reading.state))
+        wanted_constants = self.nouns.constants(noun, types, reading.state)
+        if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
+            wanted_constants = self._by_now(wanted_constants, types, reading)
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
         group = self.nouns.is_group(noun)
         if not objects and wanted_constants:
@@ -147,6 +150,20 @@ class Referents:
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
+
+    def _by_now(self, names: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """What was spoken of, as that which it turned into since: the noodles, when they are cooked."""
+
+        def now(name: str) -> str:
+            for later in self.nouns.turns_into(name) if name in self.world.profiles.constants else ():
+                fresh = (a for a in self.nouns.facts_about(later) if self.grounder.holds(a, reading.state))
+                if self.grounder.is_a(later, types) and any(
+                    not self.grounder.holds(a, reading.memory.first) for a in fresh
+                ):
+                    return later
+            return name
+
+        return tuple(dict.fromkeys(map(now, names)))
 
     def _part_of_recent(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         """*The door*, after the microwave was spoken of, is its door."""

@@ -106,6 +106,21 @@ class GoalRow:
         return self.condition == And()
 
 
+@dataclass(frozen=True, slots=True, order=True)
+class PutBack:
+    """What people undo by themselves: the tap that was turned on by the way is turned off.
+
+    Attributes:
+        predicate: A predicate of one thing that was made true and that nobody asked for.
+        kind: The class of the thing.
+        at_once: It is undone when the clause is done that needed it; otherwise at the end of the text.
+    """
+
+    predicate: str
+    kind: str
+    at_once: bool
+
+
 @dataclass(frozen=True)
 class GoalTable:
     """Rows of one source, and what adjectives and groups mean.
@@ -114,11 +129,13 @@ class GoalTable:
         rows: The rows, in their order.
         attributes: For an adjective the condition of ``?x``.
         groups: For a noun that means many things the classes of all of them.
+        put_back: What people undo by themselves.
     """
 
     rows: tuple[GoalRow, ...] = ()
     attributes: Mapping[str, Formula] = field(default_factory=dict)
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    put_back: frozenset[PutBack] = frozenset()
 
     @cached_property
     def _by_verb(self) -> Mapping[str, tuple[GoalRow, ...]]:

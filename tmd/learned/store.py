@@ -21,7 +21,7 @@ from typing import Any
 from tmd.atomic import make_directory, write_bytes
 from tmd.energy.weights import format_weights, parse_weights
 from tmd.errors import OutputError, TmdError
-from tmd.goals.learned import rows_from_json, rows_to_json
+from tmd.goals.learned import table_from_json, table_to_json
 from tmd.learned.digest import digest
 from tmd.learned.knowledge import Knowledge, study
 from tmd.learned.library_json import library_from_json, library_to_json
@@ -62,7 +62,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
         files[POLICY] = _json(reward_to_json(knowledge.reward))
         files[THETA] = weights_bytes(knowledge.reward)
     if knowledge.goals is not None:
-        files[GOALS] = (json.dumps(rows_to_json(knowledge.goals), ensure_ascii=False, indent=1) + "\n").encode()
+        files[GOALS] = (json.dumps(table_to_json(knowledge.goals), ensure_ascii=False, indent=1) + "\n").encode()
     if knowledge.weights is not None:
         files[WEIGHTS] = format_weights(knowledge.weights).encode()
     manifest = {
@@ -87,7 +87,7 @@ def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
             return None
         library = library_from_json(json.loads(files[LIBRARY]), corpus.lexicon)
         reward = reward_from_json(json.loads(files[POLICY]), files[THETA]) if POLICY in files else None
-        goals = rows_from_json(json.loads(files[GOALS]), corpus.folder.domain) if GOALS in files else None
+        goals = table_from_json(json.loads(files[GOALS]), corpus.folder.domain) if GOALS in files else None
         weights = parse_weights(files[WEIGHTS].decode(), str(directory / WEIGHTS)) if WEIGHTS in files else None
     except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, TmdError):
         return None
