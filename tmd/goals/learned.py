@@ -114,7 +114,9 @@ def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
     for entry in data["rows"]:
         row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
         rows.append(_with_evidence(row, str(entry["evidence"]), float(str(entry["probability"]))))
-    return GoalTable(tuple(rows), put_back=frozenset(PutBack(*map(str, p[:2]), bool(p[2])) for p in data["put_back"]))
+    return GoalTable(
+        tuple(rows), put_back=frozenset(PutBack(str(p), str(kind), bool(once)) for p, kind, once in data["put_back"])
+    )
 
 
 def _with_evidence(row: GoalRow, evidence: str, probability: float) -> GoalRow:
