@@ -88,14 +88,22 @@ def _literals_within(condition: Formula) -> list[tuple[Atom, int]]:
 
 @lru_cache(maxsize=32)
 def passing_predicates(domain: Domain) -> frozenset[str]:
-    """The predicates that some action takes away from everything at once: being near something, for one."""
+    """The predicates that some action takes away from everything at once: being near something, for one.
+
+    What it takes away only from what is related to one of its arguments is not among them: a knob's own burner. What
+    time alone takes away is: to keep all contents would forbid most of what people do with them afterwards.
+    """
     constants = {c.name for c in domain.constants}
     found = set()
     for action in domain.actions:
         for effect in action.effects:
             quantified = {p.name for p in effect.parameters}
             own = [t for t in effect.atom.terms if t not in constants]
-            if not effect.positive and own and all(t in quantified for t in own):
+            if effect.positive or not own or not all(t in quantified for t in own):
+                continue
+            given = {p.name for p in action.parameters}
+            related = (atom for atom, negated in _literals_within(effect.condition) if not negated)
+            if not any(set(atom.terms) & quantified and set(atom.terms) & given for atom in related):
                 found.add(effect.atom.predicate)
     return frozenset(found)
 
