@@ -10,6 +10,7 @@ from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.nouns import Bound, Memory, Referent
 from tmd.goals.reading import GoalReader
+from tmd.goals.states import BE
 from tmd.goals.steps import Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
 from tmd.language.pronouns import is_pronoun
@@ -101,7 +102,7 @@ class Follower:
             return Target(step, None, note=note), context
         goal = self.reader.read(step.clause, state, context.memory)
         if isinstance(goal, Refused):
-            if step.optional and goal.why in (Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD):
+            if step.optional and goal.why in (Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION):
                 return Target(step, None, note=goal.message), context
             return goal
         if goal.formula == TRUE:
@@ -178,8 +179,11 @@ class Follower:
         for clause in condition.clauses:
             goal = self.reader.read(clause, state, context.memory)
             if isinstance(goal, Refused):
-                if condition.negated and goal.why is Why.CONTRADICTION:
-                    truth = False
+                states = clause.result or any(r.relation == "with" for r in clause.relations)
+                exists = clause.verb == BE and not states and all(map(self.reader.knows, clause.direct))
+                never = goal.why is Why.CONTRADICTION and (exists or condition.negated)
+                if never or (exists and goal.why is Why.NO_SUCH_THING):
+                    truth = False  # "if there is milk": where there is none, there is none
                     continue
                 return replace(goal, why=Why.CONDITION, message=f"the condition '{condition.text}': {goal.message}")
             truth = truth and any(cube.holds(state) for cube in goal.cubes)

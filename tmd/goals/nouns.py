@@ -96,16 +96,21 @@ class Nouns:
             for name in dict.fromkeys(atom.args):
                 self._of_object[name] = (*self._of_object.get(name, ()), atom)
 
-    def things(self, noun: str, state: Bits) -> tuple[str, ...]:
-        """The objects that ``noun`` may mean: the likeliest reading only; never by likeness of meaning alone."""
+    def things(self, noun: str, state: Bits, *, place: bool = False) -> tuple[str, ...]:
+        """The objects that ``noun`` may mean: the likeliest reading only; never by likeness of meaning alone.
+
+        As a ``place`` a noun is no group: rubbish goes in the trash, and is not what the trash is.
+        """
         if noun in WHOLES:
             return self.world.profiles.objects
-        if noun in self.table.groups:
+        if noun in self.table.groups and not (place and noun in self.world.mentions.lexicon.nouns):
             classes = self.table.groups[noun]
             found = [n for n in self.world.profiles.objects if any(c in self._kinds(n) for c in classes)]
             if found:
                 return tuple(found)
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
+        if not self.guess and all(m.how == WORDNET for m in self.world.mentions.ranked(noun)):
+            return self._called_after(noun)  # what such a likeness contains is no more sure than itself
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
 
@@ -311,8 +316,11 @@ def relations_said(relation: str, allowed: Sequence[str]) -> tuple[str, ...]:
     return ()
 
 
-def mode_of(phrase: NounPhrase, *, group: bool, thing: bool) -> tuple[Mode, int]:
-    """How many are meant: plurals and groups of things mean all of them, unless *some* was said."""
+def mode_of(phrase: NounPhrase, *, group: bool, thing: bool, place: bool = False) -> tuple[Mode, int]:
+    """How many are meant: plurals and groups of things mean all of them, unless *some* was said.
+
+    Of plural places one is enough: *on the chairs*, *on one of the burners*.
+    """
     match phrase.quantifier:
         case Quantifier.ALL:
             return Mode.ALL, 0
@@ -322,5 +330,5 @@ def mode_of(phrase: NounPhrase, *, group: bool, thing: bool) -> tuple[Mode, int]
             return Mode.NONE, 0
         case Quantifier.SOME:
             return Mode.ANY, 1
-    many = (phrase.plural or group) and thing
+    many = (phrase.plural or group) and thing and not place
     return (Mode.ALL, 0) if many else (Mode.ANY, 1)

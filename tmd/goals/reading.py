@@ -56,13 +56,31 @@ class GoalReader:
     def read(self, clause: Clause, state: Bits, memory: Memory) -> ClauseGoal | Refused:
         """What ``clause`` asks for, said when ``state`` holds."""
         reading = ClauseReading(clause, state, Moments(state, memory.first), memory)
-        if (clause.verb == BE or clause.result) and not self._rows_with(clause):
-            asked = self.states.read(reading)
-            return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
+        bare = clause.verb == BE and not clause.relations and not clause.result
+        if bare or ((clause.verb == BE or clause.result) and not self._rows_with(clause)):
+            return self._state(reading)
         own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
         plain = clause.verb.partition("_")[0]
         if plain != clause.verb and not clause.verb.endswith(("_out", "_away", "_off")):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
+        found = self._by_tables(own, reading)
+        if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
+            state = self._state(reading.again(strict=False))
+            found = found if isinstance(state, Refused) else state
+        return found
+
+    def _state(self, reading: ClauseReading) -> ClauseGoal | Refused:
+        """What a clause says to be so, or to be there."""
+        asked = self.states.read(reading)
+        return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
+
+    def knows(self, noun: str) -> bool:
+        """Whether the domain has a word for a noun, be there such a thing here or not."""
+        words = {t.name for t in self.domain.types} | {c.name for c in self.domain.constants}
+        return bool(words & {noun, *self.lexicon.nouns.get(noun, ())}) or self.nouns.is_group(noun)
+
+    def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused:
+        """The goal by the first source that knows the verb."""
         failure: Refused | None = None
         for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
             found = self._by_table(table, own, reading)
@@ -71,7 +89,7 @@ class GoalReader:
             failure = failure or found
             if found is not None and found.why is not Why.NOT_UNDERSTOOD:
                 return found
-        return failure or self._unknown(clause)
+        return failure or self._unknown(reading.clause)
 
     def _by_table(self, table: GoalTable, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused | None:
         """The goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""

@@ -64,7 +64,7 @@ class Referents:
         clause = reading.clause
         phrase = clause.phrase(noun)
         if not self.points_back(noun):
-            return [self._named(noun, phrase, types, list(relations), reading)]
+            return [self._named(noun, phrase, types, list(relations), reading, place=bool(slot.prepositions))]
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
         options = self.antecedents(noun, reading)
@@ -115,20 +115,22 @@ class Referents:
         types: tuple[str, ...],
         relations: Sequence[tuple[str, str]],
         reading: ClauseReading,
+        *,
+        place: bool = False,
     ) -> Referent:
         """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
-        things = tuple(n for n in self.nouns.things(noun, reading.state) if self.grounder.fits(n, types))
+        things = tuple(n for n in self.nouns.things(noun, reading.state, place=place) if self.grounder.fits(n, types))
         if phrase.definite and not phrase.plural and not relations:
             things = self._part_of_recent(noun, reading) or things
         wanted_constants = self.nouns.constants(noun, types, reading.state)
         if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
             wanted_constants = self._by_now(wanted_constants, types, reading)
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
-        group = self.nouns.is_group(noun)
+        group = self.nouns.is_group(noun) and not (place and noun in self.lexicon.nouns)
         if not objects and wanted_constants:
             mode, number = mode_of(phrase, group=False, thing=False)
             return Referent(noun, wanted_constants, mode, number, phrase.definite)
-        mode, number = mode_of(phrase, group=group, thing=True)
+        mode, number = mode_of(phrase, group=group, thing=True, place=place)
         if mode is not Mode.ANY and not group:
             objects, group = self._all_kinds(noun, objects, types, reading)
         if phrase.number == 2 and mode is Mode.ALL:

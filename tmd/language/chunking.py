@@ -116,7 +116,9 @@ def _is_state(tokens: list[Token], at: int, verb: Token) -> bool:
     """Tell whether a word says how something shall be in the end: "get it boiling", "keep the door shut"."""
     token = tokens[at]
     following = tokens[at + 1] if at + 1 < len(tokens) else None
-    ends = following is None or following.kind not in (Kind.N, Kind.NUM, Kind.ADJ, Kind.DET)
+    ends = following is None or following.kind not in (Kind.N, Kind.NUM, Kind.ADJ, Kind.DET, Kind.PRON)
+    if token.text in ("on", "off"):
+        ends = following is None or following.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.SEP, Kind.ADV)
     said = token.kind is Kind.ADJ or token.text in _STATES or token.form in ("ed", "ing")
     hosts = verb.stem in _RESULT_VERBS or (verb.stem in _PLAIN_VERBS and token.text in _STATES)
     noun_before = any(t.kind in (Kind.N, Kind.PRON) for t in tokens[max(0, at - 3) : at]) or verb.stem == "leave"

@@ -12,14 +12,14 @@ from dataclasses import replace
 from tmd.language.attachment import Draft, drafts
 from tmd.language.causatives import NEGATED
 from tmd.language.chunking import chunk
-from tmd.language.clause import Clause, Mood, Parsed, Relation
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
 from tmd.language.coverage import foreign, skipped
 from tmd.language.folding import fold_subordinates
 from tmd.language.grammar import parse_tokens
 from tmd.language.lexicon import Lexicon, builtin
 from tmd.language.pronouns import resolve, resolve_alone
 from tmd.language.readings import decide
-from tmd.language.requests import rewrite_requests
+from tmd.language.requests import rewrite_questions, rewrite_requests
 from tmd.language.subordinate import Reader, condition_words, read_condition, read_prohibition, read_relative
 from tmd.language.tagging import tag
 from tmd.language.tokens import Kind, Token, drop_repeats, tokenise
@@ -49,7 +49,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     strange = foreign(kept, words) if not depth else None
     if strange is not None:
         return Parsed(text, (), strange(text))
-    folded = tag(kept, words)
+    folded = tag(rewrite_questions(kept), words)
     decide(folded, words)
     folded = fold_subordinates(rewrite_requests(folded))
     tree, _ = parse_tokens(chunk(folded, words))
@@ -69,10 +69,17 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
 def _read_subordinates(found: Sequence[Draft], lexicon: Lexicon, read: Reader) -> None:
     """Read what was folded into each clause; a condition in front of a sentence holds for the whole of it."""
     before: Draft | None = None
+    asked: list[Condition] = []
     for draft in found:
         for token in draft.folds:
-            if token.form == "condition":
+            if token.form == "condition" and condition_words(token) in (["if", "so"], ["if", "yes"]):
+                draft.conditions += asked
+                draft.fronted = True
+            elif token.form == "condition" and condition_words(token)[1:] == ["there", "is", "any"]:
+                continue  # "some sweets, if there are any": where there are none, that is told anyway
+            elif token.form == "condition":
                 draft.conditions.append(read_condition(condition_words(token), lexicon, read))
+                asked = [c for c in draft.conditions if c.word == "if"] or asked
                 draft.fronted = draft.fronted or token.span < draft.verb.span
             elif token.form == "purpose":
                 draft.conditions.append(read_condition(["to", *_purpose(condition_words(token))], lexicon, read))

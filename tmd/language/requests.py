@@ -6,6 +6,8 @@ shelf* and *Both wrappers belong in the bin* one with ``put``. The new verb stan
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from tmd.language.chunking import ALSO
 from tmd.language.tokens import IMPLIED, Kind, Token
 from tmd.language.words import section
@@ -24,6 +26,43 @@ _DUTIES = frozenset(
     {"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"}
 )
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
+
+
+def rewrite_questions(tokens: list[Token]) -> list[Token]:
+    """Return the tokens with "Is the window open? If so, close it" as "if the window is open, close it".
+
+    Questions on which nothing depends stay as they are.
+    """
+    starts = [0, *(i + 1 for i, t in enumerate(tokens) if t.kind is Kind.STOP)]
+    for start, end in reversed(list(pairwise(starts))):
+        following = [t.text for t in tokens[end : end + 2]]
+        depends = following in (["if", "so"], ["if", "not"]) or following[:1] in (["then"], ["otherwise"])
+        if tokens[end - 1].text[:1] != "?" or tokens[start].text not in ("is", "are") or not depends or end - start < 4:
+            continue
+        copula, *said = tokens[start : end - 1]
+        cut = _complement(said)
+        negated = following == ["if", "not"] or following[:1] == ["otherwise"]
+        opener = Token(Kind.WORD, "unless" if negated else "if", copula.span)
+        comma = Token(Kind.COMMA, ",", tokens[end - 1].span)
+        spoken = end + (2 if following[0] == "if" else 1)
+        if spoken < len(tokens) and tokens[spoken].kind is Kind.COMMA:
+            spoken += 1
+        tokens = [*tokens[:start], opener, *said[:cut], copula, *said[cut:], comma, *tokens[spoken:]]
+    return tokens
+
+
+def _complement(tokens: list[Token]) -> int:
+    """Return where the complement of a question begins: "there | any milk", "the mug | in the sink", "it | still hot"."""
+    if tokens[0].text == "there":
+        return 1
+    soft = next((i for i, t in enumerate(tokens) if i and t.text in ("still", "already", "really", "now")), None)
+    if soft is not None:
+        return soft
+    places = [i for i, t in enumerate(tokens) if i and t.text in section("prepositions")]
+    known = tokens[-1].text in section("keep_adjectives") | section("drop_adjectives") | section("adverbs")
+    if places and not known and not tokens[-1].text.endswith(("ed", "ing")):
+        return places[-1]
+    return len(tokens) - 1
 
 
 def rewrite_requests(tokens: list[Token]) -> list[Token]:

@@ -21,6 +21,7 @@ Reader = Callable[[str], tuple[Clause, ...]]
 _BE = frozenset(
     {"is", "are", "was", "were", "be", "been", "am", "isn't", "aren't", "wasn't", "weren't", "stays", "looks", "seems"}
 )
+_STANDS = frozenset({"stands", "stand", "lies", "lie", "sits", "sit", "lying", "standing", "sitting", "hangs"})
 _HAVE = frozenset({"has", "have", "had", "hasn't", "haven't", "having"})
 _BECOME = frozenset({"gets", "becomes", "turns", "get", "become", "turn"})
 _YOU = frozenset({"you", "we", "i", "you've", "we've", "i've", "you're", "you'll"})
@@ -48,6 +49,9 @@ _HELPERS = frozenset(
 _SOFT = frozenset(
     {"already", "still", "just", "yet", "too", "very", "really", "all", "enough", "now", "completely", "nice", "and"}
 )
+_NOTICE = frozenset({"see", "find", "notice", "spot", "discover"})
+"""What you see is there."""
+_POSTURE = frozenset({"left", "standing", "lying", "sitting", "around", "about", "somewhere", "remaining"})
 _DETERMINED = section("determiners") | section("quantifiers")
 
 
@@ -70,7 +74,7 @@ def read_condition(words: Sequence[str], lexicon: Lexicon, read: Reader) -> Cond
     plain = [w for w in rest if w not in ("not", "never") and w not in ("any",)]
     plain = ["any" if w == "no" else w for w in plain]
     clauses = _said(plain, lexicon, read) if plain else ()
-    return Condition(opener, clauses, negated, text)
+    return Condition(opener, tuple(replace(clause, text=text) for clause in clauses), negated, text)
 
 
 def _expanded(word: str) -> list[str]:
@@ -83,7 +87,7 @@ def _expanded(word: str) -> list[str]:
 
 def _said(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clause, ...]:
     if words[0] == "there" and len(words) > 2:
-        return _named(words[2:], read)
+        return _named(_without_posture(words[2:]), read)
     copula = next((i for i, w in enumerate(words) if w in _BE), None)
     if words[0] in _YOU:
         return _done_by_you(words[1:], lexicon, read)
@@ -118,7 +122,18 @@ def _done_by_you(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clau
         if (words and lexicon.verb(words[0]) is None) or (words and words[0] in _DETERMINED):
             return _named(words, read)
     found = lexicon.verb(words[0]) if words else None
+    if found and found[0] in _NOTICE and len(words) > 1:
+        return _named(words[1:], read)
     return read(" ".join([_imperative(found[0]), *words[1:]])) if found else ()
+
+
+def _without_posture(words: list[str]) -> list[str]:
+    """The words of what is there, without *already* before and *standing around* behind them."""
+    while words and words[0] in _SOFT - {"all", "enough"}:
+        words = words[1:]
+    while len(words) > 1 and words[-1] in _POSTURE:
+        words = words[:-1]
+    return words
 
 
 def _imperative(stem: str) -> str:
@@ -232,6 +247,9 @@ def read_relative(
             return [], [], None
         found = read(" ".join(["find", *subject]))
         return ([], [("where", found[0].objects[0])], found[0]) if found and found[0].objects else ([], [], None)
+    if len(rest) > 2 and rest[0] in _BE | _STANDS and rest[1] in section("prepositions"):
+        found = read(" ".join(["find", *rest[2:]]))
+        return ([], [(rest[1], found[0].objects[0])], found[0]) if found and found[0].objects else ([], [], None)
     if len(rest) > 1 and rest[0] in _BE:
         last = [w for w in rest[1:] if w not in _SOFT and w not in ("not",)]
         if "not" in rest and last and last[0] in section("prepositions") and len(last) > 1:

@@ -111,6 +111,12 @@ _COPULA = re.compile(r"(that|which|who)'s")
 _WHEN = frozenset({"when", "once", "if", "until", "untill", "till", "unless"})
 _DONE = frozenset({"done", "ready", "hot", "warm", "boiling", "boiled", "cooked", "cold", "finished", "full", "empty"})
 
+_UNMARKED = {
+    "thats": "that's", "theres": "there's", "theyre": "they're", "youre": "you're", "im": "i'm", "ive": "i've",
+    "isnt": "isn't", "arent": "aren't", "wasnt": "wasn't", "doesnt": "doesn't", "cant": "can't", "wont": "won't",
+}  # fmt: skip
+"""Contractions as people write them in a hurry."""
+
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
@@ -130,6 +136,7 @@ def tokenise(text: str) -> list[Token]:
         )
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
+        word = _UNMARKED.get(word, word)
         if word in _DONE and len(tokens) > 1 and tokens[-1].text == "its" and tokens[-2].text in _WHEN:
             its = tokens.pop().span  # as people write it: "when its done"
             tokens += [
@@ -144,6 +151,10 @@ def tokenise(text: str) -> list[Token]:
         tokens.append(Token(kind, word, span))
     _enumeration(tokens, text)
     _capitals(tokens, text)
+    for token, after in pairwise(tokens):
+        abbreviated = text[after.span.start : after.span.end].isupper()
+        if token.text == "an" and after.kind is Kind.WORD and after.text[0] not in "aeiouhx" and not abbreviated:
+            token.text = "and"  # "warm it up an pour it out": no article stands before such a sound
     return tokens
 
 
