@@ -27,7 +27,7 @@ _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
 _NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
 """Relations whose nouns must name something."""
-_ELIDED = ("in", "on")
+_ELIDED = ("in", "on", "to")
 """The places that a verb may leave to what was spoken of."""
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
 
@@ -260,11 +260,12 @@ class GoalReader:
         for place, row in enumerate(fitting):
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
-            if not isinstance(found, Refused) and self.grounder.truth(found, reading.state):
+            shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
+            if not isinstance(found, Refused) and shorter and self._may_tell_which(row, unit, reading):
                 # what holds already told which thing is meant, if the verb can do without it
-                shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
-                other = self._with_rows(shorter, unit, reading) if shorter else None
-                if other is not None and not isinstance(other, Refused):
+                held = self.grounder.truth(found, reading.state)
+                other = self._with_rows(shorter, unit, reading)
+                if not isinstance(other, Refused) and (held or not self.grounder.truth(other[0], reading.state)):
                     return other
             if not isinstance(found, Refused):
                 return found, row
@@ -275,6 +276,13 @@ class GoalReader:
         said = text_of(reading.clause)
         known = "; ".join(dict.fromkeys(row.pattern for row in rows))
         return Refused(Why.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}")
+
+    def _may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
+        said = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
+        if len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
+            return False
+        return self._tells_which(unit, said[0][0], said[0][1], reading)
 
     def _takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Whether what the verb acts on may be an object, not only something that objects contain."""
@@ -307,8 +315,10 @@ class GoalReader:
         if particle in slot.prepositions:
             return [(particle, None)]
         # "take a cup, add sugar": into what was spoken of last
-        wants_place = {"put", "add", "pour"} & {reading.clause.verb, *family(reading.clause.verb)}
-        into = next((p for p in slot.prepositions if p in ("in", "on")), None)
+        verbs = (reading.clause.verb, self.lexicon.canonical_verb(reading.clause.verb))
+        wants_place = {"put", "add", "pour"} & {*verbs, *(name for verb in verbs for name in family(verb))}
+        either = {"in", "on"} <= set(slot.prepositions)
+        into = "to" if either else next((p for p in slot.prepositions if p in ("in", "on")), None)
         return [(into, None)] if wants_place and into and not unit.relations else []
 
     def _unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
