@@ -18,6 +18,8 @@ from tmd.veil.world import World
 
 INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 """Relations said the other way round: what is under the pot is what the pot stands on."""
+PART_OF = frozenset({"of", "on", "in", "at", "from"})
+"""Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
 
 
@@ -215,6 +217,8 @@ class Nouns:
 
     def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
         """That ``name`` stands in a relation to ``target``: as the table says it, or as the facts themselves do."""
+        if relation in PART_OF and self.world.profiles.wholes.get(name) == target:
+            return TRUE  # "the button on the microwave"
         if relation in INVERSE and not self._declared(relation):
             return self.related(INVERSE[relation], target, name, moments)
         for row in self.table.of("be"):

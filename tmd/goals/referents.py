@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from tmd.goals.clause_goal import ClauseReading, Refused, Why
 from tmd.goals.grounder import Grounder, Moments
-from tmd.goals.nouns import INVERSE, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.senses import words_of
 from tmd.goals.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
@@ -121,7 +121,10 @@ class Referents:
         """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
         things = tuple(n for n in self.nouns.things(noun, reading.state, place=place) if self.grounder.fits(n, types))
         if phrase.definite and not phrase.plural and not relations:
-            things = self._part_of_recent(noun, reading) or things
+            things = self._part_of(reading.memory.recent, noun) or things
+        for relation, target in relations:
+            if relation in PART_OF:
+                things = self._part_of(self.targets(target, reading), noun) or things
         wanted_constants = self.nouns.constants(noun, types, reading.state)
         if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
             wanted_constants = self._by_now(wanted_constants, types, reading)
@@ -167,10 +170,10 @@ class Referents:
 
         return tuple(dict.fromkeys(map(now, names)))
 
-    def _part_of_recent(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+    def _part_of(self, wholes: Iterable[str], noun: str) -> tuple[str, ...]:
         """*The door*, after the microwave was spoken of, is its door."""
         profiles = self.world.profiles
-        for name in reading.memory.recent:
+        for name in wholes:
             for whole in dict.fromkeys((name, profiles.wholes.get(name, name))):
                 found = tuple(p for short, p in profiles.parts.get(whole, ()) if split_name(short)[-1:] == (noun,))
                 if found:

@@ -37,6 +37,8 @@ def read_word(
     turning = previous is not None and previous.kind is Kind.V and previous.stem in ("turn", "go", "look", "head")
     if turning and token.text in ("left", "right") and not (following and following.kind is Kind.WORD):
         return Kind.ADV
+    if _heads_place(token, previous, following, lexicon, tokens, at):
+        return Kind.N
     if not token.stem:
         return _read_unknown(token, previous, following, lexicon)
     if token.form == "ing":
@@ -57,6 +59,22 @@ def _is_result(token: Token, previous: Token | None, following: Token | None) ->
     ends = following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA, Kind.P)
     colour = token.text in _COLOURS and previous.text not in ("egg", *section("keep_adjectives"))
     return ends and (colour or token.text == "shut")
+
+
+def _heads_place(
+    token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon, tokens: list[Token], at: int
+) -> bool:
+    """Tell whether a noun that looks like a verb says what goes where, or is on or off: "water in the pot", "TV on"."""
+    starts = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
+    if not starts or following is None or not lexicon.is_noun(token.text) or token.strength > 1:
+        return False
+    if lexicon.particle(token.stem or token.text, following.text) is not None:
+        return False  # "switch on the light"
+    ahead = next_token(tokens, at + 1)
+    ends = ahead is None or ahead.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
+    return (following.text in ("on", "off", "out") and ends) or (
+        following.text in ("in", "into", "on", "onto") and not ends
+    )
 
 
 def _read_unknown(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:

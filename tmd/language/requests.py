@@ -6,6 +6,7 @@ shelf* and *Both wrappers belong in the bin* one with ``put``. The new verb stan
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.chunking import ALSO
@@ -25,6 +26,14 @@ _OUGHT = frozenset({"should", "must", "need", "needs", "ought", "has", "have", "
 _DUTIES = frozenset(
     {"should", "must", "needs", "need", "ought", "has", "have", "can", "could", "to", "not", "all", "both"}
 )
+_SWITCHED = {
+    "on": "turn_on", "off": "turn_off", "out": "turn_off", "up": "raise", "down": "lower", "open": "open",
+    "closed": "close", "shut": "close", "in": "put_in",
+}  # fmt: skip
+"""The verbs for states that a noun alone is given: "lights out", "blinds down", "windows closed"."""
+_PLACING = frozenset({"in", "into", "on", "onto", "next_to", "on_top_of", "over", "beside", "under"})
+_BREAKS = (Kind.COMMA, Kind.CC, Kind.STOP)
+_THEY = frozenset({"they", "it", "these", "those"})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
 
 
@@ -83,8 +92,53 @@ def _sentence(tokens: list[Token], count: int) -> list[Token]:
     """One sentence: each request in it, cut at commas and conjunctions before a new subject."""
     if not any(t.kind in (Kind.N, Kind.PRON) for t in tokens):
         return tokens
-    rewritten = _belonging(_there(_wish(tokens)))
+    rewritten = _belonging(_there(_wish(_telegram(tokens))))
     return _bare(rewritten, alone=count == 1)
+
+
+def _telegram(tokens: list[Token]) -> list[Token]:
+    """Give a verb to each part of a list that has none: "TV on, lamps off", "shut the fridge, game in the cupboard"."""
+    result: list[Token] = []
+    part: list[Token] = []
+    spoken = any(t.kind in (Kind.V, Kind.AUX, Kind.LET, Kind.NEG) for t in tokens)
+    for token in [*tokens, None]:
+        names = all(t.kind in (*_NOUN_PHRASE, Kind.CC) for t in part)
+        if token is not None and (token.kind not in _BREAKS or (token.kind is Kind.CC and part and names)):
+            part.append(token)
+            continue
+        verb = _unspoken(part)
+        after = result[-1] if result else token
+        listed = after is not None and after.kind is Kind.COMMA
+        plain = part[:1] != [] and part[0].kind not in (Kind.DET, Kind.NUM)
+        again = len(result) > 1 and {result[-1].text, result[-2].text} & {"on", "off"}  # "the tv on and the lamp off"
+        if verb is not None and ((plain and (listed or not spoken)) or again):
+            part = [verb, *(t for t in part if t.span != verb.span)]
+        result += part if token is None else [*part, token]
+        part = []
+    return result
+
+
+def _unspoken(part: list[Token]) -> Token | None:
+    """Return the verb that a part of a list leaves out: a noun and *on* or *off*, or a bare noun and a place."""
+    words = [t for t in part if t.kind not in (Kind.FILLER, Kind.ADV) or t.text in _SWITCHED]
+    nouns = 0
+    while nouns < len(words) and words[nouns].kind in (*_NOUN_PHRASE, Kind.CC) and words[nouns].text not in _SWITCHED:
+        nouns += 1
+    rest = words[nouns:]
+    if not nouns or not rest or words[nouns - 1].kind not in (Kind.N, Kind.PRON):
+        return None
+    particles = nouns == 1 or rest[0].text in ("on", "off")
+    if len(rest) == 1 and rest[0].text in _SWITCHED and particles:
+        verb = _verb(_SWITCHED[rest[0].text], rest[0])
+        verb.form = "base"
+        return verb
+    place = rest[0].kind is Kind.P and len(rest) > 1 and all(t.kind in _NOUN_PHRASE for t in rest[1:])
+    if place and rest[0].text in _PLACING:
+        verb = _verb(PUT, words[0])
+        verb.span = words[0].span._replace(end=words[0].span.start)
+        verb.form = "base"
+        return verb
+    return None
 
 
 def _verb(stem: str, *sources: Token) -> Token:
@@ -182,6 +236,7 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         subject = [t for t in tokens[begin:at] if t not in duties]
         if not duties and token.text in ("stands", "sits", "lies", "stand", "sit", "lie"):
             continue  # "the cup that stands there" states something
+        subject = [replace(t, kind=Kind.PRON) if t.text in _THEY else t for t in subject]
         bare = token.text in ("go", "live") and not duties
         plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
@@ -209,6 +264,10 @@ def _subject_start(tokens: list[Token], at: int) -> int | None:
         if not duty and not listed and token.kind not in _INSIDE | {Kind.SUBJECT, Kind.PARTICIPLE, Kind.REL, Kind.ING}:
             break
         begin -= 1
+    if tokens[begin].kind is Kind.P:
+        # "… on the table, the toy goes in the drawer": the place belongs to what stands before it
+        begin = next((i for i in range(begin, at) if tokens[i].kind in (Kind.COMMA, Kind.CC)), at)
+        begin += begin < at and tokens[begin].kind is Kind.COMMA
     while begin < at and tokens[begin].kind in (Kind.CC, Kind.ADV):
         begin += 1
     if begin > 0 and tokens[begin - 1].kind not in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.MOD, Kind.FILLER):
