@@ -49,6 +49,8 @@ class _Way:
         return _Way(self.path.extended(choice, end), context, (*self.goals, placed))
 
 
+_KEPT_AT_MOST = 4
+"""So many more steps may be made to keep what earlier clauses reached: to open a door again, and to close it."""
 _Executable = tuple[Candidate, Instructions, Instructions]
 """A candidate that can be done, what must be done before it, and its own instructions."""
 _NOTHING = Choice(None, (), {}, {})
@@ -227,8 +229,7 @@ class _Text:
                 begun, state = (*begun, *answer.plan), answer.state
         proposals = list(self._executables(target.step, way)) if target.step.role is Role.MAIN else []
         reason = ""
-        for aim in target.aims:
-            answer = self.planner.fill(state, aim)
+        for aim, answer in self._attempts(state, target.aims):
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
                 continue
@@ -249,6 +250,25 @@ class _Text:
             f"no plan was found for '{_said(target)}'; nothing is proven",
             "ask another planner with --planner",
         )
+
+    def _attempts(self, state: Bits, aims: Sequence[tuple[Cube, ...]]) -> Iterator[tuple[tuple[Cube, ...], Answer]]:
+        """The aims that are worth a try with the quick planner's answer, the first one first.
+
+        To keep what earlier clauses reached may cost a few steps. If it costs more, nobody meant it: the kettle stays
+        hot no longer when its water is poured over the noodles.
+        """
+        *stronger, last = aims
+        least = self.planner.fill(state, last)
+        for aim in stronger if not isinstance(least, Unreachable) else ():
+            if isinstance(least, Filled) and any(cube.holds(least.state) for cube in aim):
+                yield aim, least
+                continue
+            answer = self.planner.fill(state, aim)
+            if not isinstance(least, Filled):
+                yield aim, answer
+            elif isinstance(answer, Filled) and len(answer.plan) <= len(least.plan) + _KEPT_AT_MOST:
+                yield aim, answer
+        yield last, least
 
     def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:
         """The answer of the planner that goes further than the quick one."""

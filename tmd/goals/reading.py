@@ -56,6 +56,14 @@ class GoalReader:
     def read(self, clause: Clause, state: Bits, memory: Memory) -> ClauseGoal | Refused:
         """What ``clause`` asks for, said when ``state`` holds."""
         reading = ClauseReading(clause, state, Moments(state, memory.first), memory)
+        if (
+            clause.implied
+            and clause.verb == "have"
+            and any(r.source in clause.direct and r.relation != "of" for r in clause.relations)
+        ):
+            placed = self.read(replace(clause, verb="put", implied=False), state, memory)
+            if not isinstance(placed, Refused):
+                return placed  # "mug on the table" says where it shall be
         bare = clause.verb == BE and not clause.relations and not clause.result
         if bare or ((clause.verb == BE or clause.result) and not self._rows_with(clause)):
             return self._state(reading)
@@ -280,7 +288,7 @@ class GoalReader:
     def _may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
         said = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
-        if len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
+        if len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None or said[0][0] in ("of", "with"):
             return False
         return self._tells_which(unit, said[0][0], said[0][1], reading)
 
@@ -294,11 +302,18 @@ class GoalReader:
     def _fits(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         if (row.result or None) != (reading.clause.result if row.result else None):
             return False
-        if row.noun is not None and row.noun != unit.direct:
+        if row.noun is not None and not self._same(row.noun, unit.direct, reading):
             return False
         if row.noun is None and (row.direct is None) != (unit.direct is None):
             return False
         return all(self._fillers(slot, unit, reading) for slot in row.places)
+
+    def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
+        """Whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""
+        if noun == said or said is None or noun.endswith("s"):
+            return noun == said
+        named = self.nouns.things(noun, reading.state)
+        return bool(named) and named == self.nouns.things(said, reading.state)
 
     def _fillers(self, slot: Slot, unit: Unit, reading: ClauseReading) -> list[tuple[str, str | None]]:
         """What was said in a slot: relation and noun; a particle alone leaves the noun to what was spoken of."""

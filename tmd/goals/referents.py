@@ -125,6 +125,9 @@ class Referents:
         for relation, target in relations:
             if relation in PART_OF:
                 things = self._part_of(self.targets(target, reading), noun) or things
+        inside = self._by_now_in(noun, types, reading) if place and phrase.quantifier is Quantifier.PLAIN else ()
+        if inside:
+            return Referent(noun, inside, definite=True)
         wanted_constants = self.nouns.constants(noun, types, reading.state)
         if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
             wanted_constants = self._by_now(wanted_constants, types, reading)
@@ -155,6 +158,14 @@ class Referents:
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
+
+    def _by_now_in(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """What contains the substance that was spoken of: *over the noodles* is over what they are in by now."""
+        named = set(self.nouns.constants(noun, ("object",), reading.state)) & set(self.world.profiles.constants)
+        for bound in reversed(reading.memory.bound.values()):
+            if bound.containers and named & set(bound.names):
+                return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
+        return ()
 
     def _by_now(self, names: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """What was spoken of, as that which it turned into since: the noodles, when they are cooked."""

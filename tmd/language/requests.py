@@ -134,9 +134,8 @@ def _unspoken(part: list[Token]) -> Token | None:
         return verb
     place = rest[0].kind is Kind.P and len(rest) > 1 and all(t.kind in _NOUN_PHRASE for t in rest[1:])
     if place and rest[0].text in _PLACING:
-        verb = _verb(PUT, words[0])
+        verb = _verb(HAVE, words[0])
         verb.span = words[0].span._replace(end=words[0].span.start)
-        verb.form = "base"
         return verb
     return None
 
