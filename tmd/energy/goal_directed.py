@@ -264,9 +264,10 @@ class _Text:
                 yield aim, least
                 continue
             answer = self.planner.fill(state, aim)
-            if not isinstance(least, Filled):
-                yield aim, answer
-            elif isinstance(answer, Filled) and len(answer.plan) <= len(least.plan) + _KEPT_AT_MOST:
+            if isinstance(least, Filled):
+                if isinstance(answer, Filled) and len(answer.plan) <= len(least.plan) + _KEPT_AT_MOST:
+                    yield aim, answer
+            else:
                 yield aim, answer
         yield last, least
 

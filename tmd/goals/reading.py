@@ -73,8 +73,8 @@ class GoalReader:
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         found = self._by_tables(own, reading)
         if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
-            state = self._state(reading.again(strict=False))
-            found = found if isinstance(state, Refused) else state
+            asked = self._state(reading.again(strict=False))
+            found = found if isinstance(asked, Refused) else asked
         return found
 
     def _state(self, reading: ClauseReading) -> ClauseGoal | Refused:

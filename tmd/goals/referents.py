@@ -162,7 +162,7 @@ class Referents:
     def _by_now_in(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """What contains the substance that was spoken of: *over the noodles* is over what they are in by now."""
         named = set(self.nouns.constants(noun, ("object",), reading.state)) & set(self.world.profiles.constants)
-        for bound in reversed(reading.memory.bound.values()):
+        for bound in reversed(tuple(reading.memory.bound.values())):
             if bound.containers and named & set(bound.names):
                 return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
         return ()

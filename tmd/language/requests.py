@@ -61,7 +61,7 @@ def rewrite_questions(tokens: list[Token]) -> list[Token]:
 
 
 def _complement(tokens: list[Token]) -> int:
-    """Return where the complement of a question begins: "there | any milk", "the mug | in the sink", "it | still hot"."""
+    """Return where the complement of a question begins: "there | any milk", "the mug | in the sink", "it | hot"."""
     if tokens[0].text == "there":
         return 1
     soft = next((i for i, t in enumerate(tokens) if i and t.text in ("still", "already", "really", "now")), None)
