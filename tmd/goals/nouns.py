@@ -98,10 +98,13 @@ class Nouns:
             for name in dict.fromkeys(atom.args):
                 self._of_object[name] = (*self._of_object.get(name, ()), atom)
 
-    def things(self, noun: str, state: Bits, *, place: bool = False) -> tuple[str, ...]:
+    def things(
+        self, noun: str, state: Bits, *, place: bool = False, types: tuple[str, ...] | None = None
+    ) -> tuple[str, ...]:
         """The objects that ``noun`` may mean: the likeliest reading only; never by likeness of meaning alone.
 
-        As a ``place`` a noun is no group: rubbish goes in the trash, and is not what the trash is.
+        As a ``place`` a noun is no group: rubbish goes in the trash, and is not what the trash is. With ``types`` it is
+        the likeliest of the readings that fit them.
         """
         if noun in WHOLES:
             return self.world.profiles.objects
@@ -113,8 +116,16 @@ class Nouns:
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
         if not self.guess and all(m.how == WORDNET for m in self.world.mentions.ranked(noun)):
             return self._called_after(noun)  # what such a likeness contains is no more sure than itself
+        if types is not None:
+            fitting = [m for m in matches if self.grounder.fits(m.name, types)]
+            matches = [m for m in fitting if self.grounder.is_a(m.name, types)] or fitting or matches
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def holders(self, noun: str, contents: Iterable[str], state: Bits, moments: Moments) -> tuple[str, ...]:
+        """Of everything that ``noun`` may mean what holds some of ``contents`` now: *the bag of crisps*."""
+        names = tuple(m.name for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET)
+        return self.related_now(Referent(noun, names), "of", tuple(contents), state, moments)
 
     def _siblings(self, noun: str) -> tuple[str, ...]:
         """For a guess: where there is no kettle, but the domain knows what one is, other vessels."""

@@ -288,7 +288,8 @@ class GoalReader:
     def _may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
         said = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
-        if len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None or said[0][0] in ("of", "with"):
+        where = any(said[:1] and said[0][0] in PREPOSITIONS[p] for p in ("in", "on", "next_to", "under"))
+        if not where or len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
             return False
         return self._tells_which(unit, said[0][0], said[0][1], reading)
 

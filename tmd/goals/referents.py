@@ -64,7 +64,7 @@ class Referents:
         clause = reading.clause
         phrase = clause.phrase(noun)
         if not self.points_back(noun):
-            return [self._named(noun, phrase, types, list(relations), reading, place=bool(slot.prepositions))]
+            return [self._named(noun, phrase, types, list(relations), reading, place=slot.is_place)]
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
         options = self.antecedents(noun, reading)
@@ -119,12 +119,16 @@ class Referents:
         place: bool = False,
     ) -> Referent:
         """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
-        things = tuple(n for n in self.nouns.things(noun, reading.state, place=place) if self.grounder.fits(n, types))
+        likely = self.nouns.things(noun, reading.state, place=place, types=types)
+        things = tuple(n for n in likely if self.grounder.fits(n, types))
         if phrase.definite and not phrase.plural and not relations:
             things = self._part_of(reading.memory.recent, noun) or things
         for relation, target in relations:
             if relation in PART_OF:
                 things = self._part_of(self.targets(target, reading), noun) or things
+            if relation == "of":
+                held = self.nouns.holders(noun, self.targets(target, reading), reading.state, reading.moments)
+                things = tuple(n for n in held if self.grounder.fits(n, types)) or things
         inside = self._by_now_in(noun, types, reading) if place and phrase.quantifier is Quantifier.PLAIN else ()
         if inside:
             return Referent(noun, inside, definite=True)

@@ -61,6 +61,11 @@ class Slot:
     variable: str
     prepositions: tuple[str, ...] = ()
 
+    @property
+    def is_place(self) -> bool:
+        """Whether it says where something is or goes."""
+        return bool({"in", "on", "next_to", "under", "to"} & set(self.prepositions))
+
 
 @dataclass(frozen=True, slots=True)
 class GoalRow:
