@@ -12,6 +12,7 @@ Read this first; each call goes to the room of that name (the boxes of Figure 3 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from weakref import WeakKeyDictionary
 
 from tmd.energy.algorithm1 import Inference
 from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig
@@ -30,6 +31,7 @@ from tmd.language.clause import Clause, Parsed
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.planning.filler import GapFiller
 from tmd.planning.result import Planner
 from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
@@ -95,13 +97,27 @@ def ground(
     parsed = parse(text, library.lexicon)
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
-    planners = TaskPlanners(world.task, make(planner, world.task, cap=config.cap), planner, config)
+    planners = TaskPlanners(world.task, _quick(planner, world, config.cap), planner, config)
     inferred = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals, top=top)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     known = config.goals or len(unseen) < len(parsed.clauses)
     plans = tuple(plan for plan in inferred.plans if plan.instructions or (known and parsed.clauses))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
     return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, inferred.refused)
+
+
+_FILLERS: WeakKeyDictionary[World, dict[int, GapFiller]] = WeakKeyDictionary()
+
+
+def _quick(name: str, world: World, cap: int) -> Planner:
+    """The planner for gaps: what the one in this process derives of an environment serves every text in it."""
+    if name != IN_PROCESS:
+        return make(name, world.task, cap=cap)
+    known = _FILLERS.setdefault(world, {})
+    if cap not in known:
+        known[cap] = GapFiller(world.task, cap=cap)
+    known[cap].forget()
+    return known[cap]
 
 
 def infer(

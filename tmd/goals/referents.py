@@ -129,9 +129,11 @@ class Referents:
             if relation == "of":
                 held = self.nouns.holders(noun, self.targets(target, reading), reading.state, reading.moments)
                 things = tuple(n for n in held if self.grounder.fits(n, types)) or things
-        inside = self._by_now_in(noun, types, reading) if place and phrase.quantifier is Quantifier.PLAIN else ()
-        if inside:
+        inside = self._by_now_in(noun, types, reading) if phrase.quantifier is Quantifier.PLAIN else ()
+        if inside and place:
             return Referent(noun, inside, definite=True)
+        if inside and phrase.definite:
+            things = tuple(n for n in things if n in inside) or things  # "until the water boils": the water in the pot
         wanted_constants = self.nouns.constants(noun, types, reading.state)
         if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
             wanted_constants = self._by_now(wanted_constants, types, reading)

@@ -14,7 +14,7 @@ from tmd.veil.mentions import Mentions
 from tmd.veil.states import Profiles
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
 class World:
     """What templates are made from and instantiated in."""
 
