@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from itertools import combinations, islice, pairwise, product
+from itertools import combinations, islice, product
 
 from tmd.errors import TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
@@ -12,11 +12,11 @@ from tmd.goals.grounder import FALSE, Moments, atoms_of, conjunction, disjunctio
 from tmd.goals.nouns import Memory, Mode, Referent, relations_said
 from tmd.goals.referents import Referents
 from tmd.goals.requirements import Requirements
-from tmd.goals.senses import family, words_of
+from tmd.goals.senses import family
 from tmd.goals.states import BE, States
 from tmd.goals.table import FIRST, PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot, slot_types, split_predicate
 from tmd.goals.why import why_impossible
-from tmd.language.clause import PERSONS, Clause, Quantifier
+from tmd.language.clause import Clause, Quantifier
 from tmd.language.lexicon import Lexicon
 from tmd.pddl.conjunctions import predicates_of
 from tmd.pddl.model import Formula
@@ -69,7 +69,9 @@ class GoalReader:
             return self._state(reading)
         own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
         plain = clause.verb.partition("_")[0]
-        if plain != clause.verb and not clause.verb.endswith(("_out", "_away", "_off")):
+        goals = {word for group in ("in", "on", "next_to", "to") for word in PREPOSITIONS[group]}
+        goes = any(r.source in clause.direct and r.relation in goals for r in clause.relations)
+        if plain != clause.verb and (goes or not clause.verb.endswith(("_out", "_away", "_off"))):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         found = self._by_tables(own, reading)
         if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
@@ -143,7 +145,7 @@ class GoalReader:
         """The goal by the first rows that fit every thing the verb acts on."""
         formulas: list[Formula] = []
         used: GoalRow | None = None
-        for unit in self._units(reading):
+        for unit in self.referents.units(reading):
             found = self._unit(rows, unit, reading)
             if isinstance(found, Refused):
                 found = self._measured(rows, unit, reading) or found
@@ -187,31 +189,6 @@ class GoalReader:
             groups,
             tuple(dict.fromkeys(reading.notes)),
         )
-
-    def _units(self, reading: ClauseReading) -> list[Unit]:
-        """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
-        clause = reading.clause
-        direct = [name for name in clause.direct if name not in PERSONS]
-        if not direct:
-            direct = [""] if "" in clause.antecedents else []
-        none = [name for name in direct if clause.phrase(name).quantifier is Quantifier.NONE]
-        if 0 < len(none) < len(direct):
-            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
-        units = [Unit(name, self.referents.relations_of(name, clause)) for name in direct]
-        for unit in units if len(none) and none != direct else ():
-            unit.relations += [("without", name) for name in none if name not in direct]
-        for unit in units:
-            measured = next((t for r, t in unit.relations if r == "of"), None)
-            if unit.direct in words_of("measures") and measured is not None:
-                unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.referents.relations_of(
-                    measured, clause
-                )
-                unit.direct = measured
-        if clause.implied:
-            # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
-            for unit, following in reversed(list(pairwise(units))):
-                unit.relations = unit.relations or list(following.relations)
-        return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
 
     def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | Refused:
         """The goal of one thing; a pronoun is what it most likely means of that which a row fits."""
@@ -291,7 +268,7 @@ class GoalReader:
         where = any(said[:1] and said[0][0] in PREPOSITIONS[p] for p in ("in", "on", "next_to", "under"))
         if not where or len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
             return False
-        return self._tells_which(unit, said[0][0], said[0][1], reading)
+        return self.referents.tells_which(unit, said[0][0], said[0][1], reading)
 
     def _takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Whether what the verb acts on may be an object, not only something that objects contain."""
@@ -321,7 +298,7 @@ class GoalReader:
         said = [(r, t) for r, t in unit.relations if relations_said(r, slot.prepositions)]
         if len({r for r, _ in said}) > 1 or len(said) > 1:
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
-            said = [pair for pair in said if not self._tells_which(unit, *pair, reading)] or said[-1:]
+            said = [pair for pair in said if not self.referents.tells_which(unit, *pair, reading)] or said[-1:]
         if said:
             first = said[0][0]
             return [(r, t) for r, t in said if r == first]
@@ -337,23 +314,6 @@ class GoalReader:
         into = "to" if either else next((p for p in slot.prepositions if p in ("in", "on")), None)
         return [(into, None)] if wants_place and into and not unit.relations else []
 
-    def _unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
-        """Whether a relation says a place where what is acted on is not yet."""
-        place = relation in ("in", "into", "inside", "on", "onto", "to", "next_to", "on_top_of", "over", "beside")
-        return (
-            place
-            and bool(self.referents.targets(target, reading))
-            and not self._tells_which(unit, relation, target, reading)
-        )
-
-    def _tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
-        """Whether a relation of what is acted on holds now of one of its candidates."""
-        if not unit.direct:
-            return False
-        referent = Referent(unit.direct, self.nouns.things(unit.direct, reading.state))
-        names = self.referents.targets(target, reading)
-        return bool(self.nouns.related_now(referent, relation, names, reading.state, reading.moments))
-
     def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refused:
         """The goal of one thing by one row: for each combination of what stands behind the prepositions."""
         consumed: set[tuple[str, str | None]] = set()
@@ -365,7 +325,7 @@ class GoalReader:
             alternatives = alternatives or any(t and reading.clause.phrase(t).either for _, t in fillers)
             choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]
         leftover = [pair for pair in unit.relations if pair not in consumed]
-        if reading.strict and any(self._unplaced(unit, *pair, reading) for pair in leftover):
+        if reading.strict and any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
             return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of")
         unknown = self._unknown_thing(leftover, reading)
         if unknown is not None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from itertools import pairwise
 
-from tmd.goals.clause_goal import ClauseReading, Refused, Why
+from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.senses import words_of
@@ -42,6 +43,42 @@ class Referents:
         if clause.setting and name in (*clause.direct, ""):
             found.append(("to", clause.setting.split()[-1]))
         return [(r, t) for r, t in found if t not in PERSONS]
+
+    def units(self, reading: ClauseReading) -> list[Unit]:
+        """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
+        clause = reading.clause
+        direct = [name for name in clause.direct if name not in PERSONS]
+        if not direct:
+            direct = [""] if "" in clause.antecedents else []
+        none = [name for name in direct if clause.phrase(name).quantifier is Quantifier.NONE]
+        if 0 < len(none) < len(direct):
+            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
+        units = [Unit(name, self.relations_of(name, clause)) for name in direct]
+        for unit in units if len(none) and none != direct else ():
+            unit.relations += [("without", name) for name in none if name not in direct]
+        for unit in units:
+            measured = next((t for r, t in unit.relations if r == "of"), None)
+            if unit.direct in words_of("measures") and measured is not None:
+                unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.relations_of(measured, clause)
+                unit.direct = measured
+        if clause.implied:
+            # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
+            for unit, following in reversed(list(pairwise(units))):
+                unit.relations = unit.relations or list(following.relations)
+        return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Whether a relation of what is acted on holds now of one of its candidates."""
+        if not unit.direct:
+            return False
+        referent = Referent(unit.direct, self.nouns.things(unit.direct, reading.state))
+        names = self.targets(target, reading)
+        return bool(self.nouns.related_now(referent, relation, names, reading.state, reading.moments))
+
+    def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Whether a relation says a place where what is acted on is not yet."""
+        place = relation in ("in", "into", "inside", "on", "onto", "to", "next_to", "on_top_of", "over", "beside")
+        return place and bool(self.targets(target, reading)) and not self.tells_which(unit, relation, target, reading)
 
     def points_back(self, noun: str) -> bool:
         """Whether a noun, or its absence, stands for something that was spoken of."""

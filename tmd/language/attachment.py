@@ -304,7 +304,7 @@ class _Attachment:
             return
         self.instrument = self.instrument or name == "with"
         self.behind = name
-        if name not in _NEVER_HOSTS:
+        if name not in _NEVER_HOSTS or targets[0].name in ("one", "ones"):
             self.host = targets
 
     def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:
@@ -334,6 +334,8 @@ class _Attachment:
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
+        if self.behind and all(p.name in ("one", "ones") for p in self.host) and name in ("with", "on", "in", "from"):
+            return True  # "except the one with the handle": what stands behind it says which one
         if name == "with" and any(_is_tool(t.name) for t in targets):
             held = stem in section("moving") | section("placing") | section("dative_verbs")
             return self.instrument or (held and not self.behind)
