@@ -240,7 +240,7 @@ class _Text:
                 reason = reason or answer.reason
             if isinstance(answer, Filled):
                 own = self._with_put_back(way, (*begun, *answer.plan), target)
-                found.append(self._choice(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}))
+                found.append(self._choice(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
             if found:
                 return found
         if reason:
@@ -352,7 +352,7 @@ class _Text:
         kept = list(untouched(whole, self.task, state, reached, self._lasting))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
         rest = self._with_put_back(way, (*first, *kept), target)[len(first) :]
-        return self._choice(target.step, way, candidate.source, tuple(first), rest, candidate.raw)
+        return self._choice(target.step, way, candidate.source, tuple(first), rest, candidate.raw, aim)
 
     @cached_property
     def _lasting(self) -> Bits:
@@ -379,8 +379,9 @@ class _Text:
         latent: Instructions,
         own: Instructions,
         raw: Mapping[str, float],
+        aim: Sequence[Cube] = (),
     ) -> tuple[Choice, Bits]:
-        """A candidate weighed."""
+        """A candidate weighed; ``aim`` is what it reaches."""
         energy, world = self.inference.energy, self.inference.world
         state = way.path.state
         middle = self._simulated(state, latent)
@@ -394,6 +395,11 @@ class _Text:
             factors |= energy.of_sequence(own, len(own), names)
         factors |= energy.of_end(situation.clause.verb, names, end)
         factors |= energy.of_latent(latent, middle)
+        if aim:
+            asked: Bits = 0
+            for cube in aim:
+                asked |= cube.positive | cube.negative
+            factors["unasked"] = float(((end ^ state) & self._lasting & ~asked).bit_count())
         for proposer in self.inference.proposers:
             factors |= proposer.judge(situation, (*latent, *own), end)
         return Choice(source, steps, energy.weigh(factors), factors), end

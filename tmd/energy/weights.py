@@ -13,11 +13,11 @@ from tmd.pddl.syntax import nearest, read_text
 
 NAMES = (
     *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
-    *("cover", "words", "generated"),
+    *("cover", "words", "generated", "unasked"),
     *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
-OURS = ("cover", "words", "generated")
+OURS = ("cover", "words", "generated", "unasked")
 """Those of them that are not in the paper."""
 _RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
 
