@@ -166,6 +166,53 @@ def test_unless_is_a_condition_as_well() -> None:
     assert steps(said("03_drawer", "study1", "Open the drawer, unless it is open.")) != []
 
 
+@pytest.mark.parametrize(
+    ("text", "done"),
+    [
+        ("Is the cup on the table? If so, put it on the shelf.", True),
+        ("Is the cup on the shelf? If so, put it on the table. If not, put it on the shelf.", True),
+        ("If the cup is on the shelf, hand me the book. If not, put the cup on the shelf.", True),
+        ("If there is a book on the table, put the cup on the shelf.", False),
+    ],
+)
+def test_questions_and_if_not_are_conditions(text: str, done: bool) -> None:
+    assert ("(at cup1 shelf1 on)" in end(said("02_table", "corner1", text))) == done
+
+
+def test_whether_there_is_such_a_thing_is_a_question_of_things_that_the_domain_knows() -> None:
+    assert steps(said("kitchen", "kitchen3", "If there is a kettle, put the mug in the sink.")) == []
+    refused = said("kitchen", "kitchen3", "If there is a dragon, put the mug in the sink.").refused
+    assert refused is not None and refused[1].why is Why.CONDITION
+
+
+def test_what_is_switched_on_by_the_way_is_switched_off() -> None:
+    fetched = said("kitchen", "kitchen1", "Boil some water in the kettle.")
+    assert "(hot kettle1)" in end(fetched)
+    assert not {fact for fact in end(fetched) if fact.startswith("(active")}
+    asked = said("kitchen", "kitchen1", "Turn the tap on.")
+    assert "(active sink1_tap)" in end(asked)
+
+
+def test_what_was_cooked_is_meant_when_it_is_served() -> None:
+    text = "Fill the pot with water and boil it. Add the ramen and wait. Put the ramen in the bowl."
+    for kitchen in ("kitchen1", "kitchen2"):
+        assert {"(contains bowl1 cooked_ramen)", "(hot bowl1)"} <= end(said("kitchen", kitchen, text))
+
+
+def test_hot_water_over_the_noodles_goes_where_they_are() -> None:
+    grounded = said("kitchen", "kitchen1", "Boil the kettle. Put the ramen in a bowl. Pour the water over the noodles.")
+    assert {"(contains bowl1 water)", "(contains bowl1 ramen)"} <= end(grounded)
+    assert not any("bowl1" in step for step in steps(grounded) if step.startswith("pour(bowl1"))
+
+
+@pytest.mark.parametrize("kitchen", ["kitchen2", "kitchen3"])
+def test_nothing_is_handled_for_nothing(kitchen: str) -> None:
+    text = "Take some coffee in a cup. Add ice cream of your choice. Finally, add raspberry syrup to the mixture."
+    facts = end(said("kitchen", kitchen, text))
+    flavours = {f for f in facts for flavour in ("vanilla", "chocolate") if flavour in f and "(contains" in f}
+    assert sum("tub" not in fact for fact in flavours) == 1
+
+
 WRONG = [
     ("02_table/corner1", "Swap the cup and the book.", {"(at cup1 shelf1 on)", "(at book1 table1 on)"}),
     ("02_table/corner1", "Put the book under the table.", None),

@@ -28,10 +28,34 @@ def test_the_paper_s_example() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "condition", "otherwise"),
+    [
+        ("Is the window open? If so, close it.", "if the window is open", False),
+        ("Is the beer on the shelf still cold? Then take it out.", "if the beer on the shelf is still cold", False),
+        ("Is the mug in the sink? If not, put it there.", "unless the mug is in the sink", False),
+        ("If it rains, close the door. If not, open it.", None, True),
+    ],
+)
+def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwise: bool) -> None:
+    last = parse(text).clauses[-1]
+    assert [c.text for c in last.conditions] == ([condition] if condition else [])
+    assert last.otherwise == otherwise
+
+
+@pytest.mark.parametrize(
     ("text", "expected"),
     [
         ("turn the stove on", ["(turn_on, [stove])"]),
         ("Turn on the stove", ["(turn_on, [stove])"]),
+        ("radio on, lamps off", ["(turn_on, [radio])", "(turn_off, [lamp])"]),
+        ("switch the radio and the lamp off", ["(switch_off, [radio, lamp])"]),
+        (
+            "shut the fridge, milk on the table",
+            ["(shut, [fridge])", "(have, [milk, table], on: milk -> table)"],
+        ),
+        ("use the remote to switch on the radio", ["(use, [remote])", "(switch_on, [radio])"]),
+        ("warm the milk an pour it out", ["(warm, [milk])", "(pour_out, [it])"]),
+        ("take the pot thats in the sink", ["(take, [pot, sink], in: pot -> sink)"]),
         ("turn the knob on the stove", ["(turn, [knob, stove], on: knob -> stove)"]),
         ("a cup of water", ["(have, [cup, water], of: cup -> water)"]),
         ("take a cup of water", ["(take, [cup, water], of: cup -> water)"]),
