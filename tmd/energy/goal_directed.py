@@ -28,6 +28,7 @@ from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.eliminate import eliminate, untouched
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
+from tmd.veil.tidy import tidy
 from tmd.veil.world import World
 
 PlannerOf = Callable[[Task], Planner]
@@ -348,7 +349,7 @@ class _Text:
         answer = self.planner.fill(self._simulated(state, whole), aim)
         if not isinstance(answer, Filled):
             return None
-        whole = (*whole, *answer.plan)
+        whole = tidy((*whole, *answer.plan), self.inference.world, state)
         kept = list(untouched(whole, self.task, state, reached, self._lasting))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
         rest = self._with_put_back(way, (*first, *kept), target)[len(first) :]
