@@ -155,6 +155,8 @@ def _state_verb(tokens: list[Token], at: int) -> tuple[str, int]:
         return token.stem, at + 1
     if token.stem and (token.text in section("verbs") or token.form == "ed") and token.kind in (Kind.ADJ, Kind.N):
         return token.stem, at + 1
+    if token.form == "ing" and token.stem and not nominal_next:
+        return token.stem, at + 1  # "make sure the film is playing"
     return "make_sure", at + (token.kind is Kind.ADJ)
 
 
