@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from tmd.goals.clause_goal import ClauseGoal, Refused, Why
 from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
@@ -318,6 +317,3 @@ def _single(cube: Cube) -> list[Cube]:
             found.append(Cube(low, 0) if positive else Cube(0, low))
             bits ^= low
     return found
-
-
-__all__ = ["Constraints", "Context", "Follower", "Sequence", "Target", "field"]
