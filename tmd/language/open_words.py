@@ -37,8 +37,8 @@ def read_word(
     turning = previous is not None and previous.kind is Kind.V and previous.stem in ("turn", "go", "look", "head")
     if turning and token.text in ("left", "right") and not (following and following.kind is Kind.WORD):
         return Kind.ADV
-    infinitive = previous is not None and previous.kind is Kind.TO and token.stem and following is not None
-    if infinitive and following is not None and lexicon.particle(token.stem, following.text) is not None:
+    particle = lexicon.particle(token.stem, following.text) if token.stem and following is not None else None
+    if particle is not None and previous is not None and previous.kind is Kind.TO:
         return Kind.V  # "use the remote to switch on the television"
     if _heads_place(token, previous, following, lexicon, tokens, at):
         return Kind.N
