@@ -10,7 +10,7 @@ from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.nouns import Bound, Memory, Referent
 from tmd.goals.reading import GoalReader
 from tmd.goals.states import BE
-from tmd.goals.steps import Step, in_order
+from tmd.goals.steps import PARTINGS, Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
 from tmd.language.pronouns import is_pronoun
 from tmd.pddl.task import Bits, Cube, Task
@@ -101,7 +101,10 @@ class Follower:
             return Target(step, None, note=note), context
         goal = self.reader.read(step.clause, state, context.memory)
         if isinstance(goal, Refused):
-            if step.optional and goal.why in (Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION):
+            unread = {Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION}
+            if step.clause.verb in PARTINGS:
+                unread.add(Why.NO_SUCH_THING)  # "before you leave the room"
+            if step.optional and goal.why in unread:
                 return Target(step, None, note=goal.message), context
             return goal
         if goal.formula == TRUE:

@@ -12,6 +12,7 @@ GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_l
 EARLIER = frozenset(
     {"when", "once", "after", "whenever", "as_soon_as", "now_that", "by_the_time", "the_moment", "since"}
 )
+PARTINGS = frozenset({"leave", "go"})
 LATER = frozenset({"before", "until", "till", "to", "with"})
 
 
@@ -73,5 +74,6 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
     for condition in clause.conditions:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:
-                optional = condition.word not in ("before", "with")
+                # "before you leave" says when, and is nothing to be done where nobody knows how
+                optional = condition.word not in ("before", "with") or inner.verb in PARTINGS
                 yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional)
