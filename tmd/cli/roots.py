@@ -68,16 +68,16 @@ class Roots:
 
         return Corpus(folder, find_problems(folder.name, self.problems))
 
-    def lexicon(self, name: str) -> Lexicon | None:
-        """The words of a domain, if it has a file of them.
+    def lexicon(self, name: str) -> Lexicon:
+        """The words of a domain.
 
         Raises:
             TmdError: There is no such domain, or its file of words is wrong.
         """
         from tmd.language.lexicon import Lexicon
 
-        path = self.folder(name).lexicon_path
-        return Lexicon.load(path) if path else None
+        folder = self.folder(name)
+        return Lexicon.load(folder.lexicon_path, folder.kinds)
 
     def domain(self, name: str) -> Domain:
         """The PDDL domain in a file, in a directory, or of a bundled name.

@@ -1,29 +1,35 @@
 """What verbs mean, read off a domain's own words: names of actions and predicates. No kitchen is known here.
 
-Three readings, each as rows that an author could have written:
+Four readings, each as rows that an author could have written:
 
 * a verb whose outcome has a word (*open*: opened; *turn on*: active, lit, running) and a predicate with that word;
 * a verb that stands in the name of an action, and what that action brings about for its parameters;
+* a participle that is the name of a predicate (*deliver*: ``delivered-to``);
 * prepositions that stand in predicates, or as constants in their arguments: where things are, and what they contain.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import permutations
 
 from tmd.goals.senses import result_verbs, results
-from tmd.goals.table import ACTIONS, PREPOSITIONS, GoalRow, GoalTable, Slot
+from tmd.goals.table import ACTIONS, LOCATED, PREPOSITIONS, GoalRow, GoalTable, Slot
+from tmd.language.lexicon import builtin
+from tmd.language.nouns import split_name, words_in_name
 from tmd.pddl.hierarchy import hierarchy
-from tmd.pddl.model import ActionSchema, And, Atom, Domain, Exists, Formula, Not, Or, Predicate, TypedName
+from tmd.pddl.model import ActionSchema, And, Atom, Domain, Effect, Exists, Formula, Not, Or, Predicate, TypedName
 from tmd.pddl.writer import format_formula
 
-_ACTORS = frozenset(
-    {"robot", "agent", "person", "human", "gripper", "hand", "arm", "worker", "gardener", "player", "actor"}
-)
-"""Names of types, and of parents of types, whose objects act or hold rather than being acted on."""
+_ACTORS = frozenset({"robot", "agent", "gripper", "hand", "arm", "actor"})
+"""Names of types, and of parents of types, whose objects act or hold rather than being acted on ..."""
+_PEOPLE = frozenset({"person", "human", "worker", "gardener", "player", "operator"})
+"""... and of those whose objects do so where most actions have one; elsewhere things are done for them."""
 _PLACES = ("in", "on", "next_to", "under", "behind", "above")
 _PUT = ("put", "bring", "throw")
+_GO = ("go", "move", "walk", "drive", "come", "return")
+_HANGING = frozenset({"hung", "hanging", "suspended"})
 _ANYWHERE = ("in", "on", "to", "next_to", "with", "of", "under", "from")
 _MOST_SLOTS = 3
 
@@ -31,7 +37,14 @@ _MOST_SLOTS = 3
 def rows_of_actions(domain: Domain) -> GoalTable:
     """The rows that a domain's names suggest."""
     words = _Words(domain)
-    rows = [*words.relations(), *words.contents(), *words.named_actions(), *words.states()]
+    rows = [
+        *words.relations(),
+        *words.contents(),
+        *words.named_actions(),
+        *words.states(),
+        *words.participles(),
+        *words.named_actions(shortened=True),
+    ]
     return GoalTable(tuple(rows))
 
 
@@ -45,10 +58,19 @@ class _Words:
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
         self.constants: dict[tuple[str, ...], list[str]] = {}
         self.passing = _passing(domain)
+        peopled = [a for a in domain.actions if any(self._kinds(p) & _PEOPLE for p in a.parameters)]
+        self.actors = _ACTORS | _PEOPLE if 2 * len(peopled) > len(domain.actions) else _ACTORS
+
+    def _kinds(self, parameter: TypedName) -> set[str]:
+        return {kind for given in parameter.types for kind in self.types.ancestors(given)}
 
     def actor(self, parameter: TypedName) -> bool:
         """Whether a parameter is for who acts, not for what is acted on."""
-        return any(kind in _ACTORS for given in parameter.types for kind in self.types.ancestors(given))
+        return bool(self._kinds(parameter) & self.actors)
+
+    def things(self, predicate: Predicate) -> list[TypedName]:
+        """The parameters of a predicate that stand for neither who acts nor a value."""
+        return [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
 
     def fixed(self, parameter: TypedName) -> list[str]:
         """The constants of the domain that a parameter may be."""
@@ -78,11 +100,11 @@ class _Words:
 
         A predicate with a value besides (an amount, a load) is such a state with ``any_value`` only: nothing is in it.
         """
-        things = [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
+        things = self.things(predicate)
         if len(things) != 1:
             return None
         values = [p for p in predicate.parameters if self.valued(p)]
-        named = word == predicate.name or word in predicate.name.split("_")
+        named = word in words_in_name(predicate.name)
         chosen = {p.name: word for p in values if word in self.fixed(p)}
         if not chosen and (not named or (values and not any_value)):
             return None
@@ -121,6 +143,10 @@ class _Words:
                 continue
             for preposition, atom in self._places(predicate):
                 places.setdefault(preposition, []).append(atom)
+            goes = self._whereabouts(predicate)
+            if goes is not None:
+                where = Slot("?y", ("in", "on", "to", "next_to"))
+                yield self._row(_GO, (where,), goes, "go to Y", "a predicate of where one is")
         for preposition, atoms in places.items():
             condition = atoms[0] if len(atoms) == 1 else Or(tuple(atoms))
             slots = (Slot("?x"), Slot("?y", (preposition,)))
@@ -131,7 +157,7 @@ class _Words:
             yield self._row(("take",), slots, And(anywhere), "take X from Y", "predicates of place")
 
     def _places(self, predicate: Predicate) -> Iterator[tuple[str, Formula]]:
-        things = [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
+        things = self.things(predicate)
         relations = [p for p in predicate.parameters if p not in things and set(self.fixed(p)) & set(PREPOSITIONS)]
         if len(things) != 2:
             return
@@ -142,21 +168,35 @@ class _Words:
                     yield constant, self._atom(predicate, {**given, parameter.name: constant})
         if relations:
             return
-        parts = set(predicate.name.split("_")) | {predicate.name}
+        parts = words_in_name(predicate.name)
         for preposition in _PLACES:
-            if parts & set(PREPOSITIONS[preposition]):
+            if parts & set(PREPOSITIONS[preposition]) or (preposition == "on" and parts & _HANGING):
                 yield preposition, self._atom(predicate, given)
                 return
-        if "at" in parts:
+        if parts & LOCATED:
             for preposition in ("in", "on", "next_to"):
                 yield preposition, self._atom(predicate, given)
+
+    def _whereabouts(self, predicate: Predicate) -> Formula | None:
+        """That one is at ``?y``: a predicate of place with one place, and otherwise only who acts."""
+        things = self.things(predicate)
+        parts = words_in_name(predicate.name)
+        said = parts & LOCATED or any(parts & set(PREPOSITIONS[preposition]) for preposition in ("in", "on", "next_to"))
+        moves = any(self._moves(action, predicate.name) for action in self.domain.actions)
+        return self._atom(predicate, {things[0].name: "?y"}) if len(things) == 1 and said and moves else None
+
+    def _moves(self, action: ActionSchema, predicate: str) -> bool:
+        """Whether an action makes a predicate true of one thing and false of another."""
+        made = {e.atom.terms for e in action.effects if e.positive and e.atom.predicate == predicate}
+        unmade = {e.atom.terms for e in action.effects if not e.positive and e.atom.predicate == predicate}
+        return bool(made and unmade - made)
 
     def contents(self) -> Iterator[GoalRow]:
         """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
         for predicate in self.domain.predicates:
             if predicate.name not in self.made:
                 continue
-            things = [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
+            things = self.things(predicate)
             values = [p for p in predicate.parameters if self.valued(p)]
             if len(things) != 1 or len(values) != 1:
                 continue
@@ -170,56 +210,117 @@ class _Words:
             yield self._row(("be",), (Slot("?v"), Slot("?s", ("with", "of"))), condition, "be V with S", why)
             yield self._row(("set", "turn", "change"), (Slot("?v"), Slot("?s", ("to",))), condition, "set V to S", why)
 
+    # ------------------------------------------------------------------ participles
+
+    def participles(self) -> Iterator[GoalRow]:
+        """``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
+        for predicate in self.domain.predicates:
+            first, *rest = split_name(predicate.name)
+            verb = builtin().verb(first)
+            things = self.things(predicate)
+            said = predicate.name in self.made and predicate.name not in self.passing
+            if not said or verb is None or verb[1] != "ed" or first in LOCATED or not 0 < len(things) < 3:
+                continue
+            slots = [Slot("?x")]
+            names = {things[0].name: "?x"}
+            if len(things) == 2:
+                slots.append(Slot("?y", tuple(p for p in _ANYWHERE if p != "from")))
+                names[things[1].name] = "?y"
+            verbs = (verb[0], "_".join([verb[0], *rest])) if rest else (verb[0],)
+            condition = self._atom(predicate, names)
+            pattern = " … ".join([verbs[0], *(s.variable.removeprefix("?").upper() for s in slots)])
+            yield self._row(verbs, tuple(slots), condition, pattern, f"the predicate {predicate.name}")
+
     # ------------------------------------------------------------------ actions
 
-    def named_actions(self) -> Iterator[GoalRow]:
-        """Rows for the verbs in the names of actions: what these bring about for their parameters."""
-        for action in self.domain.actions:
-            condition = self._brought_about(action)
-            if condition is None:
-                continue
-            used = [p for p in action.parameters if p.name in _variables(condition) and not self.actor(p)]
-            for verbs in (tuple(dict.fromkeys(_verbs_of(action.name))),):
-                yield from self._with_slots(action, verbs, used, condition)
+    def named_actions(self, *, shortened: bool = False) -> Iterator[GoalRow]:
+        """Rows for the verbs in the names of actions: what these bring about for their parameters.
 
-    def _brought_about(self, action: ActionSchema) -> Formula | None:
-        """What an action makes true, unconditionally, of its parameters; failing that, what it makes false."""
-        wanted = {p.name for p in action.parameters if not self.actor(p)}
+        Args:
+            shortened: Rows for names without their particle instead: *lay* for ``lay-down``.
+        """
+        firsts = [split_name(action.name)[:1] for action in self.domain.actions]
+        for action in self.domain.actions:
+            words = split_name(action.name)
+            if shortened and (words[-1] not in ("up", "down", "out") or firsts.count(words[:1]) > 1):
+                continue
+            wanted = self._brought_about(action)
+            verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
+            if wanted:
+                yield from self._with_slots(action, verbs, wanted)
+            else:
+                yield from self._of_oneself(action, words)
+
+    def _brought_about(self, action: ActionSchema) -> list[Effect]:
+        """What an action is for: what it makes true, unconditionally, of its parameters; or else makes false."""
+        wanted = [p.name for p in action.parameters if not self.actor(p)]
         own = [
             e
             for e in action.effects
             if not e.parameters
             and e.condition == And()
-            and set(e.atom.terms) & wanted
+            and set(e.atom.terms) & set(wanted)
             and e.atom.predicate not in self.passing
         ]
-        positive = [e.atom for e in own if e.positive]
-        if positive:
-            # what only this action brings about says what it is for: to harvest is to pick, not to hold
-            fewest = min(self._makers(atom.predicate) for atom in positive)
-            positive = [atom for atom in positive if self._makers(atom.predicate) == fewest]
-            return positive[0] if len(positive) == 1 else And(tuple(positive))
-        negative: list[Formula] = [Not(e.atom) for e in own]
-        return (negative[0] if len(negative) == 1 else And(tuple(negative))) if negative else None
+        if not own:
+            return []
+        positive = [e for e in own if e.positive]
+        negative = [e for e in own if not e.positive]
+        moved = {e.atom.predicate for e in positive} & {e.atom.predicate for e in negative}
+        acted_on = [e for e in positive if wanted[0] in e.atom.terms]
+        if acted_on or moved or not any(wanted[0] in e.atom.terms for e in negative):
+            positive = acted_on or positive
+        else:
+            # the first parameter is what is acted on: to strip a bed is no way to get hold of a sheet
+            positive, negative = [], [e for e in negative if wanted[0] in e.atom.terms]
+        # what only this action brings about says what it is for: to harvest is to pick, not to hold
+        chosen = positive or negative
+        fewest = min((self._makers(e) for e in chosen), default=0)
+        return [e for e in chosen if e.positive is False or self._makers(e) == fewest]
 
-    def _makers(self, predicate: str) -> int:
-        """How many actions make something of a predicate true."""
-        return sum(any(e.positive and e.atom.predicate == predicate for e in a.effects) for a in self.domain.actions)
+    def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
+        """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""
+        own = [e for e in action.effects if not e.parameters and e.condition == And() and not e.atom.terms]
+        if not own:
+            return
+        condition = _joined([self._said(effect, {}, action) for effect in own])
+        noun = "_".join(words[1:])
+        why = f"the action {action.name}"
+        yield self._row(("_".join(words),), (), condition, "_".join(words), why)
+        nouns = [noun] if noun else ["yourself", "battery"]
+        for name in nouns:
+            row = self._row((words[0],), (), condition, f"{words[0]} {name}", why)
+            yield replace(row, noun=name)
 
-    def _with_slots(
-        self, action: ActionSchema, verbs: tuple[str, ...], used: list[TypedName], condition: Formula
-    ) -> Iterator[GoalRow]:
+    def _makers(self, effect: Effect) -> int:
+        """How many actions make something of a predicate true, or false, as an effect does."""
+        alike = (effect.positive, effect.atom.predicate)
+        return sum(any((e.positive, e.atom.predicate) == alike for e in a.effects) for a in self.domain.actions)
+
+    def _with_slots(self, action: ActionSchema, verbs: tuple[str, ...], wanted: Sequence[Effect]) -> Iterator[GoalRow]:
         """One row for each choice of which parameters are said; the others are whatever they may be."""
+        mentioned = {term for effect in wanted for term in effect.atom.terms}
+        used = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
         for count in range(min(len(used), _MOST_SLOTS), 0, -1):
             for said in permutations(used, count):
                 names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
-                others = [p for p in action.parameters if p.name in _variables(condition) and p.name not in names]
-                formula = _renamed(condition, names)
-                if others:
-                    formula = Exists(tuple(others), formula)
                 slots = (Slot("?x"), *(Slot(names[p.name], _ANYWHERE) for p in said[1:]))
                 pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
+                formula = _joined([self._said(effect, names, action) for effect in wanted])
                 yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
+
+    def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
+        """What an effect brings about, with what was not said left open: of something, or no longer of anything."""
+        left = {p.name: f"?any_{i}" for i, p in enumerate(action.parameters) if p.name not in names}
+        terms = tuple({**left, **names}.get(term, term) for term in effect.atom.terms)
+        others = tuple(TypedName(left[p.name], p.types) for p in action.parameters if left.get(p.name) in terms)
+        atom = Atom(effect.atom.predicate, terms)
+        formula = Exists(others, atom) if others else atom
+        return formula if effect.positive else Not(formula)
+
+
+def _joined(parts: list[Formula]) -> Formula:
+    return parts[0] if len(parts) == 1 else And(tuple(parts))
 
 
 def _verbs_of(name: str) -> Iterator[str]:
@@ -247,28 +348,6 @@ def _passing(domain: Domain) -> frozenset[str]:
     from tmd.goals.commitments import passing_predicates
 
     return passing_predicates(domain)
-
-
-def _variables(formula: Formula) -> set[str]:
-    match formula:
-        case Atom(_, terms):
-            return {t for t in terms if t.startswith("?")}
-        case Not(part) | Exists(_, part):
-            return _variables(part)
-        case And(parts) | Or(parts):
-            return set().union(*(_variables(part) for part in parts))
-    return set()
-
-
-def _renamed(formula: Formula, names: dict[str, str]) -> Formula:
-    match formula:
-        case Atom(predicate, terms):
-            return Atom(predicate, tuple(names.get(t, t) for t in terms))
-        case Not(part):
-            return Not(_renamed(part, names))
-        case And(parts):
-            return And(tuple(_renamed(part, names) for part in parts))
-    return formula
 
 
 def describe(rows: Iterable[GoalRow]) -> str:

@@ -12,11 +12,15 @@ from tmd.goals.reading import GoalReader
 from tmd.goals.states import BE
 from tmd.goals.steps import PARTINGS, Step, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed
+from tmd.language.coverage import REMINDER
 from tmd.language.pronouns import is_pronoun
 from tmd.pddl.task import Bits, Cube, Task
 
 _NEVER = frozenset({"use", "touch"})
 """To do this to a thing is to handle it in whatever way."""
+
+_COMPLETE = frozenset({"done", "ready", "finished", "complete", "over"})
+"""What is said of something only to say when: the clause before has brought it about."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,6 +87,10 @@ class Follower:
 
     def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[Step, ...], Context, Constraints] | Refused:
         """The steps of a text, what is known before the first, and what holds throughout."""
+        unread = [piece for piece in parsed.skipped if piece.reason == REMINDER]
+        if unread and not self.reader.nouns.guess:
+            message = f"'{' '.join(unread[0].text.split())}' {REMINDER}"
+            return Refused(Why.NOT_UNDERSTOOD, message, "say what shall be done with it")
         memory = Memory(first=state)
         constraints = self._constraints(parsed, state, memory)
         if isinstance(constraints, Refused):
@@ -104,6 +112,8 @@ class Follower:
             unread = {Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION}
             if step.clause.verb in PARTINGS:
                 unread.add(Why.NO_SUCH_THING)  # "before you leave the room"
+            if step.clause.result in _COMPLETE:
+                unread.add(Why.IMPOSSIBLE)  # "when they are done"
             if step.optional and goal.why in unread:
                 return Target(step, None, note=goal.message), context
             return goal
@@ -183,7 +193,7 @@ class Follower:
             if isinstance(goal, Refused):
                 states = clause.result or any(r.relation == "with" for r in clause.relations)
                 exists = clause.verb == BE and not states and all(map(self.reader.knows, clause.direct))
-                never = goal.why is Why.CONTRADICTION and (exists or condition.negated)
+                never = goal.why is Why.CONTRADICTION and (exists or condition.negated or not clause.relations)
                 if never or (exists and goal.why is Why.NO_SUCH_THING):
                     truth = False  # "if there is milk": where there is none, there is none
                     continue
@@ -280,7 +290,8 @@ class Follower:
         found = []
         for atom in self.task.names(state):
             things = [a for a in atom.args if a not in constants]
-            if atom.args and atom.args[0] in names and (len(things) > 1 or len(atom.args) > 1):
+            everything = clause.verb != "keep" and len(atom.args) > 1  # to keep a bowl is not to keep what is in it
+            if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
                 found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
         return found
 

@@ -43,6 +43,8 @@ class Grounder:
         self.task = world.task
         self._objects = universe(world.task.problem)
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
+        self.exact = False
+        """Nothing stands in for what was named."""
         self.live = 0
         """How many atoms of the conditions ground last may hold, counted by who asks."""
 
@@ -159,6 +161,8 @@ class Grounder:
 
     def relatives(self, name: str, level: int) -> tuple[str, ...]:
         """What may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 other parts."""
+        if self.exact:
+            return ()
         if name not in self._relatives:
             self._relatives[name] = self._find_relatives(name)
         return self._relatives[name][level]
@@ -170,19 +174,26 @@ class Grounder:
         own = {name, *parts}
         linked: dict[str, None] = {}
         for (tail, head), predicates in sorted(profiles.links.items()):
-            if tail in own and head not in own and not self._equivalence(predicates):
+            if tail in own and head not in own and not self._tells_nothing(predicates):
                 linked[head] = None
         if not linked:
             for (tail, head), predicates in sorted(profiles.links.items()):
-                if head in own and tail not in own and not self._equivalence(predicates):
+                if head in own and tail not in own and not self._tells_nothing(predicates):
                     linked[tail] = None
         whole = profiles.wholes.get(name)
         siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
         return parts, tuple(linked), (whole,) if whole else (), siblings
 
-    def _equivalence(self, predicates: Iterable[str]) -> bool:
-        """Whether only predicates that hold of everything with itself join two things: they tell nothing."""
-        return all(predicate in self.reflexive for predicate in predicates)
+    def _tells_nothing(self, predicates: Iterable[str]) -> bool:
+        """Whether only predicates that hold of everything with itself, or may change, join two things.
+
+        These tell nothing of what belongs together: where a fixture stands is said as where a cup stands.
+        """
+        return all(predicate in self.reflexive or predicate in self._changing for predicate in predicates)
+
+    @cached_property
+    def _changing(self) -> frozenset[str]:
+        return frozenset(atom.predicate for atom in self.task.atoms)
 
     @cached_property
     def reflexive(self) -> frozenset[str]:

@@ -24,7 +24,7 @@ from tmd.goals.senses import results, words_of
 from tmd.goals.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, PutBack, read_row
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon import Declared, Lexicon
-from tmd.language.nouns import NAME, Match
+from tmd.language.nouns import NAME, Match, words_in_name
 from tmd.language.pronouns import is_pronoun
 from tmd.pddl.model import Domain, Instruction, Predicate
 from tmd.pddl.task import Bits
@@ -142,7 +142,7 @@ class _Learner:
         self.made: Counter[str] = Counter()
         self.started: dict[PutBack, _Count] = defaultdict(_Count)
         words = {word for verb in ("open", "turn_on") for word in results(verb)}
-        self.startable = {p.name for p in self.domain.predicates if words & {p.name, *p.name.split("_")}}
+        self.startable = {p.name for p in self.domain.predicates if words & words_in_name(p.name)}
         self._grounders: dict[str, tuple[Grounder, Nouns]] = {}
         self._known_literals: dict[tuple[str, ...], list[tuple[str, GoalRow]]] = {}
         self.predicates = self._of_ends(demonstrations)

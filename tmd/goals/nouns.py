@@ -8,10 +8,11 @@ from enum import StrEnum
 
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
 from tmd.goals.senses import state_words
-from tmd.goals.table import PREPOSITIONS, RELATION, GoalTable
+from tmd.goals.table import LOCATED, PREPOSITIONS, RELATION, GoalTable
 from tmd.language.attachment import WHOLES
 from tmd.language.clause import NounPhrase, Quantifier
-from tmd.language.nouns import ALIAS, NAME, WORDNET, split_name
+from tmd.language.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
+from tmd.language.words import section
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
@@ -21,6 +22,7 @@ INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 PART_OF = frozenset({"of", "on", "in", "at", "from"})
 """Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
+_EVERYTHING = WHOLES | {"nothing"}
 
 
 class Mode(StrEnum):
@@ -106,7 +108,7 @@ class Nouns:
         As a ``place`` a noun is no group: rubbish goes in the trash, and is not what the trash is. With ``types`` it is
         the likeliest of the readings that fit them.
         """
-        if noun in WHOLES:
+        if noun in _EVERYTHING:
             return self.world.profiles.objects
         if noun in self.table.groups and not (place and noun in self.world.mentions.lexicon.nouns):
             classes = self.table.groups[noun]
@@ -120,7 +122,25 @@ class Nouns:
             fitting = [m for m in matches if self.grounder.fits(m.name, types)]
             matches = [m for m in fitting if self.grounder.is_a(m.name, types)] or fitting or matches
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
+        best = self._told_apart(noun, best, state)
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _told_apart(self, noun: str, names: list[str], state: Bits) -> list[str]:
+        """Of things that share only the head of a compound those that its modifiers mean: *Ann's bed*, *coffee cup*."""
+        *modifiers, _ = split_name(noun)
+        own = {word for n in names for kind in self._kinds(n) for word in split_name(kind)}
+        if not modifiers or len(names) < 2 or own & set(modifiers) or noun in self.world.mentions.lexicon.nouns:
+            return names
+        owners = [m.name for m in self.world.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
+        now = self.related_now(Referent(noun, tuple(names)), "of", owners, state, Moments(state, state))
+        for word in modifiers:
+            said = {name: self.attribute(word, name, Moments(state, state)) for name in names}
+            if any(formula is not None for formula in said.values()):  # "the free hook"
+                now = tuple(n for n, formula in said.items() if formula and self.grounder.truth(formula, state))
+                return list(now)
+        # where names say which one of its kind a thing is ("red_block"), there is no yellow one
+        contrary = set(modifiers) & section("keep_adjectives") and all(map(self._modified, names))
+        return list(now) or ([] if contrary else names)
 
     def holders(self, noun: str, contents: Iterable[str], state: Bits, moments: Moments) -> tuple[str, ...]:
         """Of everything that ``noun`` may mean what holds some of ``contents`` now: *the bag of crisps*."""
@@ -145,7 +165,7 @@ class Nouns:
 
     def is_group(self, noun: str) -> bool:
         """Whether a noun means all things of some classes."""
-        return noun in WHOLES or noun in self.table.groups
+        return noun in _EVERYTHING or noun in self.table.groups
 
     def _kinds(self, name: str) -> tuple[str, ...]:
         return (*self.world.mentions.types.get(name, ()), self.world.mentions.kinds.get(name, ""), name)
@@ -223,8 +243,7 @@ class Nouns:
         others = [a for a in atom.args if a != name]
         if word in others and word in self.world.profiles.constants and len(others) == 1:
             return True
-        named = word == atom.predicate or word in atom.predicate.split("_")
-        return named and all(a in self.world.profiles.constants for a in others)
+        return word in words_in_name(atom.predicate) and all(a in self.world.profiles.constants for a in others)
 
     def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
         """That ``name`` stands in a relation to ``target``: as the table says it, or as the facts themselves do."""
@@ -260,6 +279,7 @@ class Nouns:
         words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
         things = target not in self.world.profiles.constants and name not in self.world.profiles.constants
         places = words & {"from", "where", "to", "at"} or (words & _CONTENTS and things)
+        ordered = things and not words & (_CONTENTS | {"where"})
         ends = (target, *(other for level in range(3) for other in self.grounder.relatives(target, level)))
         for end in ends:
             found = []
@@ -268,6 +288,8 @@ class Nouns:
                     continue
                 if atom.predicate in self.grounder.reflexive:
                     continue
+                if ordered and atom.args.index(name) > atom.args.index(end):
+                    continue  # (on a b) says where a is, not where b is
                 if self._names_relation(atom, words, places=bool(places), name=name, end=end):
                     found.append(atom)
             if found:
@@ -278,11 +300,13 @@ class Nouns:
         others = [a for a in atom.args if a not in (name, end)]
         if any(a in PREPOSITIONS for a in others):
             return places or any(a in words for a in others)
-        parts = set(atom.predicate.split("_")) | {atom.predicate}
+        parts = words_in_name(atom.predicate)
         synonyms = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
         if parts & synonyms:
             return True
         known = {w for members in PREPOSITIONS.values() for w in members}
+        if parts & LOCATED:
+            return places or bool(words & {"in", "on"})
         if parts & known:
             return places
         contents = end in self.world.profiles.constants or name in self.world.profiles.constants
@@ -299,13 +323,19 @@ class Nouns:
         for word in phrase.attributes:
             said = {name: self.attribute(word, name, moments) for name in names}
             if all(formula is None for formula in said.values()):
-                named = tuple(n for n in names if word in n.split("_"))
-                names = named or names
-                if not named:
+                named = tuple(n for n in names if word in split_name(n))
+                contrary = word in section("keep_adjectives")
+                others = contrary and len(names) > 1 and all(self._modified(n) for n in names)
+                names = named if named or others else names
+                if not named and not others:
                     unknown.append(word)
                 continue
             names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
         return replace(referent, names=names), unknown
+
+    def _modified(self, name: str) -> bool:
+        """Whether the name of an object says which one of its kind it is: ``red_block``."""
+        return len([word for word in split_name(name) if not word.isdigit()]) > 1
 
     def related_now(
         self, referent: Referent, relation: str, targets: Sequence[str], state: Bits, moments: Moments

@@ -14,7 +14,17 @@ from tmd.goals.referents import Referents
 from tmd.goals.requirements import Requirements
 from tmd.goals.senses import family
 from tmd.goals.states import BE, States
-from tmd.goals.table import FIRST, PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot, slot_types, split_predicate
+from tmd.goals.table import (
+    ACTIONS,
+    FIRST,
+    PREPOSITIONS,
+    RELATION,
+    GoalRow,
+    GoalTable,
+    Slot,
+    slot_types,
+    split_predicate,
+)
 from tmd.goals.why import why_impossible
 from tmd.language.clause import Clause, Quantifier
 from tmd.language.lexicon import Lexicon
@@ -105,8 +115,22 @@ class GoalReader:
         """The goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""
         failure: Refused | None = None
         others = self._family(own)
+        if any(row.source == ACTIONS for row in table.rows[:1]):
+            # an action that takes just what was named is meant rather than what an action does to a relative of it
+            self.grounder.exact = True
+            try:
+                for known in filter(None, map(table.of, (*own, *others))):
+                    found = self._by_rows(known, reading.again(strict=True))
+                    if not isinstance(found, Refused) or found.why is Why.IMPOSSIBLE:
+                        return found
+            finally:
+                self.grounder.exact = False
         for strict, verbs in ((True, own), (True, others), (False, own), (False, others)):
-            for rows in filter(None, map(table.of, verbs)):
+            for verb in verbs:
+                # what another verb leaves without a trace says nothing of this one: to put is not to sit
+                rows = [row for row in table.of(verb) if verb in own or not row.traceless]
+                if not rows:
+                    continue
                 found = self._by_rows(rows, reading.again(strict=strict))
                 if isinstance(found, ClauseGoal):
                     return found
@@ -239,10 +263,15 @@ class GoalReader:
             (r for r in rows if self._fits(r, unit, reading)),
             key=lambda row: (
                 -len(row.slots) - (row.noun is not None),
+                -self._latest(row, unit, reading),
                 counted and not self._takes_things(row, unit, reading),
+                row.source == ACTIONS and not self._takes_named(row, unit),
             ),
         )
+        impossible: set[str] = set()
         for place, row in enumerate(fitting):
+            if row.source == ACTIONS and row.evidence in impossible:
+                continue  # what cannot be done with all that was said is not done with less
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
@@ -255,6 +284,8 @@ class GoalReader:
             if not isinstance(found, Refused):
                 return found, row
             failure = failure or found
+            if found.why is Why.IMPOSSIBLE:
+                impossible.add(row.evidence)
             reading.meant, reading.approach, reading.notes = before
         if failure is not None:
             return failure
@@ -276,6 +307,19 @@ class GoalReader:
             return False
         types = slot_types(row.condition, row.direct.variable, self.domain)
         return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
+
+    def _latest(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> int:
+        """How late what a row takes was said: *the book on the table in the box* says last where it shall go."""
+        taken = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
+        return max((unit.relations.index(pair) for pair in taken if pair in unit.relations), default=0)
+
+    def _takes_named(self, row: GoalRow, unit: Unit) -> bool:
+        """Whether what the verb acts on may be what the noun names, not only what holds it: *manure*, the barrow."""
+        if row.direct is None or not unit.direct:
+            return True
+        types = slot_types(row.condition, row.direct.variable, self.domain)
+        ranked = self.world.mentions.ranked(unit.direct)
+        return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
 
     def _fits(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         if (row.result or None) != (reading.clause.result if row.result else None):

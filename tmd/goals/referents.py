@@ -166,6 +166,9 @@ class Referents:
             if relation == "of":
                 held = self.nouns.holders(noun, self.targets(target, reading), reading.state, reading.moments)
                 things = tuple(n for n in held if self.grounder.fits(n, types)) or things
+        if not likely and noun in words_of("parts"):
+            # "the lid", where lids are no things of their own, is that of what was spoken of
+            things = tuple(n for n in reading.memory.recent if self.grounder.is_a(n, types))[:1]
         inside = self._by_now_in(noun, types, reading) if phrase.quantifier is Quantifier.PLAIN else ()
         if inside and place:
             return Referent(noun, inside, definite=True)

@@ -53,6 +53,9 @@ PREPOSITIONS: Mapping[str, tuple[str, ...]] = {
 }
 """Each preposition of a pattern, with the words that it stands for; the first is the most usual."""
 
+LOCATED = frozenset({"at", "located", "location", "loc", "position", "situated", "whereabouts"})
+"""Words in the names of predicates that say where something is, and not whether in, on or beside it."""
+
 
 @dataclass(frozen=True, slots=True)
 class Slot:
@@ -341,10 +344,20 @@ def _parts(formula: Formula, bound: frozenset[str]) -> Iterator[tuple[Atom | Equ
 
 
 def slot_types(row_condition: Formula, variable: str, domain: Domain) -> tuple[str, ...]:
-    """The types of what may stand in a slot, read off the signature of the first predicate that takes it."""
+    """The types of what may stand in a slot, read off the signature of the first predicate that takes it.
+
+    Where there are several ways (``or``), it may be of the types of any.
+    """
+    if isinstance(row_condition, Or):
+        ways = [part for part in row_condition.parts if variable in _terms(part)]
+        return tuple(dict.fromkeys(t for way in ways for t in slot_types(way, variable, domain))) or ("object",)
     signatures = {p.name: p for p in domain.predicates}
     for part, _ in _parts(row_condition, frozenset()):
         if isinstance(part, Atom) and variable in part.terms:
             signature = signatures[split_predicate(part.predicate)[0]]
             return signature.parameters[part.terms.index(variable)].types
     return ("object",)
+
+
+def _terms(formula: Formula) -> set[str]:
+    return {term for part, _ in _parts(formula, frozenset()) if isinstance(part, Atom) for term in part.terms}

@@ -13,13 +13,16 @@ from tmd.pddl.semantics import holds
 from tmd.pddl.task import Task
 from tmd.pddl.writer import format_formula
 
+_OF_TYPE = "it is not of the type"
+
 
 def why_impossible(condition: Formula, binding: Mapping[str, str], task: Task, grounder: Grounder) -> str:
     """The first fact that can never hold, with what forbids it."""
-    for atom in _wanted(condition, binding):
-        if not grounder.can_hold(atom):
-            return why_never(atom, task)
-    return "no plan can bring that about"
+    reasons = [why_never(atom, task) for atom in _wanted(condition, binding) if not grounder.can_hold(atom)]
+    broken = [
+        reason for reason in reasons if _OF_TYPE not in reason
+    ]  # says more than that something is of another type
+    return next(iter((*broken, *reasons)), "no plan can bring that about")
 
 
 def why_never(atom: GroundAtom, task: Task) -> str:
@@ -38,9 +41,7 @@ def why_never(atom: GroundAtom, task: Task) -> str:
             wrong = [p for p in action.parameters if p.name in binding and not objects.is_a(binding[p.name], p.types)]
             if wrong:
                 wanted = " or ".join(wrong[0].types)
-                wrong_kind = (
-                    wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: it is not of the type {wanted}"
-                )
+                wrong_kind = wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: {_OF_TYPE} {wanted}"
                 continue
             for part in conjuncts(action.precondition):
                 names = {a.predicate for a in _atoms(part)}

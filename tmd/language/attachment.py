@@ -68,6 +68,8 @@ class Phrase:
         """How it was said."""
         words = (*self.lead, self.name) if self.pronoun or self.name in WHOLES else self.lead
         adjectives = [w for w in self.lead if w not in _DETERMINERS and not is_number(w)]
+        if "both" in self.lead and not self.plural and not self.pronoun and not self.of:
+            words = tuple(w for w in words if w != "both")  # "both the cup and the mug": one of each
         if self.name in WHOLES or any(w in _ALL for w in words):
             quantifier = Quantifier.ALL
         elif "no" in self.lead or self.name in ("nothing", "none"):
@@ -163,7 +165,8 @@ class Draft:
         relative = any(t.form == "relative" for t in self.folds)
         if self.verb.stem == "leave" and self.direct and (relative or not placed):
             return Mood.KEEP
-        return Mood.KEEP if self.verb.stem == "keep" and self.verb.lead and not placed else Mood.DO
+        keeps = self.verb.stem == "keep" and (self.verb.lead or self.direct)
+        return Mood.KEEP if keeps and not placed else Mood.DO
 
     def _folded(self, text: str, form: str) -> str | None:
         parts = [" ".join(text[t.span.start : t.span.end].split()) for t in self.folds if t.form == form]
@@ -304,7 +307,7 @@ class _Attachment:
             return
         self.instrument = self.instrument or name == "with"
         self.behind = name
-        if name not in _NEVER_HOSTS or targets[0].name in ("one", "ones"):
+        if (name not in _NEVER_HOSTS or targets[0].name in ("one", "ones")) and targets[0].name not in PERSONS:
             self.host = targets
 
     def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:

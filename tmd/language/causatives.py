@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from tmd.language.chunking import ALSO
 from tmd.language.clause import Span
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
@@ -113,6 +114,8 @@ def rewrite_should(tokens: list[Token], at: int) -> tuple[list[Token], int] | No
     while used + 1 < len(tokens) and tokens[used].kind is Kind.CC and tokens[used + 1].form == "ed":
         verbs += [tokens[used], _verb(tokens[used + 1].stem, tokens[used + 1])]
         used += 2
+    if used < len(tokens) and tokens[used].kind in (Kind.P, Kind.TO) and any(t.kind is Kind.P for t in nominal):
+        tokens[used].form = ALSO  # said of what is acted on, not of the noun before it
     return [*verbs, *nominal], used
 
 

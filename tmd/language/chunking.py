@@ -35,7 +35,31 @@ _LINKS = frozenset({Kind.COMMA, Kind.CC})
 _WHOLES = frozenset({"everything", "anything", "all", "every", "each", "everybody", "nothing"})
 _RESULT_VERBS = frozenset({"make", "get", "have", "keep", "leave", "turn", "want", "set"})
 """What stands behind their object may be the state that it shall be in ..."""
-_PLAIN_VERBS = frozenset({"push", "pull", "put", "swing", "slide", "tie", "lock", "switch", "hold", "prop", "find"})
+_PLAIN_VERBS = frozenset(
+    {
+        "push",
+        "pull",
+        "put",
+        "swing",
+        "slide",
+        "tie",
+        "lock",
+        "switch",
+        "hold",
+        "prop",
+        "find",
+        "pop",
+        "crack",
+        "throw",
+        "slam",
+        "pry",
+        "yank",
+        "ease",
+        "nudge",
+        "fling",
+        "kick",
+    }
+)
 """... and behind that of these, if it is one of the next."""
 _STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done"})
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
@@ -294,6 +318,8 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
         if token.text == "up_to" and not preposition and lexicon.particle(verb.stem, "up") is not None:
             _split_up_to(verb, token)
             return True
+        if verb.stem in ("leave", "keep") and token.text in ("on", "off") and place > at + 1:
+            return False  # "leave the radio on": as it is, and no particle
         match = lexicon.particle(verb.stem, token.text)
         if match is None and not preposition and _moves_object(tokens, at, place):
             match = False

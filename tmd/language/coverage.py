@@ -12,6 +12,7 @@ from tmd.language.tokens import Kind, Token
 from tmd.language.words import section, slips
 
 NO_VERB = "no verb that this could belong to"
+REMINDER = "names a thing, and not what to do with it"
 FOREIGN = "most words are not English"
 NO_WORDS = "there are no words in the text"
 

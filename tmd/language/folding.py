@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from tmd.language.causatives import NEGATED, rewrite_ensure, rewrite_let, rewrite_should, states_also
 from tmd.language.clause import PERSONS
+from tmd.language.coverage import REMINDER
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 from tmd.language.words import section
@@ -326,6 +327,8 @@ class _Folder:
         while self._kind(end) in (Kind.NEG, Kind.ADV, Kind.AUX):
             end += 1
         if end < len(self.tokens) and self.tokens[end].stem == "forget":
+            if self._kind(end + 1) in (Kind.DET, Kind.N, Kind.PRON, Kind.ADJ):
+                return self._fold(at, self.boundary(end), Kind.SKIP, REMINDER)
             self._filler(*self.tokens[at : end + 1])
             return end + 1
         while end < len(self.tokens) and self.tokens[end].kind is not Kind.STOP:

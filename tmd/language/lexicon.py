@@ -6,8 +6,8 @@ A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon_file`.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 from pathlib import Path
 
@@ -73,6 +73,7 @@ class Lexicon:
         attributes: What adjectives mean, as conditions of ``?x``.
         groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
         source: The file it came from.
+        kinds: Names of types and constants of the domain: what is called so is a noun, be it a verb as well.
     """
 
     verbs: frozenset[str] = frozenset()
@@ -83,17 +84,23 @@ class Lexicon:
     attributes: tuple[Declared, ...] = ()
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     source: str = ""
+    kinds: frozenset[str] = frozenset()
 
     @classmethod
-    def load(cls, path: Path | str) -> Lexicon:
-        """Read a ``lexicon.yaml``.
+    def load(cls, path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
+        """Read a ``lexicon.yaml``; without a path there are the built-in words only.
+
+        Args:
+            path: The file.
+            kinds: Names of types and constants of the domain.
 
         Raises:
             TmdError: The file cannot be read or is not a lexicon; with its place.
         """
         from tmd.language.lexicon_file import read_lexicon
 
-        return read_lexicon(Path(path))
+        lexicon = cls() if path is None else read_lexicon(Path(path))
+        return replace(lexicon, kinds=frozenset(name.replace("-", "_").rpartition("_")[2] for name in kinds))
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
@@ -112,7 +119,7 @@ class Lexicon:
     @cached_property
     def _own_nouns(self) -> frozenset[str]:
         heads = {part for noun in (*self.nouns, *self.groups) for part in (noun, noun.rpartition("_")[2])}
-        return section("nouns") | frozenset(heads)
+        return section("nouns") | frozenset(heads) | self.kinds
 
     @cached_property
     def _phrasal(self) -> Mapping[str, bool]:
@@ -135,9 +142,9 @@ class Lexicon:
         if found is None:
             return None
         stem, form = found
-        if stem in self.verbs:
-            return stem, form, 3
         noun = singular(word) in self._own_nouns or stem in self._own_nouns
+        if stem in self.verbs:
+            return stem, form, 2 if noun and form == "base" else 3
         if stem in section("noun_verbs") or (word in section("keep_adjectives") and stem not in section("verbs")):
             return stem, form, 1
         if stem in section("verbs"):

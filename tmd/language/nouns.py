@@ -76,6 +76,13 @@ def split_name(name: str) -> tuple[str, ...]:
     return tuple(part.lower() for part in _CAMEL.findall(name))
 
 
+def words_in_name(name: str) -> frozenset[str]:
+    """Return the words of a name and every run of them: ``switched-on`` has *switched*, *on* and *switched_on*."""
+    parts = split_name(name)
+    ends = range(1, len(parts) + 1)
+    return frozenset({name, *("_".join(parts[begin:end]) for end in ends for begin in range(end))})
+
+
 def rank(
     noun: str,
     candidates: Sequence[Candidate],

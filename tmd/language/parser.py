@@ -19,10 +19,11 @@ from tmd.language.grammar import parse_tokens
 from tmd.language.lexicon import Lexicon, builtin
 from tmd.language.pronouns import resolve, resolve_alone
 from tmd.language.readings import decide
-from tmd.language.requests import rewrite_questions, rewrite_requests
+from tmd.language.requests import rewrite_requests
 from tmd.language.subordinate import Reader, condition_words, read_condition, read_prohibition, read_relative
 from tmd.language.tagging import tag
 from tmd.language.tokens import Kind, Token, drop_repeats, tokenise
+from tmd.language.wording import rewrite_words
 from tmd.language.words import section
 
 _DEEPEST = 3
@@ -49,8 +50,11 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     strange = foreign(kept, words) if not depth else None
     if strange is not None:
         return Parsed(text, (), strange(text))
-    folded = tag(rewrite_questions(kept), words)
+    folded = tag(rewrite_words(kept), words)
     decide(folded, words)
+    for statement in (t for t in folded if t.kind is Kind.SKIP):
+        statement.inner = tag(statement.inner, words)
+        decide(statement.inner, words)
     folded = fold_subordinates(rewrite_requests(folded))
     tree, _ = parse_tokens(chunk(folded, words))
     found = drafts(tree)
@@ -60,7 +64,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
 
     if depth < _DEEPEST:
         _read_subordinates(found, words, read)
-    clauses = resolve(found, text)
+    clauses = resolve(found, text, [t for t in folded if t.kind is Kind.SKIP])
     constraints, understood = _prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
     rest = [t for t in (*folded, *repeated) if t not in understood]
     return Parsed(text, clauses, skipped(text, clauses, rest), constraints)

@@ -12,6 +12,8 @@ from dataclasses import dataclass, replace
 
 from tmd.language.attachment import Draft, Phrase
 from tmd.language.clause import Clause, Condition
+from tmd.language.morphology import singular
+from tmd.language.tokens import Kind, Token
 from tmd.language.words import section
 
 SINGULAR = frozenset({"it", "this", "that", "itself"})
@@ -41,11 +43,20 @@ class _Scene:
     """Its direct objects, if they can be meant by a plural pronoun."""
 
 
-def resolve(drafts: Sequence[Draft], text: str) -> tuple[Clause, ...]:
-    """Return the clauses with their antecedents filled in."""
+def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()) -> tuple[Clause, ...]:
+    """Return the clauses with their antecedents filled in.
+
+    Args:
+        drafts: The clauses, in order.
+        text: The text.
+        statements: What was folded as no instruction; pronouns may mean the things in it: *these are old, bin them*.
+    """
     scenes: list[_Scene] = []
     clauses = []
+    waiting = list(statements)
     for draft in drafts:
+        while waiting and waiting[0].span < draft.verb.span:
+            scenes.append(_stated(waiting.pop(0)))
         clause = draft.clause(text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -59,6 +70,21 @@ def resolve(drafts: Sequence[Draft], text: str) -> tuple[Clause, ...]:
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     return tuple(clauses)
+
+
+def _stated(statement: Token) -> _Scene:
+    """What a statement leaves behind: its subject, and other nouns behind that."""
+    mentions: list[_Mention] = []
+    words: list[Token] = []
+    for token in [*statement.inner, None]:
+        numbered = token is not None and token.kind is Kind.NUM and bool(words)  # "channel four"
+        if token is not None and (token.kind is Kind.N or numbered):
+            words.append(token)
+        elif words:
+            name = "_".join([*(t.text for t in words[:-1]), singular(words[-1].text)])
+            mentions.append(_Mention(name, singular(words[-1].text) != words[-1].text, _LANDMARK if mentions else 0))
+            words = []
+    return _Scene(tuple(mentions), tuple(m.name for m in mentions[:1]))
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:

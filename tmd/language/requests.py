@@ -7,7 +7,6 @@ shelf* and *Both wrappers belong in the bin* one with ``put``. The new verb stan
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import pairwise
 
 from tmd.language.chunking import ALSO
 from tmd.language.tokens import IMPLIED, Kind, Token
@@ -35,43 +34,6 @@ _PLACING = frozenset({"in", "into", "on", "onto", "next_to", "on_top_of", "over"
 _BREAKS = (Kind.COMMA, Kind.CC, Kind.STOP)
 _THEY = frozenset({"they", "it", "these", "those"})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.OF, Kind.CC, Kind.ADV})
-
-
-def rewrite_questions(tokens: list[Token]) -> list[Token]:
-    """Return the tokens with "Is the window open? If so, close it" as "if the window is open, close it".
-
-    Questions on which nothing depends stay as they are.
-    """
-    starts = [0, *(i + 1 for i, t in enumerate(tokens) if t.kind is Kind.STOP)]
-    for start, end in reversed(list(pairwise(starts))):
-        following = [t.text for t in tokens[end : end + 2]]
-        depends = following in (["if", "so"], ["if", "not"]) or following[:1] in (["then"], ["otherwise"])
-        if tokens[end - 1].text[:1] != "?" or tokens[start].text not in ("is", "are") or not depends or end - start < 4:
-            continue
-        copula, *said = tokens[start : end - 1]
-        cut = _complement(said)
-        negated = following == ["if", "not"] or following[:1] == ["otherwise"]
-        opener = Token(Kind.WORD, "unless" if negated else "if", copula.span)
-        comma = Token(Kind.COMMA, ",", tokens[end - 1].span)
-        spoken = end + (2 if following[0] == "if" else 1)
-        if spoken < len(tokens) and tokens[spoken].kind is Kind.COMMA:
-            spoken += 1
-        tokens = [*tokens[:start], opener, *said[:cut], copula, *said[cut:], comma, *tokens[spoken:]]
-    return tokens
-
-
-def _complement(tokens: list[Token]) -> int:
-    """Return where the complement of a question begins: "there | any milk", "the mug | in the sink", "it | hot"."""
-    if tokens[0].text == "there":
-        return 1
-    soft = next((i for i, t in enumerate(tokens) if i and t.text in ("still", "already", "really", "now")), None)
-    if soft is not None:
-        return soft
-    places = [i for i, t in enumerate(tokens) if i and t.text in section("prepositions")]
-    known = tokens[-1].text in section("keep_adjectives") | section("drop_adjectives") | section("adverbs")
-    if places and not known and not tokens[-1].text.endswith(("ed", "ing")):
-        return places[-1]
-    return len(tokens) - 1
 
 
 def rewrite_requests(tokens: list[Token]) -> list[Token]:
@@ -167,8 +129,20 @@ def _wish(tokens: list[Token]) -> list[Token]:
                     lead_token.kind = Kind.FILLER
                 shall = Token(Kind.AUX, "should", tokens[later].span)
                 return [*tokens[: at + 1], *tokens[at + 1 : later], shall, *tokens[later + 1 :]]
-            return [_verb(HAVE, token, *tokens[:at]), *tokens[at + 1 :]]
+            where = _fronted(tokens, at)
+            end = len(tokens) - 1 if tokens[-1].kind is Kind.STOP else len(tokens)
+            rest = [*tokens[at + 1 : end], *tokens[:where], *tokens[end:]]
+            return [_verb(HAVE, token, *tokens[where:at]), *rest]
     return tokens
+
+
+def _fronted(tokens: list[Token], at: int) -> int:
+    """Return where the place ends that a wish begins with: "in the mug | I'd like milk"."""
+    if tokens[0].kind is not Kind.P:
+        return 0
+    end = next((i for i in range(1, at) if tokens[i].kind not in _NOUN_PHRASE), 0)
+    speaker = next((i for i in range(1, at) if tokens[i].text in _SPEAKERS), 0)
+    return min(end or at, speaker or at)
 
 
 def _names_thing(tokens: list[Token], at: int) -> bool:
@@ -269,7 +243,7 @@ def _subject_start(tokens: list[Token], at: int) -> int | None:
         begin += begin < at and tokens[begin].kind is Kind.COMMA
     while begin < at and tokens[begin].kind in (Kind.CC, Kind.ADV):
         begin += 1
-    if begin > 0 and tokens[begin - 1].kind not in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.MOD, Kind.FILLER):
+    if begin > 0 and tokens[begin - 1].kind not in (*_BREAKS, Kind.MOD, Kind.FILLER, Kind.ADV):
         return None
     return begin if begin < at else None
 

@@ -53,6 +53,10 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
             merged, used = tokens[position], 1
             if merged.kind is Kind.WORD:
                 _tag_word(merged, lexicon)
+            starts = not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC)
+            if merged.kind is Kind.SUB and merged.text in lexicon.verbs and starts:
+                # "Till the bed": the domain has such a verb
+                merged.kind, merged.stem, merged.form, merged.strength = Kind.WORD, merged.text, "base", 2
         tagged.append(merged)
         position += used
     _compounds(tagged)
@@ -191,6 +195,10 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
         token.form = NAME
     if token.kind in (Kind.WORD, Kind.ADJ):
         reading = lexicon.verb(word)
+        if reading is None and "_" in word:
+            # "deep-fry", "hard-boil": what stands before the hyphen says how
+            last = lexicon.verb(word.rpartition("_")[2])
+            reading = last if last is not None and last[1:] == ("base", 3) else None
         if reading:
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:

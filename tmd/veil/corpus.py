@@ -37,8 +37,7 @@ class Corpus:
     @cached_property
     def lexicon(self) -> Lexicon:
         """The built-in words with those of the domain."""
-        path = self.folder.lexicon_path
-        return Lexicon.load(path) if path is not None else Lexicon()
+        return Lexicon.load(self.folder.lexicon_path, self.folder.kinds)
 
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""

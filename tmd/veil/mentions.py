@@ -93,5 +93,5 @@ class Mentions:
 
 def _words(name: str, whole: str | None) -> tuple[str, ...]:
     """The words in an object's name; a part also answers to the name of its whole."""
-    words = [word.rstrip("0123456789") for word in name.split("_")]
+    words = [word.rstrip("0123456789") for word in name.replace("-", "_").split("_")]
     return tuple(dict.fromkeys([w for w in words if w] + ([whole.rstrip("0123456789")] if whole else [])))

@@ -66,6 +66,15 @@ class DomainFolder:
         path = self.path / "lexicon.yaml"
         return path if path.is_file() else None
 
+    @cached_property
+    def kinds(self) -> tuple[str, ...]:
+        """The names of the domain's types and constants.
+
+        Raises:
+            TmdError: ``domain.pddl`` is missing or wrong.
+        """
+        return tuple(named.name for named in (*self.domain.types, *self.domain.constants))
+
 
 def find_roots(kind: str, given: Path | None = None) -> list[Path]:
     """The directories of ``domains`` or ``problems``, the first to be asked first.
