@@ -101,7 +101,9 @@ def ground(
     inferred = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals, top=top)
     unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
     known = config.goals or len(unseen) < len(parsed.clauses)
-    plans = tuple(plan for plan in inferred.plans if plan.instructions or (known and parsed.clauses))
+    forbids = any(not (clause.result or clause.implied) for clause in parsed.constraints)
+    asked = known and (parsed.clauses or forbids)  # to be told only what not to do asks for nothing
+    plans = tuple(plan for plan in inferred.plans if plan.instructions or asked)
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
     return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, inferred.refused)
 

@@ -167,8 +167,17 @@ class _Text:
         proposed = self._proposed(step, way) if step.role is Role.MAIN else []
         if not proposed and not guess:
             return refused
+        if not guess and not self._touched(step, [choice for choice, _ in proposed]):
+            return refused
         choices = proposed or [(_NOTHING, way.path.state)]
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
+
+    def _touched(self, step: GoalStep, choices: Sequence[Choice]) -> bool:
+        """Whether what was shown has to do with what the clause acts on."""
+        nouns = self.inference.follower.reader.nouns
+        named = [name for noun in step.clause.direct for name in nouns.things(noun, self.inference.world.task.init)]
+        handled = {arg for choice in choices for taken in choice.steps for arg in taken.instruction.args}
+        return not named or bool(handled & set(named))
 
     def finished(self, way: _Way, first: Bits) -> _Way:
         """A way through all steps, with what people put back in the end."""

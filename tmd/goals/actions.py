@@ -10,11 +10,12 @@ Four readings, each as rows that an author could have written:
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import permutations
 
-from tmd.goals.senses import result_verbs, results
+from tmd.goals.senses import family, result_verbs, results
 from tmd.goals.table import ACTIONS, LOCATED, PREPOSITIONS, GoalRow, GoalTable, Slot
 from tmd.language.lexicon import builtin
 from tmd.language.nouns import split_name, words_in_name
@@ -28,6 +29,7 @@ _PEOPLE = frozenset({"person", "human", "worker", "gardener", "player", "operato
 """... and of those whose objects do so where most actions have one; elsewhere things are done for them."""
 _PLACES = ("in", "on", "next_to", "under", "behind", "above")
 _PUT = ("put", "bring", "throw")
+_BRING = ("take", "bring", "carry", "move", "get", "send")
 _GO = ("go", "move", "walk", "drive", "come", "return")
 _HANGING = frozenset({"hung", "hanging", "suspended"})
 _ANYWHERE = ("in", "on", "to", "next_to", "with", "of", "under", "from")
@@ -60,6 +62,21 @@ class _Words:
         self.passing = _passing(domain)
         peopled = [a for a in domain.actions if any(self._kinds(p) & _PEOPLE for p in a.parameters)]
         self.actors = _ACTORS | _PEOPLE if 2 * len(peopled) > len(domain.actions) else _ACTORS
+        self.actors |= self._movers()
+
+    def _movers(self) -> frozenset[str]:
+        """The type of the first parameter of most actions, if one of them takes such a thing from place to place."""
+        firsts = Counter(kind for a in self.domain.actions for p in a.parameters[:1] for kind in p.types)
+        kind, count = firsts.most_common(1)[0] if firsts else ("", 0)
+        twice = any(sum(kind in p.types for p in a.parameters) > 1 for a in self.domain.actions)
+        if twice or 4 * count < 3 * len(self.domain.actions):
+            return frozenset()
+        moves = any(
+            a.parameters[0].name in made.terms and kind in a.parameters[0].types
+            for a in self.domain.actions
+            for made, _ in _journeys(a)
+        )
+        return frozenset({kind}) if moves else frozenset()
 
     def _kinds(self, parameter: TypedName) -> set[str]:
         return {kind for given in parameter.types for kind in self.types.ancestors(given)}
@@ -143,15 +160,15 @@ class _Words:
                 continue
             for preposition, atom in self._places(predicate):
                 places.setdefault(preposition, []).append(atom)
-            goes = self._whereabouts(predicate)
-            if goes is not None:
-                where = Slot("?y", ("in", "on", "to", "next_to"))
-                yield self._row(_GO, (where,), goes, "go to Y", "a predicate of where one is")
+        yield from self._going()
         for preposition, atoms in places.items():
-            condition = atoms[0] if len(atoms) == 1 else Or(tuple(atoms))
+            condition = _any_of(atoms)
             slots = (Slot("?x"), Slot("?y", (preposition,)))
             yield self._row((*_PUT, "be"), slots, condition, f"put X {preposition} Y", "a predicate of place")
         if places:
+            whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
+            slots = (Slot("?x"), Slot("?y", ("to",)))
+            yield self._row(_BRING, slots, _any_of(whither), "take X to Y", "predicates of place")
             anywhere = tuple(Not(atom) for atoms in places.values() for atom in atoms)
             slots = (Slot("?x"), Slot("?y", ("from",)))
             yield self._row(("take",), slots, And(anywhere), "take X from Y", "predicates of place")
@@ -173,23 +190,29 @@ class _Words:
             if parts & set(PREPOSITIONS[preposition]) or (preposition == "on" and parts & _HANGING):
                 yield preposition, self._atom(predicate, given)
                 return
-        if parts & LOCATED:
+        verb = builtin().verb(split_name(predicate.name)[0])
+        placed = (
+            verb is not None and verb[1] == "ed" and "put" in family(verb[0]) and len(split_name(predicate.name)) == 1
+        )
+        if parts & LOCATED or placed:
             for preposition in ("in", "on", "next_to"):
                 yield preposition, self._atom(predicate, given)
 
-    def _whereabouts(self, predicate: Predicate) -> Formula | None:
-        """That one is at ``?y``: a predicate of place with one place, and otherwise only who acts."""
-        things = self.things(predicate)
-        parts = words_in_name(predicate.name)
-        said = parts & LOCATED or any(parts & set(PREPOSITIONS[preposition]) for preposition in ("in", "on", "next_to"))
-        moves = any(self._moves(action, predicate.name) for action in self.domain.actions)
-        return self._atom(predicate, {things[0].name: "?y"}) if len(things) == 1 and said and moves else None
-
-    def _moves(self, action: ActionSchema, predicate: str) -> bool:
-        """Whether an action makes a predicate true of one thing and false of another."""
-        made = {e.atom.terms for e in action.effects if e.positive and e.atom.predicate == predicate}
-        unmade = {e.atom.terms for e in action.effects if not e.positive and e.atom.predicate == predicate}
-        return bool(made and unmade - made)
+    def _going(self) -> Iterator[GoalRow]:
+        """``go to Y`` for the place that an action takes the one to who acts."""
+        found: dict[Formula, None] = {}
+        for action in self.domain.actions:
+            given = {p.name: p for p in action.parameters}
+            for atom, (place,) in _journeys(action):
+                others = [given[term] for term in atom.terms if term in given and term != place]
+                if all(map(self.actor, others)):
+                    names = {**{p.name: f"?any_{i}" for i, p in enumerate(others)}, place: "?y"}
+                    there = Atom(atom.predicate, tuple(names.get(term, term) for term in atom.terms))
+                    left = tuple(TypedName(names[p.name], p.types) for p in others)
+                    found[Exists(left, there) if left else there] = None
+        for condition in found:
+            where = Slot("?y", ("in", "on", "to", "next_to"))
+            yield self._row(_GO, (where,), condition, "go to Y", "a predicate of where one is")
 
     def contents(self) -> Iterator[GoalRow]:
         """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
@@ -268,7 +291,14 @@ class _Words:
         negative = [e for e in own if not e.positive]
         moved = {e.atom.predicate for e in positive} & {e.atom.predicate for e in negative}
         acted_on = [e for e in positive if wanted[0] in e.atom.terms]
-        if acted_on or moved or not any(wanted[0] in e.atom.terms for e in negative):
+        held = {word for verb in ("take", "hold") for word in results(verb)}
+        only = [e for e in negative if wanted[0] in e.atom.terms and self._makers(e) == 1 and len(e.atom.terms) > 1]
+        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in acted_on)
+        taking = split_name(action.name)[0] in ("take", *family("take"))
+        if acted_on and general and only and not taking:
+            # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
+            positive, negative = [], only
+        elif acted_on or moved or not any(wanted[0] in e.atom.terms for e in negative):
             positive = acted_on or positive
         else:
             # the first parameter is what is acted on: to strip a bed is no way to get hold of a sheet
@@ -317,6 +347,21 @@ class _Words:
         atom = Atom(effect.atom.predicate, terms)
         formula = Exists(others, atom) if others else atom
         return formula if effect.positive else Not(formula)
+
+
+def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
+    """The atoms that an action makes true of one place and false of another, each with the place."""
+    for made in (e.atom for e in action.effects if e.positive and e.condition == And()):
+        for left in (e.atom for e in action.effects if not e.positive and e.condition == And()):
+            if left.predicate != made.predicate:
+                continue
+            differing = [there for there, here in zip(made.terms, left.terms, strict=True) if there != here]
+            if len(differing) == 1 and differing[0].startswith("?"):
+                yield made, (differing[0],)
+
+
+def _any_of(parts: Sequence[Formula]) -> Formula:
+    return parts[0] if len(parts) == 1 else Or(tuple(parts))
 
 
 def _joined(parts: list[Formula]) -> Formula:

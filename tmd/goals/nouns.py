@@ -22,7 +22,7 @@ INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 PART_OF = frozenset({"of", "on", "in", "at", "from"})
 """Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
-_EVERYTHING = WHOLES | {"nothing"}
+_EVERYTHING = WHOLES | {"nothing", "thing"}
 
 
 class Mode(StrEnum):
@@ -110,6 +110,11 @@ class Nouns:
         """
         if noun in _EVERYTHING:
             return self.world.profiles.objects
+        if noun.endswith("_thing"):
+            whole, words = self.world.profiles.objects, split_name(noun)[:-1]
+            moments = Moments(state, state)
+            said = {n: [self.attribute(word, n, moments) for word in words] for n in whole}
+            return tuple(n for n in whole if all(f and self.grounder.truth(f, state) for f in said[n]))
         if noun in self.table.groups and not (place and noun in self.world.mentions.lexicon.nouns):
             classes = self.table.groups[noun]
             found = [n for n in self.world.profiles.objects if any(c in self._kinds(n) for c in classes)]
@@ -122,8 +127,15 @@ class Nouns:
             fitting = [m for m in matches if self.grounder.fits(m.name, types)]
             matches = [m for m in fitting if self.grounder.is_a(m.name, types)] or fitting or matches
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
+        if not self.guess and matches and matches[0].how == NAME and self._of_another_class(noun, best):
+            return ()
         best = self._told_apart(noun, best, state)
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _of_another_class(self, noun: str, names: list[str]) -> bool:
+        """Whether a class that a noun names has nothing here: a *floor lamp* is no ceiling lamp."""
+        classes = self.world.mentions.classes
+        return "_" in noun and noun in classes and not any(noun in self._kinds(name) for name in names)
 
     def _told_apart(self, noun: str, names: list[str], state: Bits) -> list[str]:
         """Of things that share only the head of a compound those that its modifiers mean: *Ann's bed*, *coffee cup*."""
@@ -312,7 +324,8 @@ class Nouns:
         contents = end in self.world.profiles.constants or name in self.world.profiles.constants
         if words & _CONTENTS:
             return contents and not others
-        return places and atom in self.world.task.index
+        joins = bool(words & {"to", "of"}) and not contents  # "the door to the hall"
+        return places and (atom in self.world.task.index or joins)
 
     def narrowed(
         self, referent: Referent, phrase: NounPhrase, state: Bits, moments: Moments

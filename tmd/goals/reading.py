@@ -29,10 +29,13 @@ from tmd.goals.why import why_impossible
 from tmd.language.clause import Clause, Quantifier
 from tmd.language.lexicon import Lexicon
 from tmd.pddl.conjunctions import predicates_of
-from tmd.pddl.model import Formula
+from tmd.pddl.model import Formula, Or
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
+_NEVER_OTHERWISE = Or((FALSE,))
+"""Stands for what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
+_DEAD = (FALSE, _NEVER_OTHERWISE)
 _MOST_CHOICES = 200
 """So many ways of choosing two of many things are looked at."""
 _NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
@@ -178,7 +181,8 @@ class GoalReader:
             formula, used = found
             formulas.append(formula)
         either = any(reading.clause.phrase(name).either for name in reading.clause.direct)
-        whole = disjunction(formulas) if either else conjunction(formulas)
+        none = all(reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct or ("",))
+        whole = disjunction(formulas) if either or none else conjunction(formulas)
         return self._finished(whole, used, reading)
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | None:
@@ -369,7 +373,9 @@ class GoalReader:
             alternatives = alternatives or any(t and reading.clause.phrase(t).either for _, t in fillers)
             choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]
         leftover = [pair for pair in unit.relations if pair not in consumed]
-        if reading.strict and any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
+        if (reading.strict or row.source == ACTIONS) and any(
+            self.referents.unplaced(unit, *pair, reading) for pair in leftover
+        ):
             return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of")
         unknown = self._unknown_thing(leftover, reading)
         if unknown is not None:
@@ -474,16 +480,17 @@ class GoalReader:
         def whole(binding: Mapping[str, str]) -> Formula:
             formula = leaf(binding)
             if formula == FALSE or not (self.grounder.live or row.traceless):
-                return FALSE  # what can never be so is not "not so already"
+                # what can never be so is not "not so already", but for one of many: all filters shall be clean
+                return FALSE if formula == FALSE else _NEVER_OTHERWISE
             return conjunction((formula, *(extra(binding) for extra in further))) if further else formula
 
         each = [p for p in pairs if p[1].each]
         one = [p for p in pairs if p[1].mode is Mode.ANY and not p[1].each]
         many = [p for p in pairs if p[1].mode is not Mode.ANY and not p[1].each]
         formula = self._quantified([*each, *one, *many], {}, whole, reading)
-        if formula == FALSE and one and many:
+        if formula in _DEAD and one and many:
             formula = self._quantified([*each, *many, *one], {}, whole, reading)
-        return formula
+        return FALSE if formula in _DEAD else formula
 
     def _quantified(
         self,
@@ -497,10 +504,10 @@ class GoalReader:
             return leaf(binding)
         (variable, referent), *rest = pairs
         parts = {name: self._quantified(rest, {**binding, variable: name}, leaf, reading) for name in referent.names}
-        alive = {name: part for name, part in parts.items() if part != FALSE}
+        alive = {name: part for name, part in parts.items() if part not in _DEAD}
         match referent.mode:
             case Mode.ALL:
-                kept = alive if referent.loose else parts
+                kept = alive if referent.loose or FALSE not in parts.values() else parts
                 return conjunction(kept.values()) if kept else FALSE
             case Mode.NUMBER:
                 ways = islice(combinations(alive.values(), referent.number), _MOST_CHOICES)

@@ -14,7 +14,7 @@ from tmd.goals.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
 from tmd.language.lexicon import Lexicon
 from tmd.language.nouns import split_name
-from tmd.language.pronouns import is_pronoun
+from tmd.language.pronouns import is_one, is_pronoun
 from tmd.veil.world import World
 
 
@@ -42,6 +42,9 @@ class Referents:
         ]
         if clause.setting and name in (*clause.direct, ""):
             found.append(("to", clause.setting.split()[-1]))
+        contents = {r.source: r.target for r in clause.relations if r.relation == "of"}
+        measures = words_of("measures")
+        found = [(r, contents.get(t, t) if t in measures and r != "of" else t) for r, t in found]
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def units(self, reading: ClauseReading) -> list[Unit]:
@@ -120,9 +123,11 @@ class Referents:
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         """What a pronoun means if it stands for ``antecedent``: what that turned out to be."""
-        if pronoun in ("one", "ones"):
+        if is_one(pronoun):
             said = reading.clause.phrase(pronoun)
             relations = self.relations_of(pronoun, reading.clause)
+            if said.attributes:
+                antecedent = antecedent.rpartition("_")[2]  # "the red block on the blue one" is on a block
             return replace(
                 self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
             )
@@ -286,7 +291,7 @@ class Referents:
         if is_pronoun(noun):
             names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self.targets(a, reading))
             names = names or tuple(
-                n for a in reading.clause.direct[:1] if noun == "one" for n in self.targets(a, reading)
+                n for a in reading.clause.direct[:1] if is_one(noun) for n in self.targets(a, reading)
             )
             for relation, target in self.relations_of(noun, reading.clause):
                 ends = self.targets(target, reading)

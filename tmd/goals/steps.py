@@ -53,6 +53,8 @@ def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
     if heading is not None and not heading.implied:
         clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
+    if len(ordered) > 1 and ordered[-1][1].text.rstrip(" .!").endswith(" first"):
+        ordered.insert(-2, ordered.pop())  # "put the milk in the mug. Rinse it first."
     return tuple(step for number, clause in ordered for step in _steps(clause, number))
 
 

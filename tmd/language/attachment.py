@@ -411,4 +411,9 @@ def _head(node: Tree[Leaf], lead: list[Token]) -> Phrase:
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     determined = any(t.kind is Kind.DET for t in lead)
     said = tuple(words[0].lead) or tuple(t.text for t in lead if t.kind in (Kind.DET, Kind.NUM))
+    if len(words) > 1 and words[-1].text in ("one", "ones"):
+        # "the white one": what was spoken of, and which of it
+        said = (*said, *(t.text for t in words[:-1]))
+        name = "_".join([*(t.text for t in words[:-1]), "one"])
+        return Phrase(name, words[0].span.start, words[-1].text == "ones", determined, True, quantity, lead=said)
     return Phrase(name, words[0].span.start, name != written, determined, pronoun, quantity, lead=said)

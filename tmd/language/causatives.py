@@ -105,7 +105,8 @@ def rewrite_should(tokens: list[Token], at: int) -> tuple[list[Token], int] | No
     state = copula + 1
     while state < len(tokens) and tokens[state].kind in (Kind.AUX, Kind.ADV, Kind.TO):
         state += 1
-    if not any(t.text == "be" for t in tokens[copula:state]):
+    denied = any(t.kind is Kind.NEG or t.text == "not" or t.text.endswith("n't") for t in tokens[copula : state + 1])
+    if denied or not any(t.text == "be" for t in tokens[copula:state]):
         return None
     stem, used = _state_verb(tokens, state)
     if stem == "make_sure":

@@ -196,6 +196,10 @@ def _numbered(tokens: list[Token]) -> list[Token]:
         counted = following is not None and (following.kind in (Kind.N, Kind.NUM) or following.text == "more")
         if token.kind is Kind.NUM and not counted:
             before = result[-1] if result else None
+            if before is not None and before.kind is Kind.N and token.text == "one":
+                token.kind = Kind.N  # "the red one"
+                result.append(token)
+                continue
             if before is not None and before.kind is Kind.N:
                 joined = fold([before, token], Kind.N)
                 joined.parts = before.parts

@@ -234,7 +234,8 @@ def _at_start(token: Token, following: Token | None, article: bool, tokens: list
         return Kind.V
     if following is None or following.kind in (Kind.STOP, Kind.P, Kind.MOD) or article:
         return Kind.V
-    counted = following.kind is Kind.NUM and at + 2 < len(tokens) and tokens[at + 2].kind is Kind.WORD
+    behind = tokens[at + 2] if at + 2 < len(tokens) else None
+    counted = following.kind is Kind.NUM and behind is not None and (behind.kind is Kind.WORD or behind.text == "of")
     if counted or following.kind is Kind.TO:
         return Kind.V
     if following.kind in (Kind.WORD, Kind.ADJ):

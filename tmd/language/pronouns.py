@@ -64,6 +64,11 @@ def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()
         antecedents, together = {}, {}
         for pronoun in _open_places(draft, clause):
             ranked, count = _rank(pronoun, draft, scenes)
+            if is_one(pronoun):
+                # "the red block on the blue one": one of what the clause itself spoke of before
+                place = next(p.place for p in draft.mentions() if p.name == pronoun)
+                own = [p.name for p in draft.mentions() if p.place < place and not p.pronoun]
+                ranked, count = tuple(dict.fromkeys((*own[:1], *ranked))), 1
             if ranked:
                 antecedents[pronoun], together[pronoun] = ranked, count
         clause = replace(clause, antecedents=antecedents, together=together)
@@ -140,7 +145,12 @@ def _alone(clause: Clause) -> _Scene:
 
 def is_pronoun(name: str) -> bool:
     """Tell whether a language-object stands for something said before."""
-    return bool(name) and name in SINGULAR | PLURAL | OPEN
+    return bool(name) and (name in SINGULAR | PLURAL | OPEN or is_one(name))
+
+
+def is_one(name: str) -> bool:
+    """Tell whether a language-object is *one*, or *red_one*: one of what was spoken of."""
+    return name == "one" or name.endswith("_one")
 
 
 def _open_places(draft: Draft, clause: Clause) -> list[str]:

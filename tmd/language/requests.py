@@ -213,7 +213,8 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         bare = token.text in ("go", "live") and not duties
         plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
-            verb = _verb("be" if state else PUT, token, *duties)
+            to = tokens[place].kind is Kind.TO  # "the letters have to go to Ann"
+            verb = _verb("be" if state else "bring" if to else PUT, token, *duties)
             verb.form = "base"
             if state:
                 verb.lead = [tokens[place].text]

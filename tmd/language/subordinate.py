@@ -116,7 +116,8 @@ def _said(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clause, ...
 
 
 def _done_by_you(words: list[str], lexicon: Lexicon, read: Reader) -> tuple[Clause, ...]:
-    words = [w for i, w in enumerate(words) if not (w in _HELPERS | {"had", "are", "is"} and i < 4)]
+    while words and words[0] in _HELPERS | {"had", "are", "is"}:
+        words = words[1:]
     if words and words[0] in _HAVE:
         words = words[1:]
         if (words and lexicon.verb(words[0]) is None) or (words and words[0] in _DETERMINED):

@@ -30,6 +30,7 @@ _CLOSED = (
     ("let_verbs", Kind.LET),
 )
 _FRACTIONS = ("half", "quarter", "quarters", "third", "thirds")
+_TITLES = frozenset({"mr", "mrs", "ms", "miss", "dr", "doctor", "nurse", "professor", "sister", "captain"})
 _CONTRACTED = ("'ll", "'d", "'ve")
 
 
@@ -66,8 +67,14 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 
 def _compounds(tokens: list[Token]) -> None:
     """Keep the first word of "light bulb", which is dropped elsewhere, and of names ("Canada Dry")."""
+    for before, first, second in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        if before.kind is Kind.DET and first.text in ("third", "quarter") and second.kind is Kind.WORD:
+            first.kind, first.stem, first.strength = Kind.N, "", 0  # "the third burner" is no fraction
     for first, second in pairwise(tokens):
-        if f"{first.text}_{singular(second.text)}" in section("compounds"):
+        if first.text in _TITLES and second.capital:
+            for word in (first, second):
+                word.kind, word.stem, word.strength = Kind.N, "", 0
+        elif f"{first.text}_{singular(second.text)}" in section("compounds"):
             first.kind, first.stem, first.strength = Kind.N, "", 0
         elif second.kind is Kind.ADJ and first.capital and second.capital:
             second.kind = Kind.N

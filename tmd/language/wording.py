@@ -21,6 +21,15 @@ _STAYS = frozenset({"stays", "stay", "remains", "remain"})
 _IS_BEFORE = frozenset(
     {"a", "an", "the", "not", "still", "too", "already", "open", "closed", "shut", "on", "off", "empty", "full"}
 )
+_WELCOME = frozenset({"lovely", "nice", "great", "good", "perfect", "ideal", "wonderful", "fine", "brilliant"})
+_TREATMENTS = frozenset(
+    {"scrub", "wash", "clean", "shake", "stir", "push", "wipe", "rinse", "polish", "dust", "sweep", "mop", "brush",
+     "spin", "squeeze", "turn", "rub", "soak", "boil", "press", "pull"}
+)  # fmt: skip
+"""Nouns for what is done to a thing that is given one."""
+_DUTIES = frozenset({"should", "must", "may", "can", "shall"})
+_PRONOUNS = frozenset({"it", "they", "them", "you", "i", "we", "he", "she", "this", "that", "there"})
+_END_STATES = frozenset({"open", "closed", "shut", "on", "off", "locked", "unlocked", "full", "empty", "lit", "clean"})
 _BREAKS = (Kind.STOP, Kind.COMMA)
 _JOINTS = frozenset({"and", "but", "then", "while"})
 
@@ -36,19 +45,36 @@ def rewrite_words(tokens: list[Token]) -> list[Token]:
     * "the books that are lying around on the table" as "the books on the table";
     * "I'm going to bake a cake", "Where did the mug go?" as statements.
     """
-    tokens = _without_posture(_without_asides(_with_copulas(tokens)))
+    tokens = _without_posture(_without_asides(_with_copulas(_the_other(tokens))))
     starts = [0, *(i + 1 for i, t in enumerate(tokens) if t.kind is Kind.STOP)]
     if starts[-1] < len(tokens):
         starts.append(len(tokens))
     for start, end in reversed(list(pairwise(starts))):
         asked = _question(tokens, start, end)
-        sentence = _of_oneself(_unwanted(_passive_question(tokens[start:end]))) if asked is None else None
-        tokens = asked or [*tokens[:start], *(sentence or ()), *tokens[end:]]
+        if asked is not None:
+            tokens = asked
+            continue
+        sentence = tokens[start:end]
+        for rewrite in _SENTENCES:
+            sentence = rewrite(sentence)
+        tokens = [*tokens[:start], *sentence, *tokens[end:]]
     for before, token, after in zip(tokens, tokens[1:], [*tokens[2:], None], strict=False):
         copula = after is not None and after.text in section("be") | section("modals")
         if token.text == "there" and before.text in _BEFORE_THERE and not copula:
             token.text = "it"
     return _staying(tokens)
+
+
+def _the_other(tokens: list[Token]) -> list[Token]:
+    """Read "a spoon in one and a fork in the other" as "… in the other one"."""
+    result: list[Token] = []
+    for at, token in enumerate(tokens):
+        result.append(token)
+        after = tokens[at + 1] if at + 1 < len(tokens) else None
+        ends = after is None or after.kind is not Kind.WORD or after.text in _JOINTS | section("prepositions")
+        if token.text == "other" and at and tokens[at - 1].text == "the" and ends:
+            result.append(Token(Kind.WORD, "one", token.span._replace(start=token.span.end)))
+    return result
 
 
 def _with_copulas(tokens: list[Token]) -> list[Token]:
@@ -86,18 +112,155 @@ def _without_asides(tokens: list[Token]) -> list[Token]:
 
 def _of_oneself(tokens: list[Token]) -> list[Token]:
     """Fold what speakers say of themselves, and what they ask: "I'm going to make pasta", "Where did the mug go?"."""
+    begin = next(
+        (i + 1 for i, t in enumerate(tokens) if t.kind is Kind.COMMA and _speaks_of_oneself(tokens[i + 1 :])), 0
+    )
     words = [t.text for t in tokens]
     asks = words[:1] in (["where"], ["who"]) and words[-1][:1] == "?"
-    start = 2 if words[:2] in (["i", "am"], ["we", "are"]) else 1 if words[:1] and words[0] in _WE_ARE else 0
-    going = start and words[start : start + 2] in (["going", "to"], ["about", "to"])
-    unable = len(words) > 1 and words[0] in _SPEAKERS and words[1] in _UNABLE
-    if not (going or unable or asks):
+    if not (asks or begin or _speaks_of_oneself(tokens)):
         return tokens
-    breaks = (i for i, t in enumerate(tokens) if t.kind in _BREAKS or t.text in ("so", "but"))
+    if asks or _speaks_of_oneself(tokens):
+        begin = 0
+    breaks = (i for i in range(begin, len(tokens)) if tokens[i].kind in _BREAKS or words[i] in ("so", "but"))
     end = len(tokens) - 1 if asks else next(breaks, len(tokens))
-    said = fold(tokens[:end], Kind.SKIP, " ")
+    said = fold(tokens[begin:end], Kind.SKIP, " ")
     said.note = STATEMENT
     said.inner = [t for t in said.inner if t.text not in ("go", "gone")]  # "where did the mug go": no "mug go"
+    return [*tokens[:begin], said, *tokens[end:]]
+
+
+def _speaks_of_oneself(tokens: list[Token]) -> bool:
+    words = [t.text for t in tokens[:4]]
+    start = 2 if words[:2] in (["i", "am"], ["we", "are"]) else 1 if words[:1] and words[0] in _WE_ARE else 0
+    going = start > 0 and words[start : start + 2] in (["going", "to"], ["about", "to"])
+    unable = len(words) > 1 and words[0] in _SPEAKERS and words[1] in _UNABLE
+    indifferent = len(words) > 2 and words[0] in _SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
+    return going or unable or indifferent
+
+
+def _absent(tokens: list[Token]) -> list[Token]:
+    """Read "nothing wet may stay in the hall" as "no wet thing should be in the hall"."""
+    words = [t.text for t in tokens]
+    said = len(words) > 2 and words[0] == "nothing" and words[1] not in (*section("modals"), *section("be"), *_STAYS)
+    if said and tokens[1].kind is Kind.WORD and words[1] not in section("prepositions") | {"left", "else"}:
+        thing = replace(tokens[1], text="thing", span=tokens[1].span._replace(start=tokens[1].span.end))
+        tokens = [replace(tokens[0], text="no"), tokens[1], thing, *tokens[2:]]
+        words = [t.text for t in tokens]
+    if not words or words[0] not in ("nothing", "no", "none"):
+        return tokens
+    at = next((i for i in range(1, len(words) - 1) if words[i] in _MAY and words[i + 1] in _STAYS), 0)
+    if not at:
+        return tokens
+    should, be = replace(tokens[at], text="should"), replace(tokens[at + 1], text="be")
+    return [*tokens[:at], should, be, *(t for t in tokens[at + 2 :] if t.text not in _POSTURES)]
+
+
+def _negative_state(tokens: list[Token]) -> list[Token]:
+    """Read "the lamp should not be on" as "no lamp should be on"; so with *make sure … is not* and *neither … nor*."""
+    words = [t.text for t in tokens]
+    begin = next((i + 1 for i in range(len(words) - 1, -1, -1) if tokens[i].kind in _BREAKS and i + 1 < len(words)), 0)
+    begin += words[begin : begin + 1] != [] and words[begin] in _JOINTS
+    lead = next((n for n in (3, 2, 1) if "_".join(words[begin : begin + n]) in section("ensure")), 0)
+    start = begin + lead + (words[begin + lead : begin + lead + 1] == ["that"])
+    for at in range(start + 1, len(words) - 1):
+        full = words[at] in _DUTIES and words[at + 1] == "not" and words[at + 2 : at + 3] == ["be"]
+        short = words[at].endswith("n't") and words[at].removesuffix("n't") in _DUTIES and words[at + 1] == "be"
+        ensured = lead and (words[at] in ("isn't", "aren't") or words[at : at + 2] in (["is", "not"], ["are", "not"]))
+        neither = words[start] == "neither" and words[at] in _DUTIES and words[at + 1] == "be"
+        if not (full or short or ensured or neither):
+            continue
+        subject = tokens[start + neither : at]
+        if not subject or any(t.text in _PRONOUNS for t in subject):
+            return tokens
+        rest = tokens[at + (3 if full else 1 if ensured and words[at].endswith("n't") else 2) :]
+        should = [replace(tokens[at], text=word) for word in ("should", "be")]
+        return [*tokens[:begin], *_denied(subject), *should, *rest]
+    return tokens
+
+
+def _denied(subject: list[Token]) -> list[Token]:
+    """A noun phrase, or several, with *no* for its articles."""
+    result: list[Token] = []
+    first = True
+    for token in subject:
+        joint = token.text in ("nor", "or", "and") or token.kind is Kind.COMMA
+        if first and not joint:
+            result.append(replace(token, text="no", span=token.span._replace(end=token.span.start)))
+        if not (first and token.text in section("determiners")):
+            result.append(replace(token, text="and") if joint else token)
+        first = joint
+    return result
+
+
+def _coordinated_states(tokens: list[Token]) -> list[Token]:
+    """Read "the door should be open and the window shut" as "… and the window should be shut"."""
+    words = [t.text for t in tokens]
+    be = next((i for i, word in enumerate(words) if word == "be" and i and words[i - 1] in (*_DUTIES, "to")), None)
+    if be is None or words[be + 1 : be + 2] == [] or words[be + 1] not in _END_STATES:
+        return tokens
+    joint = be + 2
+    end = next((i for i in range(be, len(tokens)) if tokens[i].kind is Kind.STOP), len(tokens))
+    listed = joint < end and words[joint] in ("and", "but") and end - joint > 2 and words[end - 1] in _END_STATES
+    if not listed or any(word in section("be") for word in words[joint:end]):
+        return tokens
+    should = [replace(tokens[end - 1], text=word) for word in ("should", "be")]
+    return [*tokens[: end - 1], *should, *tokens[end - 1 :]]
+
+
+def _lovely(tokens: list[Token]) -> list[Token]:
+    """Read "a cup of tea would be lovely" as "I would like a cup of tea"."""
+    words = [t.text for t in tokens]
+    at = next((i for i in range(1, len(words) - 2) if words[i : i + 2] == ["would", "be"]), 0)
+    if not at or words[at + 2] not in _WELCOME or words[0] in ("it", "that", "what", "this"):
+        return tokens
+    lead = [replace(tokens[0], text=word, kind=Kind.WORD, span=tokens[at].span) for word in ("i", "would", "like")]
+    end = next((i for i in range(at + 2, len(tokens)) if tokens[i].kind is Kind.STOP), len(tokens))
+    return [*lead, *tokens[:at], *tokens[end:]]
+
+
+def _with_exception(tokens: list[Token]) -> list[Token]:
+    """Read "except for the cup, put everything away" as "put everything away except for the cup"."""
+    words = [t.text for t in tokens]
+    fronted = words[:1] == ["except"] or words[:2] in (["apart", "from"], ["other", "than"])
+    cut = next((i for i, t in enumerate(tokens) if t.kind is Kind.COMMA), 0)
+    if not fronted or not cut:
+        return tokens
+    end = next((i for i, t in enumerate(tokens) if t.kind is Kind.STOP), len(tokens))
+    whole = next((i for i in range(cut, end) if words[i] in ("everything", "all", "anything")), None)
+    if whole is None:
+        return tokens
+    # behind the noun phrase: "everything on the table | except the cup | goes on the shelf"
+    return [*tokens[cut + 1 : whole + 1], *tokens[:cut], *tokens[whole + 1 :]]
+
+
+def _given(tokens: list[Token]) -> list[Token]:
+    """Read "give it a good scrub" as "scrub it"."""
+    words = [t.text for t in tokens]
+    if "give" not in words:
+        return tokens
+    at = words.index("give")
+    article = next((i for i in range(at + 2, len(words)) if words[i] in ("a", "another")), None)
+    if article is None:
+        return tokens
+    verb = next((i for i in (article + 1, article + 2) if i < len(words) and words[i] in _TREATMENTS), None)
+    ends = verb is not None and (
+        verb + 1 == len(tokens) or tokens[verb + 1].kind in _BREAKS or words[verb + 1] in _JOINTS
+    )
+    if verb is None or not ends:
+        return tokens
+    return [*tokens[:at], replace(tokens[verb], span=tokens[at].span), *tokens[at + 1 : article], *tokens[verb + 1 :]]
+
+
+def _not_about(tokens: list[Token]) -> list[Token]:
+    """Fold "don't leave the tools lying around", which says of no place that things must not be there."""
+    words = [t.text for t in tokens]
+    if words[:2] not in (["don't", "leave"], ["never", "leave"], ["dont", "leave"]):
+        return tokens
+    end = next((i for i, t in enumerate(tokens) if t.kind in _BREAKS), len(tokens))
+    if words[end - 1] not in ("around", "about") or words[end - 2] not in _POSTURES:
+        return tokens
+    said = fold(tokens[:end], Kind.SKIP, " ")
+    said.note, said.inner = STATEMENT, said.inner[2:-2]
     return [said, *tokens[end:]]
 
 
@@ -145,6 +308,11 @@ def _without_posture(tokens: list[Token]) -> list[Token]:
         words = [t.text for t in tokens[at : at + 3]]
         relative = words[:1] in (["that"], ["which"]) and words[1:2] in (["is"], ["are"])
         first = at + 2 if relative else at + 1
+        adjective = words[0] in ("is", "are") and words[1:2] == ["left"] and words[2:3] and words[2] in _END_STATES
+        if adjective:
+            result.append(tokens[at])  # "nothing is left open"
+            at += 2
+            continue
         end = first
         while (relative or words[0] == "be") and end < len(tokens) and tokens[end].text in _POSTURES:
             end += 1
@@ -194,3 +362,18 @@ def _complement(tokens: list[Token]) -> int:
     if places and not known and not tokens[-1].text.endswith(("ed", "ing")):
         return places[-1]
     return len(tokens) - 1
+
+
+_SENTENCES = (
+    _passive_question,
+    _absent,
+    _negative_state,
+    _coordinated_states,
+    _unwanted,
+    _lovely,
+    _with_exception,
+    _given,
+    _not_about,
+    _of_oneself,
+)
+"""What is done with each sentence, in this order."""

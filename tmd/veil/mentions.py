@@ -35,6 +35,8 @@ class Mentions:
         self.lexicon = lexicon
         problem = profiles.task.problem
         types = hierarchy(problem.domain)
+        self.classes = frozenset(t.name for t in problem.domain.types)
+        """The classes that the domain knows, be there something of them here or not."""
         self.types: Mapping[str, tuple[str, ...]] = {o.name: types.ancestors(o.types[0]) for o in problem.all_objects()}
         own = {name: types[0] for name, types in self.types.items()}
         self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
