@@ -6,7 +6,7 @@ its parts control, then the whole and its other parts. *Open the fridge* opens i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -120,7 +120,7 @@ class Grounder:
             case And(parts):
                 return conjunction(self._ground(part, binding, slots, moments) for part in parts)
             case Or(parts):
-                return disjunction(self._ground(part, binding, slots, moments) for part in parts)
+                return self._any_way(parts, binding, slots, moments)
             case Imply(left, right):
                 unless = negation(self._ground(left, binding, slots, moments))
                 return unless if unless == TRUE else disjunction((unless, self._ground(right, binding, slots, moments)))
@@ -130,6 +130,19 @@ class Grounder:
             case Exists(parameters, part):
                 found = bindings(parameters, self._objects, binding)
                 return disjunction(self._ground(part, dict(b), slots, moments) for b in found)
+
+    def _any_way(
+        self, parts: Sequence[Formula], binding: dict[str, str], slots: frozenset[str], moments: Moments
+    ) -> Formula:
+        """A disjunction: where one way is open for what was named itself, nothing stands in for it in another."""
+        before, self.exact = self.exact, True
+        try:
+            plain = [self._ground(part, binding, slots, moments) for part in parts]
+        finally:
+            self.exact = before
+        if self.exact or any(part != FALSE for part in plain):
+            return disjunction(plain)
+        return disjunction(self._ground(part, binding, slots, moments) for part in parts)
 
     def _atom(self, formula: Atom, binding: dict[str, str], slots: frozenset[str], moments: Moments) -> Formula:
         predicate, operator = split_predicate(formula.predicate)

@@ -273,8 +273,9 @@ class GoalReader:
             ),
         )
         impossible: set[str] = set()
+        most = 0
         for place, row in enumerate(fitting):
-            if row.source == ACTIONS and row.evidence in impossible:
+            if impossible and (row.source != ACTIONS or row.evidence in impossible) and len(row.slots) < most:
                 continue  # what cannot be done with all that was said is not done with less
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
@@ -290,6 +291,7 @@ class GoalReader:
             failure = failure or found
             if found.why is Why.IMPOSSIBLE:
                 impossible.add(row.evidence)
+                most = max(most, len(row.slots))
             reading.meant, reading.approach, reading.notes = before
         if failure is not None:
             return failure

@@ -15,6 +15,7 @@ import yaml
 
 from tmd.errors import Location, TmdError
 from tmd.language.lexicon import Declared, Lexicon
+from tmd.language.morphology import singular
 
 KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
@@ -107,10 +108,11 @@ def read_lexicon(path: Path) -> Lexicon:
         return Lexicon(source=str(path))
     parts = _parts(source, node)
     verbs = source.sequence(parts["verbs"], source.name) if "verbs" in parts else ()
+    nouns = source.aliases(parts["nouns"]) if "nouns" in parts else {}
     return Lexicon(
         verbs=frozenset(verbs),
         phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
-        nouns=source.aliases(parts["nouns"]) if "nouns" in parts else {},
+        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
         verb_synonyms=_synonyms(source, parts["verb_synonyms"]) if "verb_synonyms" in parts else {},
         goals=_goals(source, parts["goals"]) if "goals" in parts else (),
         attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),

@@ -58,11 +58,28 @@ def rewrite_words(tokens: list[Token]) -> list[Token]:
         for rewrite in _SENTENCES:
             sentence = rewrite(sentence)
         tokens = [*tokens[:start], *sentence, *tokens[end:]]
+    tokens = _noun_there(tokens)
     for before, token, after in zip(tokens, tokens[1:], [*tokens[2:], None], strict=False):
         copula = after is not None and after.text in section("be") | section("modals")
         if token.text == "there" and before.text in _BEFORE_THERE and not copula:
             token.text = "it"
     return _staying(tokens)
+
+
+def _noun_there(tokens: list[Token]) -> list[Token]:
+    """Read "… to the hall and leave it on the rack there" as "… on the rack in it"."""
+    result: list[Token] = []
+    for at, token in enumerate(tokens):
+        ends = at + 1 == len(tokens) or tokens[at + 1].kind in _BREAKS or tokens[at + 1].text in _JOINTS
+        spoken = any(t.kind in _BREAKS or t.text in _JOINTS for t in tokens[:at])
+        noun = at > 1 and tokens[at - 1].kind is Kind.WORD and tokens[at - 2].text in ("the", "a")
+        if token.text == "there" and ends and spoken and noun:
+            cut = token.span.start + 1
+            result.append(replace(token, text="in", span=token.span._replace(end=cut)))
+            result.append(replace(token, text="it", span=token.span._replace(start=cut)))
+        else:
+            result.append(token)
+    return result
 
 
 def _the_other(tokens: list[Token]) -> list[Token]:
@@ -160,7 +177,8 @@ def _negative_state(tokens: list[Token]) -> list[Token]:
     words = [t.text for t in tokens]
     begin = next((i + 1 for i in range(len(words) - 1, -1, -1) if tokens[i].kind in _BREAKS and i + 1 < len(words)), 0)
     begin += words[begin : begin + 1] != [] and words[begin] in _JOINTS
-    lead = next((n for n in (3, 2, 1) if "_".join(words[begin : begin + n]) in section("ensure")), 0)
+    starts = [(i, n) for i in range(begin, len(words)) for n in (3, 2, 1) if _ensures(words[i : i + n], n)]
+    begin, lead = starts[-1] if starts else (begin, 0)
     start = begin + lead + (words[begin + lead : begin + lead + 1] == ["that"])
     for at in range(start + 1, len(words) - 1):
         full = words[at] in _DUTIES and words[at + 1] == "not" and words[at + 2 : at + 3] == ["be"]
@@ -176,6 +194,10 @@ def _negative_state(tokens: list[Token]) -> list[Token]:
         should = [replace(tokens[at], text=word) for word in ("should", "be")]
         return [*tokens[:begin], *_denied(subject), *should, *rest]
     return tokens
+
+
+def _ensures(words: list[str], length: int) -> bool:
+    return len(words) == length and "_".join(words) in section("ensure")
 
 
 def _denied(subject: list[Token]) -> list[Token]:
