@@ -177,7 +177,7 @@ class _Text:
         nouns = self.inference.follower.reader.nouns
         named = [name for noun in step.clause.direct for name in nouns.things(noun, self.inference.world.task.init)]
         handled = {arg for choice in choices for taken in choice.steps for arg in taken.instruction.args}
-        return not named or bool(handled & set(named))
+        return not step.clause.direct or bool(handled & set(named))
 
     def finished(self, way: _Way, first: Bits) -> _Way:
         """A way through all steps, with what people put back in the end."""

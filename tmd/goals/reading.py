@@ -8,6 +8,7 @@ from itertools import combinations, islice, product
 
 from tmd.errors import TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
+from tmd.goals.fitting import Fitting
 from tmd.goals.grounder import FALSE, Moments, atoms_of, conjunction, disjunction, negation, only_negative
 from tmd.goals.nouns import Memory, Mode, Referent, relations_said
 from tmd.goals.referents import Referents
@@ -16,13 +17,13 @@ from tmd.goals.senses import family
 from tmd.goals.states import BE, States
 from tmd.goals.table import (
     ACTIONS,
+    DECLARED,
     FIRST,
     PREPOSITIONS,
     RELATION,
     GoalRow,
     GoalTable,
     Slot,
-    slot_types,
     split_predicate,
 )
 from tmd.goals.why import why_impossible
@@ -42,7 +43,6 @@ _NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of",
 """Relations whose nouns must name something."""
 _ELIDED = ("in", "on", "to")
 """The places that a verb may leave to what was spoken of."""
-_PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
 
 
 class GoalReader:
@@ -63,6 +63,7 @@ class GoalReader:
         self.referents = Referents(world, tables[0] if tables else GoalTable(), lexicon, guess=guess)
         self.requirements = Requirements(self.referents)
         self.states = States(self.referents)
+        self.fitting = Fitting(self.referents)
         self.grounder = self.referents.grounder
         self.nouns = self.referents.nouns
 
@@ -139,6 +140,9 @@ class GoalReader:
                     return found
                 if failure is None or failure.why is Why.NOT_UNDERSTOOD:
                     failure = found
+                own_row = verb == reading.clause.verb and not reading.clause.relations and rows[0].source == DECLARED
+                if own_row and found.why is Why.IMPOSSIBLE:
+                    return found  # what its own rows exclude is not done by those of a verb that says less
             settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
             if settled and (not strict or self._is_placing(reading.clause)):
                 return failure
@@ -247,7 +251,7 @@ class GoalReader:
         self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
     ) -> tuple[Formula, GoalRow] | Refused:
         """As :meth:`_with_rows`; a place that was not said is what was spoken of last that a row fits."""
-        if any((p, None) in self._fillers(s, unit, reading) for r in rows for s in r.places for p in _ELIDED):
+        if any((p, None) in self.fitting.fillers(s, unit, reading) for r in rows for s in r.places for p in _ELIDED):
             reading.pronoun = ""
             for number in range(len(self.referents.antecedents("", reading))):
                 reading.antecedent = number
@@ -262,16 +266,7 @@ class GoalReader:
     ) -> tuple[Formula, GoalRow] | Refused:
         """The goal of one thing by the row with the most slots that fits and can hold."""
         failure: Refused | None = None
-        counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
-        fitting = sorted(
-            (r for r in rows if self._fits(r, unit, reading)),
-            key=lambda row: (
-                -len(row.slots) - (row.noun is not None),
-                -self._latest(row, unit, reading),
-                counted and not self._takes_things(row, unit, reading),
-                row.source == ACTIONS and not self._takes_named(row, unit),
-            ),
-        )
+        fitting = self.fitting.of(rows, unit, reading)
         impossible: set[str] = set()
         most = 0
         for place, row in enumerate(fitting):
@@ -280,7 +275,7 @@ class GoalReader:
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
-            if not isinstance(found, Refused) and shorter and self._may_tell_which(row, unit, reading):
+            if not isinstance(found, Refused) and shorter and self.fitting.may_tell_which(row, unit, reading):
                 # what holds already told which thing is meant, if the verb can do without it
                 held = self.grounder.truth(found, reading.state)
                 other = self._with_rows(shorter, unit, reading)
@@ -289,7 +284,8 @@ class GoalReader:
             if not isinstance(found, Refused):
                 return found, row
             failure = failure or found
-            if found.why is Why.IMPOSSIBLE:
+            complete = all(target for slot in row.places for _, target in self.fitting.fillers(slot, unit, reading))
+            if found.why is Why.IMPOSSIBLE and complete:
                 impossible.add(row.evidence)
                 most = max(most, len(row.slots))
             reading.meant, reading.approach, reading.notes = before
@@ -299,78 +295,13 @@ class GoalReader:
         known = "; ".join(dict.fromkeys(row.pattern for row in rows))
         return Refused(Why.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}")
 
-    def _may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
-        """Whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
-        said = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
-        where = any(said[:1] and said[0][0] in PREPOSITIONS[p] for p in ("in", "on", "next_to", "under"))
-        if not where or len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
-            return False
-        return self.referents.tells_which(unit, said[0][0], said[0][1], reading)
-
-    def _takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
-        """Whether what the verb acts on may be an object, not only something that objects contain."""
-        if row.direct is None or unit.direct is None:
-            return False
-        types = slot_types(row.condition, row.direct.variable, self.domain)
-        return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
-
-    def _latest(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> int:
-        """How late what a row takes was said: *the book on the table in the box* says last where it shall go."""
-        taken = [pair for slot in row.places for pair in self._fillers(slot, unit, reading)]
-        return max((unit.relations.index(pair) for pair in taken if pair in unit.relations), default=0)
-
-    def _takes_named(self, row: GoalRow, unit: Unit) -> bool:
-        """Whether what the verb acts on may be what the noun names, not only what holds it: *manure*, the barrow."""
-        if row.direct is None or not unit.direct:
-            return True
-        types = slot_types(row.condition, row.direct.variable, self.domain)
-        ranked = self.world.mentions.ranked(unit.direct)
-        return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
-
-    def _fits(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
-        if (row.result or None) != (reading.clause.result if row.result else None):
-            return False
-        if row.noun is not None and not self._same(row.noun, unit.direct, reading):
-            return False
-        if row.noun is None and (row.direct is None) != (unit.direct is None):
-            return False
-        return all(self._fillers(slot, unit, reading) for slot in row.places)
-
-    def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
-        """Whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""
-        if noun == said or said is None or noun.endswith("s"):
-            return noun == said
-        named = self.nouns.things(noun, reading.state)
-        return bool(named) and named == self.nouns.things(said, reading.state)
-
-    def _fillers(self, slot: Slot, unit: Unit, reading: ClauseReading) -> list[tuple[str, str | None]]:
-        """What was said in a slot: relation and noun; a particle alone leaves the noun to what was spoken of."""
-        said = [(r, t) for r, t in unit.relations if relations_said(r, slot.prepositions)]
-        if len({r for r, _ in said}) > 1 or len(said) > 1:
-            # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
-            said = [pair for pair in said if not self.referents.tells_which(unit, *pair, reading)] or said[-1:]
-        if said:
-            first = said[0][0]
-            return [(r, t) for r, t in said if r == first]
-        if not reading.memory.recent:
-            return []
-        particle = _PARTICLES.get(reading.clause.verb.rpartition("_")[2])
-        if particle in slot.prepositions:
-            return [(particle, None)]
-        # "take a cup, add sugar": into what was spoken of last
-        verbs = (reading.clause.verb, self.lexicon.canonical_verb(reading.clause.verb))
-        wants_place = {"put", "add", "pour"} & {*verbs, *(name for verb in verbs for name in family(verb))}
-        either = {"in", "on"} <= set(slot.prepositions)
-        into = "to" if either else next((p for p in slot.prepositions if p in ("in", "on")), None)
-        return [(into, None)] if wants_place and into and not unit.relations else []
-
     def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refused:
         """The goal of one thing by one row: for each combination of what stands behind the prepositions."""
         consumed: set[tuple[str, str | None]] = set()
         choices: list[list[tuple[Slot, str, str | None]]] = [[]]
         alternatives = False
         for slot in row.places:
-            fillers = self._fillers(slot, unit, reading)
+            fillers = self.fitting.fillers(slot, unit, reading)
             consumed.update(fillers)
             alternatives = alternatives or any(t and reading.clause.phrase(t).either for _, t in fillers)
             choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]

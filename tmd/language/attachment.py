@@ -78,7 +78,7 @@ class Phrase:
             quantifier = Quantifier.NUMBER
         elif any(w in _OTHERS for w in self.lead):
             quantifier = Quantifier.OTHER
-        elif any(w in _SOME for w in self.lead):
+        elif any(w in _SOME for w in self.lead) or (self.lead[:1] == ("one",) and self.plural):
             quantifier = Quantifier.SOME
         else:
             quantifier = Quantifier.PLAIN

@@ -297,6 +297,8 @@ def _staying(tokens: list[Token]) -> list[Token]:
         while begin and tokens[begin - 1].kind not in _BREAKS and tokens[begin - 1].text not in _JOINTS:
             begin -= 1
         subject = tokens[begin:at]
+        while subject and subject[-1].text in _DUTIES:
+            subject = subject[:-1]
         if not subject or any(t.text in section("modals") | {"you"} for t in subject):
             continue
         lead = replace(subject[0], text="leave", span=subject[0].span._replace(end=subject[0].span.start))

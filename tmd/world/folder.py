@@ -73,7 +73,7 @@ class DomainFolder:
         Raises:
             TmdError: ``domain.pddl`` is missing or wrong.
         """
-        return tuple(named.name for named in (*self.domain.types, *self.domain.constants))
+        return (*(t.name for t in self.domain.types), *(c.name for c in self.domain.constants))
 
 
 def find_roots(kind: str, given: Path | None = None) -> list[Path]:
