@@ -8,7 +8,7 @@ from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.nouns import relations_said
 from tmd.goals.referents import Referents
 from tmd.goals.senses import family
-from tmd.goals.table import ACTIONS, PREPOSITIONS, GoalRow, Slot, slot_types
+from tmd.goals.table import ACTIONS, PREPOSITIONS, GoalRow, Slot, slot_predicate, slot_types
 from tmd.language.clause import PERSONS, Quantifier
 
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
@@ -54,6 +54,20 @@ class Fitting:
             return False
         types = slot_types(row.condition, row.direct.variable, self.domain)
         return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
+
+    def takes_all(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Whether what stands behind the prepositions of a row was said, and may ever be there.
+
+        An oven holds no milk: *heat the milk in the oven* says where it is done.
+        """
+        for slot in row.places:
+            predicate, place = slot_predicate(row.condition, slot.variable)
+            for _, target in self.fillers(slot, unit, reading):
+                names = self.referents.targets(target, reading) if target else ()
+                facts = (fact for name in names for fact in self.nouns.facts_about(name))
+                if not any(fact.predicate == predicate and fact.args[place] in names for fact in facts):
+                    return False
+        return True
 
     def _latest(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> int:
         """How late what a row takes was said: *the book on the table in the box* says last where it shall go."""

@@ -17,7 +17,6 @@ from tmd.goals.senses import family
 from tmd.goals.states import BE, States
 from tmd.goals.table import (
     ACTIONS,
-    DECLARED,
     FIRST,
     PREPOSITIONS,
     RELATION,
@@ -140,9 +139,6 @@ class GoalReader:
                     return found
                 if failure is None or failure.why is Why.NOT_UNDERSTOOD:
                     failure = found
-                own_row = verb == reading.clause.verb and not reading.clause.relations and rows[0].source == DECLARED
-                if own_row and found.why is Why.IMPOSSIBLE:
-                    return found  # what its own rows exclude is not done by those of a verb that says less
             settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
             if settled and (not strict or self._is_placing(reading.clause)):
                 return failure
@@ -284,8 +280,7 @@ class GoalReader:
             if not isinstance(found, Refused):
                 return found, row
             failure = failure or found
-            complete = all(target for slot in row.places for _, target in self.fitting.fillers(slot, unit, reading))
-            if found.why is Why.IMPOSSIBLE and complete:
+            if found.why is Why.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
                 impossible.add(row.evidence)
                 most = max(most, len(row.slots))
             reading.meant, reading.approach, reading.notes = before

@@ -351,12 +351,17 @@ def slot_types(row_condition: Formula, variable: str, domain: Domain) -> tuple[s
     if isinstance(row_condition, Or):
         ways = [part for part in row_condition.parts if variable in _terms(part)]
         return tuple(dict.fromkeys(t for way in ways for t in slot_types(way, variable, domain))) or ("object",)
-    signatures = {p.name: p for p in domain.predicates}
+    predicate, place = slot_predicate(row_condition, variable)
+    signature = next((p for p in domain.predicates if p.name == predicate), None)
+    return signature.parameters[place].types if signature is not None else ("object",)
+
+
+def slot_predicate(row_condition: Formula, variable: str) -> tuple[str, int]:
+    """The first predicate in which the variable of a slot stands, and its place there; ``""`` where there is none."""
     for part, _ in _parts(row_condition, frozenset()):
         if isinstance(part, Atom) and variable in part.terms:
-            signature = signatures[split_predicate(part.predicate)[0]]
-            return signature.parameters[part.terms.index(variable)].types
-    return ("object",)
+            return split_predicate(part.predicate)[0], part.terms.index(variable)
+    return "", 0
 
 
 def _terms(formula: Formula) -> set[str]:
