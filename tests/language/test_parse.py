@@ -1,14 +1,15 @@
 """Text to clauses: the paper's example, the kinds of text people write, and what never happens."""
 
 import string
+from dataclasses import replace
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
-from tmd.language.clause import Mood
-from tmd.language.coverage import FOREIGN, NO_VERB, NO_WORDS, is_filler
+from tmd.language.clause import Mood, Quantifier
+from tmd.language.coverage import FOREIGN, NO_VERB, NO_WORDS, REMINDER, is_filler
 from tmd.language.tokens import Kind, tokenise
 
 
@@ -40,6 +41,78 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
     last = parse(text).clauses[-1]
     assert [c.text for c in last.conditions] == ([condition] if condition else [])
     assert last.otherwise == otherwise
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("Could the lamp be turned off?", ["(turn_off, [lamp])"]),
+        (
+            "Could everything on the desk be put in the chest?",
+            ["(put, [everything, desk, chest], on: everything -> desk, in: everything -> chest)"],
+        ),
+        (
+            "Everything that is lying around on the desk goes in the chest.",
+            ["(put, [everything, desk, chest], on: everything -> desk, in: everything -> chest)"],
+        ),
+        ("A cup of tea would be lovely.", ["(have, [cup, tea], of: cup -> tea)"]),
+        ("In the mug I'd like milk.", ["(have, [mug, milk], in: milk -> mug)"]),
+        ("Give the floor a good scrub.", ["(scrub, [floor])"]),
+        ("Leave the radio on.", ["(leave, [radio])"]),
+        ("The radio stays put.", ["(leave, [radio])"]),
+        ("Fetch the rope. I'm going to need it.", ["(fetch, [rope])"]),
+        ("I can't see a thing in here, turn the lamp up.", ["(turn_up, [lamp])"]),
+        ("Mind you shut the gate.", ["(shut, [gate])"]),
+        ("The gate should be open and the window shut.", ["(open, [gate])", "(shut, [window])"]),
+        ("Deep-fry the fish.", ["(fry, [fish])"]),
+        ("The chest's open, shut it.", ["(shut, [it])"]),
+        ("Set the third dial to low.", ["(set, [third_dial])"]),
+        ("Both the cup and the mug go on the desk.", ["(put, [cup, mug, desk], on: cup -> desk, on: mug -> desk)"]),
+    ],
+)
+def test_requests_are_read_in_whatever_form_they_come(text: str, expected: list[str]) -> None:
+    assert clauses(text) == expected
+
+
+@pytest.mark.parametrize(
+    ("text", "nouns"),
+    [
+        ("The lamp should not be on.", ["lamp"]),
+        ("Make sure the lamp isn't on.", ["lamp"]),
+        ("Neither the lamp nor the radio should be on.", ["lamp", "radio"]),
+        ("I don't want anything left on the desk.", ["nothing"]),
+        ("No cups should be left on the desk.", ["cup"]),
+        ("Shut the gate, but the window should not be shut.", ["window"]),
+        ("Nothing wet may stay in the hall.", ["thing"]),
+    ],
+)
+def test_a_negated_state_is_no_plain_instruction(text: str, nouns: list[str]) -> None:
+    last = parse(text).clauses[-1]
+    assert list(last.direct) == nouns
+    assert {last.phrase(noun).quantifier for noun in nouns} == {Quantifier.NONE}
+
+
+def test_a_pronoun_may_mean_what_a_statement_spoke_of() -> None:
+    parsed = parse("Those nuts are stale, bin them. Where did the rope go? Find it.")
+    assert [clause.antecedents for clause in parsed.clauses] == [{"them": ("nut",)}, {"it": ("rope",)}]
+
+
+def test_ones_are_told_apart() -> None:
+    clause = parse("The white one goes on the desk and the red one on the shelf.").clauses[0]
+    assert list(clause.direct) == ["white_one", "red_one"]
+    assert [clause.phrase(noun).attributes for noun in clause.direct] == [("white",), ("red",)]
+
+
+def test_a_thing_to_be_remembered_is_no_object_of_the_clause_before() -> None:
+    parsed = parse("Put the rope back in the chest, and don't forget the lid.")
+    assert [clause.direct for clause in parsed.clauses] == [("rope",)]
+    assert [piece.reason for piece in parsed.skipped] == [REMINDER]
+
+
+def test_a_class_of_the_domain_is_a_noun_where_it_could_be_a_verb() -> None:
+    lexicon = replace(Lexicon(verbs=frozenset({"pump", "lay"})), kinds=frozenset({"pump"}))
+    assert clauses("Lay the hand pump on the desk.", lexicon) == ["(lay, [hand_pump, desk], on: hand_pump -> desk)"]
+    assert clauses("Pump the wheel.", lexicon) == ["(pump, [wheel])"]
 
 
 @pytest.mark.parametrize(

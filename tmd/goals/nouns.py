@@ -140,9 +140,11 @@ class Nouns:
     def _told_apart(self, noun: str, names: list[str], state: Bits) -> list[str]:
         """Of things that share only the head of a compound those that its modifiers mean: *Ann's bed*, *coffee cup*."""
         *modifiers, _ = split_name(noun)
-        own = {word for n in names for kind in self._kinds(n) for word in split_name(kind)}
-        if not modifiers or len(names) < 2 or own & set(modifiers) or noun in self.world.mentions.lexicon.nouns:
+        if not modifiers or len(names) < 2 or noun in self.world.mentions.lexicon.nouns:
             return names
+        called = [n for n in names if any(set(modifiers) & set(split_name(kind)) for kind in self._kinds(n))]
+        if called:
+            return called
         owners = [m.name for m in self.world.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
         now = self.related_now(Referent(noun, tuple(names)), "of", owners, state, Moments(state, state))
         for word in modifiers:
