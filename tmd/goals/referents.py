@@ -85,7 +85,11 @@ class Referents:
 
     def points_back(self, noun: str) -> bool:
         """Whether a noun, or its absence, stands for something that was spoken of."""
-        return not noun or is_pronoun(noun) or noun in words_of("anaphors")
+        return not noun or self._is_pronoun(noun) or noun in words_of("anaphors")
+
+    def _is_pronoun(self, noun: str) -> bool:
+        """Whether a noun is a pronoun, and no name that the domain has for something: ``red_one: [red_block]``."""
+        return is_pronoun(noun) and noun not in self.lexicon.nouns
 
     def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
         """What a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
@@ -288,7 +292,7 @@ class Referents:
             reading.asked.discard(noun)
 
     def _meant_by(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
-        if is_pronoun(noun):
+        if self._is_pronoun(noun):
             names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self.targets(a, reading))
             names = names or tuple(
                 n for a in reading.clause.direct[:1] if is_one(noun) for n in self.targets(a, reading)
