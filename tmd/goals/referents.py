@@ -130,8 +130,6 @@ class Referents:
         if is_one(pronoun):
             said = reading.clause.phrase(pronoun)
             relations = self.relations_of(pronoun, reading.clause)
-            if said.attributes:
-                antecedent = antecedent.rpartition("_")[2]  # "the red block on the blue one" is on a block
             return replace(
                 self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
             )

@@ -69,6 +69,8 @@ def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()
                 place = next(p.place for p in draft.mentions() if p.name == pronoun)
                 own = [p.name for p in draft.mentions() if p.place < place and not p.pronoun]
                 ranked, count = tuple(dict.fromkeys((*own[:1], *ranked))), 1
+                if pronoun != "one":
+                    ranked = tuple(dict.fromkeys(name.rpartition("_")[2] for name in ranked))
             if ranked:
                 antecedents[pronoun], together[pronoun] = ranked, count
         clause = replace(clause, antecedents=antecedents, together=together)
