@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cached_property
 
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
 from tmd.goals.senses import state_words
@@ -100,6 +101,13 @@ class Nouns:
             for name in dict.fromkeys(atom.args):
                 self._of_object[name] = (*self._of_object.get(name, ()), atom)
 
+    @cached_property
+    def _places(self) -> frozenset[str]:
+        """The constants that are things as objects are: of a type that objects here have as well, as the floor is."""
+        mentions, constants = self.world.mentions, self.world.profiles.constants
+        common = {kind for name in self.world.profiles.objects for kind in mentions.types.get(name, ())}
+        return frozenset(name for name in constants if mentions.types.get(name, ("",))[0] in common)
+
     def things(
         self, noun: str, state: Bits, *, place: bool = False, types: tuple[str, ...] | None = None
     ) -> tuple[str, ...]:
@@ -120,6 +128,9 @@ class Nouns:
             found = [n for n in self.world.profiles.objects if any(c in self._kinds(n) for c in classes)]
             if found:
                 return tuple(found)
+        named = [m for m in self.world.mentions.ranked(noun)[:1] if m.name in self._places and m.how in (NAME, ALIAS)]
+        if named:
+            return (named[0].name,)  # the floor, which is no substance that things contain
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]
         if not self.guess and all(m.how == WORDNET for m in self.world.mentions.ranked(noun)):
             return self._called_after(noun)  # what such a likeness contains is no more sure than itself
@@ -139,7 +150,7 @@ class Nouns:
 
     def _told_apart(self, noun: str, names: list[str], state: Bits) -> list[str]:
         """Of things that share only the head of a compound those that its modifiers mean: *Ann's bed*, *coffee cup*."""
-        *modifiers, _ = split_name(noun)
+        modifiers = split_name(noun)[:-1]  # a noun may be no word at all: "é", "²"
         if not modifiers or len(names) < 2 or noun in self.world.mentions.lexicon.nouns:
             return names
         called = [n for n in names if any(set(modifiers) & set(split_name(kind)) for kind in self._kinds(n))]

@@ -10,7 +10,7 @@ from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disj
 from tmd.goals.nouns import Referent
 from tmd.goals.referents import Referents
 from tmd.goals.senses import results
-from tmd.goals.table import RELATION, GoalRow
+from tmd.goals.table import PREPOSITIONS, RELATION, GoalRow
 from tmd.language.clause import Quantifier
 from tmd.pddl.model import Atom, Formula, Not
 
@@ -73,6 +73,8 @@ class Requirements:
                 if tool and self._tool(names, reading):
                     continue
                 if noun == direct and relation not in _RESTRICTING:
+                    if never and relation in PREPOSITIONS["in"] and self._takes_others(names, reading):
+                        found.append(lambda _: FALSE)  # no kettle is heated in the microwave
                     self._approach(referent, relation, names, reading)
                     continue
                 found.append(self._relation_goal(variable, relation, names, reading))
@@ -81,6 +83,15 @@ class Requirements:
             if referent.noun in reading.wanted:
                 found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
         return found
+
+    def _takes_others(self, places: Sequence[str], reading: ClauseReading) -> bool:
+        """Whether other things may ever be in one of some places."""
+        return any(
+            self.nouns.related("in", name, place, reading.moments) != FALSE
+            for place in places
+            for name in self.world.profiles.objects
+            if name != place
+        )
 
     def _state_wanted(self, variable: str, words: Sequence[str], reading: ClauseReading) -> Requirement:
         def goal(binding: Mapping[str, str]) -> Formula:

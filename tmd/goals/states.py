@@ -65,7 +65,7 @@ class States:
         """The constants that a noun names where it names no object."""
         objects = [n for n in self.nouns.things(noun, reading.state) if n not in self.world.profiles.constants]
         matches = self.world.mentions.of(noun, reading.state)
-        contained = all(match.how == "contained" for match in matches)
+        contained = bool(matches) and all(match.how == "contained" for match in matches)
         return self.nouns.constants(noun, ("object",), reading.state) if contained or not objects else ()
 
     def _thing_state(

@@ -72,8 +72,8 @@ class _Noun:
 
 @lru_cache(maxsize=4096)
 def split_name(name: str) -> tuple[str, ...]:
-    """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``."""
-    return tuple(part.lower() for part in _CAMEL.findall(name))
+    """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``; of what has none, itself."""
+    return tuple(part.lower() for part in _CAMEL.findall(name)) or (name.lower(),)
 
 
 def words_in_name(name: str) -> frozenset[str]:

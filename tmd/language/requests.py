@@ -214,7 +214,8 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         plural = any(t.text.endswith("s") or t.kind is Kind.PRON or t.kind is Kind.CC for t in subject)
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
             to = tokens[place].kind is Kind.TO  # "the letters have to go to Ann"
-            verb = _verb("be" if state else "bring" if to else PUT, token, *duties)
+            none = subject[0].text in ("no", "nothing", "none")  # "no cups should be on the table"
+            verb = _verb("be" if state or none else "bring" if to else PUT, token, *duties)
             verb.form = "base"
             if state:
                 verb.lead = [tokens[place].text]
