@@ -128,7 +128,7 @@ def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
 def _parse(noun: str) -> _Noun:
     words = list(split_name(singular(noun.lower().replace(" ", "_").replace("-", "_"))))
     number, ordinal = None, False
-    if words and words[-1].isdigit():
+    if words and words[-1].isdecimal():
         number = int(words.pop())
     elif len(words) > 1 and words[-1] in _NUMBERS:
         number = _NUMBERS.index(words.pop()) + 1

@@ -66,7 +66,8 @@ def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()
             ranked, count = _rank(pronoun, draft, scenes)
             if is_one(pronoun):
                 # "the red block on the blue one": one of what the clause itself spoke of before
-                place = next(p.place for p in draft.mentions() if p.name == pronoun)
+                places = (p.place for p in draft.mentions() if p.name == pronoun)
+                place = next(places, draft.verb.span.start)  # it may stand in a relative clause
                 own = [p.name for p in draft.mentions() if p.place < place and not p.pronoun]
                 ranked, count = tuple(dict.fromkeys((*own[:1], *ranked))), 1
                 if pronoun != "one":
