@@ -223,7 +223,8 @@ class Cluster:
         self.workers: list[subprocess.Popen[bytes]] = []
         self.scheduler = self.start("scheduler", "--port", "0", "--host", "127.0.0.1", *options)
         deadline = time.monotonic() + 60
-        while not self.file.exists() and time.monotonic() < deadline:
+        # the scheduler makes the file before it writes into it, so an empty one is not the answer yet
+        while not (self.file.exists() and self.file.read_text().endswith("}")) and time.monotonic() < deadline:
             time.sleep(0.05)
         self.address: str = json.loads(self.file.read_text())["address"]
 
