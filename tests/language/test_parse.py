@@ -60,6 +60,33 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("Give the floor a good scrub.", ["(scrub, [floor])"]),
         ("Leave the radio on.", ["(leave, [radio])"]),
         ("The radio stays put.", ["(leave, [radio])"]),
+        ("The radio should be left alone.", ["(leave, [radio])"]),
+        ("The floor needs sweeping.", ["(sweep, [floor])"]),
+        ("The blinds should be down.", ["(lower, [blind])"]),
+        ("Bring the blind down and the curtain up.", ["(bring_down, [blind])", "(raise, [curtain])"]),
+        ("The blind should stay up.", ["(leave, [blind])"]),
+        ("How about a tea?", ["(have, [tea])"]),
+        ("I could do with a tea.", ["(have, [tea])"]),
+        (
+            "Shut the gate, but I'd like the rope on the desk.",
+            ["(shut, [gate])", "(have, [rope, desk], on: rope -> desk)"],
+        ),
+        ("Take the rose to the desk.", ["(take, [rose, desk], to: rose -> desk)"]),
+        ("The cup that is on the desk should be washed.", ["(wash, [cup, desk], on: cup -> desk)"]),
+        ("Put the pen in with the rope.", ["(put, [pen, rope], where: pen -> rope)"]),
+        (
+            "Put every rope except the one on the desk on the shelf.",
+            ["(put, [rope, one, desk, shelf], except: rope -> one, on: one -> desk, on: rope -> shelf)"],
+        ),
+        (
+            "Put the letter lying on the chair on the desk.",
+            ["(put, [letter, chair, desk], on: letter -> chair, on: letter -> desk)"],
+        ),
+        (
+            "Put the rope where the pen was and the radio on the desk.",
+            ["(put, [rope, radio, desk, pen], on: radio -> desk, where: rope -> pen)"],
+        ),
+        ("Pour what's left of the paint into the sink.", ["(pour, [paint, sink], into: paint -> sink)"]),
         ("Fetch the rope. I'm going to need it.", ["(fetch, [rope])"]),
         ("I can't see a thing in here, turn the lamp up.", ["(turn_up, [lamp])"]),
         ("Mind you shut the gate.", ["(shut, [gate])"]),
@@ -84,6 +111,8 @@ def test_requests_are_read_in_whatever_form_they_come(text: str, expected: list[
         ("No cups should be left on the desk.", ["cup"]),
         ("Shut the gate, but the window should not be shut.", ["window"]),
         ("Nothing wet may stay in the hall.", ["thing"]),
+        ("None of the lamps should be on.", ["lamp"]),
+        ("The gate must not stay open.", ["gate"]),
     ],
 )
 def test_a_negated_state_is_no_plain_instruction(text: str, nouns: list[str]) -> None:
@@ -92,9 +121,41 @@ def test_a_negated_state_is_no_plain_instruction(text: str, nouns: list[str]) ->
     assert {last.phrase(noun).quantifier for noun in nouns} == {Quantifier.NONE}
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("The radio must not be moved, please.", "(move, [radio])"),
+        ("Neither the lamp nor the radio may be touched.", "(touch, [lamp, radio])"),
+        ("Shut the gate. It must not be painted.", "(paint, [it])"),
+    ],
+)
+def test_what_must_not_be_done_is_a_constraint(text: str, said: str) -> None:
+    assert print_clause(parse(text).constraints[-1]) == said
+
+
 def test_a_pronoun_may_mean_what_a_statement_spoke_of() -> None:
     parsed = parse("Those nuts are stale, bin them. Where did the rope go? Find it.")
     assert [clause.antecedents for clause in parsed.clauses] == [{"them": ("nut",)}, {"it": ("rope",)}]
+
+
+def test_what_is_not_done_yet_is_told_by_an_adjective() -> None:
+    assert parse("Iron every coat that hasn't been ironed yet.").clauses[0].phrase("coat").attributes == ("not_ironed",)
+    assert parse("Turn off the lamps that are on.").clauses[0].phrase("lamp").attributes == ("on",)
+
+
+def test_a_purpose_without_an_object_is_that_of_what_is_acted_on() -> None:
+    (purpose,) = parse("Put the kettle on the stove to boil.").clauses[0].conditions
+    assert [print_clause(clause) for clause in purpose.clauses] == ["(boil, [it])"]
+
+
+def test_a_condition_is_carried_to_what_is_joined_to_its_clause() -> None:
+    first, second, _ = parse("If the lamp is on, turn it off and take it out, otherwise leave it.").clauses
+    assert [c.carried for clause in (first, second) for c in clause.conditions] == [False, True]
+
+
+def test_the_one_that_a_thing_goes_to_is_like_the_one_that_it_comes_from() -> None:
+    clause = parse("Move the red pen from the left shelf to the right one.").clauses[0]
+    assert clause.antecedents["right_one"][0] == "shelf"
 
 
 def test_ones_are_told_apart() -> None:

@@ -5,6 +5,7 @@ The rules are those of ``docs/language.md``, section "Attachment".
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -102,6 +103,9 @@ class Phrase:
             yield from phrase.all()
 
 
+_FIRST = re.compile(r"\s+first(?=\s*(?:[.!?;]|$))", re.IGNORECASE)
+
+
 @dataclass(slots=True)
 class Draft:
     """A clause before pronouns are resolved.
@@ -136,6 +140,8 @@ class Draft:
     def clause(self, text: str) -> Clause:
         """Return the clause without antecedents."""
         span = Span(min(s.start for s in self.spans), max(s.end for s in self.spans))
+        last = _FIRST.match(text, span.end)  # "… but rinse it first": it says when
+        span = span._replace(end=last.end()) if last else span
         mentions = self.mentions()
         return Clause(
             verb=self.verb.stem,
@@ -306,6 +312,9 @@ class _Attachment:
             self.host = targets if chained else self.host
             return
         self.instrument = self.instrument or name == "with"
+        if self._tells_one() and self.draft.verb.stem in section("placing"):
+            self.host, self.behind = [], name  # "except the one on the chair | on the shelf"
+            return
         self.behind = name
         if (name not in _NEVER_HOSTS or targets[0].name in ("one", "ones")) and targets[0].name not in PERSONS:
             self.host = targets
@@ -337,7 +346,7 @@ class _Attachment:
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
         """Tell whether a preposition stands beside the noun before it rather than the direct object."""
         stem = self.draft.verb.stem
-        if self.behind and all(p.name in ("one", "ones") for p in self.host) and name in ("with", "on", "in", "from"):
+        if self._tells_one() and name in ("with", "on", "in", "from"):
             return True  # "except the one with the handle": what stands behind it says which one
         if name == "with" and any(_is_tool(t.name) for t in targets):
             held = stem in section("moving") | section("placing") | section("dative_verbs")
@@ -350,7 +359,11 @@ class _Attachment:
             return True
         if name not in section("static") and name != "of":
             return False
-        return not (self.behind in _ORIGIN and stem in section("placing"))
+        return not (self.behind in _ORIGIN and (stem in section("placing") or stem in ("have", "get", "bring")))
+
+    def _tells_one(self) -> bool:
+        """Tell whether what comes now says which *one* is meant."""
+        return bool(self.behind) and all(p.name in ("one", "ones") for p in self.host)
 
     def finish(self) -> None:
         self._flush(self.draft.direct)

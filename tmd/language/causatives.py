@@ -99,6 +99,11 @@ def rewrite_should(tokens: list[Token], at: int) -> tuple[list[Token], int] | No
     copula = _nominal_end(tokens, at)
     while copula < len(tokens) and tokens[copula].kind is Kind.P and copula > at:
         copula = _nominal_end(tokens, copula + 1)
+    if copula < len(tokens) and tokens[copula].kind is Kind.REL and any(t.kind is Kind.N for t in tokens[at:copula]):
+        # "the cup that is on the desk should be washed"
+        ends = (i for i in range(copula, len(tokens)) if tokens[i].kind in (Kind.STOP, Kind.COMMA))
+        duties = (i for i in range(copula, next(ends, len(tokens))) if tokens[i].text in ("should", "must"))
+        copula = next(duties, copula)
     nominal = tokens[at:copula]
     if copula >= len(tokens) or tokens[copula].text not in _DUTIES or not any(t.kind is Kind.N for t in nominal):
         return None

@@ -36,32 +36,11 @@ _WHOLES = frozenset({"everything", "anything", "all", "every", "each", "everybod
 _RESULT_VERBS = frozenset({"make", "get", "have", "keep", "leave", "turn", "want", "set"})
 """What stands behind their object may be the state that it shall be in ..."""
 _PLAIN_VERBS = frozenset(
-    {
-        "push",
-        "pull",
-        "put",
-        "swing",
-        "slide",
-        "tie",
-        "lock",
-        "switch",
-        "hold",
-        "prop",
-        "find",
-        "pop",
-        "crack",
-        "throw",
-        "slam",
-        "pry",
-        "yank",
-        "ease",
-        "nudge",
-        "fling",
-        "kick",
-    }
-)
+    {"push", "pull", "put", "swing", "slide", "tie", "lock", "switch", "hold", "prop", "find", "pop", "crack", "throw",
+     "slam", "pry", "yank", "ease", "nudge", "fling", "kick"}
+)  # fmt: skip
 """... and behind that of these, if it is one of the next."""
-_STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done"})
+_STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done", "up", "down"})
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
 
 
@@ -141,7 +120,7 @@ def _is_state(tokens: list[Token], at: int, verb: Token) -> bool:
     token = tokens[at]
     following = tokens[at + 1] if at + 1 < len(tokens) else None
     ends = following is None or following.kind not in (Kind.N, Kind.NUM, Kind.ADJ, Kind.DET, Kind.PRON)
-    if token.text in ("on", "off"):
+    if token.text in ("on", "off", "up", "down"):
         ends = following is None or following.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.SEP, Kind.ADV)
     said = token.kind is Kind.ADJ or token.text in _STATES or token.form in ("ed", "ing")
     hosts = verb.stem in _RESULT_VERBS or (verb.stem in _PLAIN_VERBS and token.text in _STATES)

@@ -95,12 +95,14 @@ class Condition:
         clauses: What it says; a state is a clause with the verb ``be``.
         negated: It says that the state does not hold.
         text: As written.
+        carried: It was said with the clause before: *if it is on, turn it off and bring it*.
     """
 
     word: str
     clauses: tuple[Clause, ...]
     negated: bool = False
     text: str = ""
+    carried: bool = False
 
 
 @dataclass(frozen=True, slots=True)

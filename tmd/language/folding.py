@@ -82,6 +82,10 @@ class _Folder:
             if asked:
                 if begin > at:
                     self._emit(token)
+                if any(t.kind is Kind.REL for t in asked[0]):
+                    self.tokens[begin : asked[1]] = asked[0]  # the relative clause is still to be folded
+                    self.start = False
+                    return begin
                 return self._rewritten(asked)
             end = self._statement(begin)
             if end is not None:
@@ -158,7 +162,7 @@ class _Folder:
             if token.text == "by" and self._kind(end + 1) is Kind.ING:
                 break
             follows = self._kind(self._peek(end))
-            if token.kind is Kind.CC and follows in (Kind.V, Kind.SUBJECT, Kind.NEG, Kind.ENSURE, Kind.ADV):
+            if token.kind is Kind.CC and follows in (Kind.V, Kind.SUBJECT, Kind.NEG, Kind.ENSURE, Kind.ADV, Kind.LET):
                 break
             if token.kind in (Kind.SUBJECT, Kind.PRON) and token.text == "you" and finite and follows is Kind.AUX:
                 break
@@ -291,6 +295,9 @@ class _Folder:
                     end += 1
                 return self._fold(at, end, Kind.MOD, "relative")
             described = bool(self.out) and self.out[-1] is not self.verb and self.out[-1].text not in PERSONS
+            ends = self._kind(place + 1) in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.AUX) or place + 1 == len(self.tokens)
+            if self._kind(place) is Kind.P and ends and described:
+                return self._fold(at, place + 1, Kind.MOD, "relative")  # "the lamps that are on"
             if self._kind(place) is Kind.P and described:
                 self._filler(*self.tokens[at:place])
                 self.tokens[place].form = RELATIVE
@@ -311,6 +318,8 @@ class _Folder:
         for place in range(at + 1, end):
             token = self.tokens[place]
             inside = self.tokens[place - 1].kind is Kind.PRON and self.tokens[place - 2].kind is Kind.P
+            if self.tokens[at].text == "where" and token.kind is Kind.AUX and self._kind(place + 1) is Kind.CC:
+                return place + 1  # "where the cup was | and the kettle on the stove"
             if verb and inside and token.kind in (Kind.P, Kind.TO):
                 return place  # "the cup that has water in it | in the sink"
             if verb and said and token.kind in (Kind.P, Kind.TO) and token.text in _WHITHER and token.form != "inf":

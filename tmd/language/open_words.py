@@ -127,6 +127,9 @@ def _read_past(token: Token, previous: Token | None, following: Token | None, st
         return Kind.V
     if kind in (Kind.N, Kind.PRON, Kind.NUM):
         return Kind.FINITE if article else Kind.PARTICIPLE
+    ends = following is None or following.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.P, Kind.TO, Kind.SUB)
+    if kind is Kind.DET and ends and not token.text.endswith("ed"):
+        return Kind.N  # "the rose", "the dove"
     return Kind.N if token.text in section("keep_adjectives") | {"left"} else Kind.ADJ
 
 

@@ -26,6 +26,8 @@ from tmd.language.tokens import Kind, Token, drop_repeats, tokenise
 from tmd.language.wording import rewrite_words
 from tmd.language.words import section
 
+_HAPPENING = frozenset({"boil", "heat", "warm", "cool", "chill", "dry", "cook", "simmer", "soak", "charge", "melt"})
+"""What a thing does by itself when it is put somewhere: to have it do so is what that is for."""
 _DEEPEST = 3
 """So deep may subordinate clauses stand in one another."""
 
@@ -86,12 +88,14 @@ def _read_subordinates(found: Sequence[Draft], lexicon: Lexicon, read: Reader) -
                 asked = [c for c in draft.conditions if c.word == "if"] or asked
                 draft.fronted = draft.fronted or token.span < draft.verb.span
             elif token.form == "purpose":
-                draft.conditions.append(read_condition(["to", *_purpose(condition_words(token))], lexicon, read))
+                words = condition_words(token)
+                said = read_condition(["to", *_purpose(words)], lexicon, read)
+                draft.conditions.append(replace(said, text=" ".join(words)))
             elif token.form == "relative":
                 _add_relative(draft, token, lexicon, read)
         same = before is not None and before.verb.sentence == draft.verb.sentence and before.fronted
         if before is not None and same and not draft.conditions and not draft.verb.otherwise:
-            draft.conditions = [c for c in before.conditions if c.word in ("if", "unless")]
+            draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in ("if", "unless")]
             draft.fronted = True
         before = draft
 
@@ -100,6 +104,8 @@ def _purpose(words: list[str]) -> list[str]:
     """The words of a purpose as those of an instruction to somebody."""
     while words and words[0] in ("to", "so", "that", "in", "order", "so_that", "in_order_to", "so_as_to"):
         words = words[1:]
+    if len(words) == 1 and words[0] in _HAPPENING:
+        words = [*words, "it"]  # "put the kettle on the stove to boil"
     return words if words and words[0] in section("subjects") | section("pronouns") else ["you", *words]
 
 

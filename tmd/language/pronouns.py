@@ -18,6 +18,8 @@ from tmd.language.words import section
 
 SINGULAR = frozenset({"it", "this", "that", "itself"})
 PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves"})
+_LEAVING = frozenset({"from", "off", "out_of"})
+_ARRIVING = frozenset({"to", "into", "onto", "in", "on"})
 OPEN = frozenset({"one", "some", "all", "each", "any", "half", "most", ""})
 """Pronouns without number ("ones" is named ``one``); the empty name is an elided object."""
 
@@ -69,7 +71,10 @@ def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()
                 places = (p.place for p in draft.mentions() if p.name == pronoun)
                 place = next(places, draft.verb.span.start)  # it may stand in a relative clause
                 own = [p.name for p in draft.mentions() if p.place < place and not p.pronoun]
-                ranked, count = tuple(dict.fromkeys((*own[:1], *ranked))), 1
+                # "from the left shelf to the right one": a place, as that from where it goes
+                goes = any(r.target == pronoun and r.relation in _ARRIVING for r in clause.relations)
+                left = [r.target for r in clause.relations if goes and r.relation in _LEAVING]
+                ranked, count = tuple(dict.fromkeys((*left[:1], *own[:1], *ranked))), 1
                 if pronoun != "one":
                     ranked = tuple(dict.fromkeys(name.rpartition("_")[2] for name in ranked))
             if ranked:

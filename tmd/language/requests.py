@@ -30,6 +30,7 @@ _SWITCHED = {
     "closed": "close", "shut": "close", "in": "put_in",
 }  # fmt: skip
 """The verbs for states that a noun alone is given: "lights out", "blinds down", "windows closed"."""
+_SIDES = frozenset({"on", "off", "up", "down"})
 _PLACING = frozenset({"in", "into", "on", "onto", "next_to", "on_top_of", "over", "beside", "under"})
 _BREAKS = (Kind.COMMA, Kind.CC, Kind.STOP)
 _THEY = frozenset({"they", "it", "these", "those"})
@@ -72,7 +73,7 @@ def _telegram(tokens: list[Token]) -> list[Token]:
         after = result[-1] if result else token
         listed = after is not None and after.kind is Kind.COMMA
         plain = part[:1] != [] and part[0].kind not in (Kind.DET, Kind.NUM)
-        again = len(result) > 1 and {result[-1].text, result[-2].text} & {"on", "off"}  # "the tv on and the lamp off"
+        again = len(result) > 1 and {result[-1].text, result[-2].text} & _SIDES  # "the tv on and the lamp off"
         if verb is not None and ((plain and (listed or not spoken)) or again):
             part = [verb, *(t for t in part if t.span != verb.span)]
         result += part if token is None else [*part, token]
@@ -89,7 +90,7 @@ def _unspoken(part: list[Token]) -> Token | None:
     rest = words[nouns:]
     if not nouns or not rest or words[nouns - 1].kind not in (Kind.N, Kind.PRON):
         return None
-    particles = nouns == 1 or rest[0].text in ("on", "off")
+    particles = nouns == 1 or rest[0].text in _SIDES
     if len(rest) == 1 and rest[0].text in _SWITCHED and particles:
         verb = _verb(_SWITCHED[rest[0].text], rest[0])
         verb.form = "base"
@@ -109,6 +110,10 @@ def _verb(stem: str, *sources: Token) -> Token:
 
 def _wish(tokens: list[Token]) -> list[Token]:
     """Read "I'd like some tea", "Grandma would like some tea", "can I have some tea" as "have some tea"."""
+    for cut in range(len(tokens) - 2, 0, -1):  # "open the door, but I'd like the window shut"
+        joint = tokens[cut - 1].kind in (Kind.CC, Kind.COMMA) and tokens[cut].text in _SPEAKERS
+        if joint and any(t.kind in (Kind.V, Kind.LET) for t in tokens[:cut]):
+            return [*_wish(tokens[:cut]), *_wish(tokens[cut:])]
     for at, token in enumerate(tokens):
         lead = [t for t in tokens[:at] if t.kind not in (Kind.ADV, Kind.FILLER)]
         if not lead or token.text not in _WISHES | _NEEDS | {"get"} or not _names_thing(tokens, at + 1):
@@ -200,6 +205,8 @@ def _belonging(tokens: list[Token]) -> list[Token]:
             and tokens[place].form != "ed"
             and tokens[place].stem not in section("verbs")
         )
+        ends = place + 1 >= len(tokens) or tokens[place + 1].kind in _BREAKS
+        hung = be and ends and place < len(tokens) and tokens[place].text in ("up", "down")  # "the blinds should be up"
         if not (goes or state) or switch:
             continue
         begin = _subject_start(tokens, at)
@@ -215,13 +222,15 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         if any(t.kind in (Kind.N, Kind.PRON) for t in subject) and (not bare or plural) and not _negated(duties):
             to = tokens[place].kind is Kind.TO  # "the letters have to go to Ann"
             none = subject[0].text in ("no", "nothing", "none")  # "no cups should be on the table"
-            verb = _verb("be" if state or none else "bring" if to else PUT, token, *duties)
+            placed = _SWITCHED[tokens[place].text] if hung else PUT
+            verb = _verb("be" if state or none else "bring" if to else placed, token, *duties)
+            verb.parts += [tokens[place].span] * hung
             verb.form = "base"
             if state:
                 verb.lead = [tokens[place].text]
             if any(t.kind is Kind.P for t in subject):
                 tokens[place].form = ALSO  # said of what the sentence is about, not of the noun before it
-            return [*tokens[:begin], verb, *subject, *_belonging(tokens[at + 1 :])]
+            return [*tokens[:begin], verb, *subject, *_belonging(tokens[(place if hung else at) + 1 :])]
     return tokens
 
 
@@ -234,6 +243,9 @@ def _subject_start(tokens: list[Token], at: int) -> int | None:
     begin = at
     while begin > 0:
         token = tokens[begin - 1]
+        apart = token.kind is Kind.CC and begin > 1 and tokens[begin - 2].kind is Kind.COMMA
+        if apart and not any(t.kind is Kind.COMMA for t in tokens[: begin - 2]):
+            return begin  # "a tea for me, and the kettle should go back": no list of three
         duty = token.kind in (Kind.AUX, Kind.TO) or token.text in _DUTIES
         listed = token.kind is Kind.COMMA and all(t.kind in _INSIDE | {Kind.COMMA} for t in tokens[:begin])
         if not duty and not listed and token.kind not in _INSIDE | {Kind.SUBJECT, Kind.PARTICIPLE, Kind.REL, Kind.ING}:

@@ -260,7 +260,7 @@ def read_relative(
                 if found and found[0].objects
                 else ([], [], None)
             )
-        if last and last[0] not in section("prepositions"):
+        if last and (len(last) == 1 or last[0] not in section("prepositions")):
             word = f"not_{last[-1]}" if "not" in rest else last[-1]
             return [word], [], None
     copula = next((i for i, w in enumerate(rest) if i and w in _BE), None)

@@ -6,15 +6,24 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.folding import STATEMENT
+from tmd.language.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS
+from tmd.language.lexicon import builtin
 from tmd.language.tagging import fold
 from tmd.language.tokens import Kind, Token
 from tmd.language.words import section
 
-_MAY = frozenset({"can", "could", "may", "might", "should", "shall", "must", "would", "will"})
+_ASKING = frozenset({"can", "could", "may", "should", "shall"})
+"""What a question begins with that asks for something; *will it be hot* does not."""
 _NOTHING = {"any": "no", "anything": "nothing", "a": "no", "an": "no"}
 _POSTURES = frozenset({"left", "lying", "standing", "sitting", "around", "about", "remaining"})
+_STANDING = frozenset({"lies", "stands", "sits", "hangs", "lying", "standing", "sitting", "hanging"})
+_PLACING = frozenset({"in", "on", "under", "next_to", "next", "inside", "beside", "behind", "at", "near", "by"})
+_BEHIND_LEFT = frozenset({"of", "alone", "untouched", "where", "as"})
+"""Behind which *left* is a side, or says that nothing is done."""
+_REST_OF = frozenset(
+    {"what is left of", "what's left of", "whatever is left of", "whatever's left of", "what remains of"}
+)
 _BEFORE_THERE = frozenset({"in", "into", "on", "onto", "from", "under", "inside", "within"})
-_SPEAKERS = frozenset({"i", "we"})
 _WE_ARE = frozenset({"i'm", "im", "we're"})
 _UNABLE = frozenset({"can't", "cannot", "couldn't", "didn't", "haven't"})
 _STAYS = frozenset({"stays", "stay", "remains", "remain"})
@@ -27,11 +36,9 @@ _TREATMENTS = frozenset(
      "spin", "squeeze", "turn", "rub", "soak", "boil", "press", "pull"}
 )  # fmt: skip
 """Nouns for what is done to a thing that is given one."""
-_DUTIES = frozenset({"should", "must", "may", "can", "shall"})
-_PRONOUNS = frozenset({"it", "they", "them", "you", "i", "we", "he", "she", "this", "that", "there"})
+_BEING = (["be"], ["stay"], ["remain"], ["stand"])
+_MODALS = frozenset({"should", "must", "may", "can", "shall"})
 _END_STATES = frozenset({"open", "closed", "shut", "on", "off", "locked", "unlocked", "full", "empty", "lit", "clean"})
-_BREAKS = (Kind.STOP, Kind.COMMA)
-_JOINTS = frozenset({"and", "but", "then", "while"})
 
 
 def rewrite_words(tokens: list[Token]) -> list[Token]:
@@ -70,8 +77,8 @@ def _noun_there(tokens: list[Token]) -> list[Token]:
     """Read "… to the hall and leave it on the rack there" as "… on the rack in it"."""
     result: list[Token] = []
     for at, token in enumerate(tokens):
-        ends = at + 1 == len(tokens) or tokens[at + 1].kind in _BREAKS or tokens[at + 1].text in _JOINTS
-        spoken = any(t.kind in _BREAKS or t.text in _JOINTS for t in tokens[:at])
+        ends = at + 1 == len(tokens) or tokens[at + 1].kind in BREAKS or tokens[at + 1].text in JOINTS
+        spoken = any(t.kind in BREAKS or t.text in JOINTS for t in tokens[:at])
         noun = at > 1 and tokens[at - 1].kind is Kind.WORD and tokens[at - 2].text in ("the", "a")
         if token.text == "there" and ends and spoken and noun:
             cut = token.span.start + 1
@@ -88,7 +95,7 @@ def _the_other(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         result.append(token)
         after = tokens[at + 1] if at + 1 < len(tokens) else None
-        ends = after is None or after.kind is not Kind.WORD or after.text in _JOINTS | section("prepositions")
+        ends = after is None or after.kind is not Kind.WORD or after.text in JOINTS | section("prepositions")
         if token.text == "other" and at and tokens[at - 1].text == "the" and ends:
             result.append(Token(Kind.WORD, "one", token.span._replace(start=token.span.end)))
     return result
@@ -97,10 +104,12 @@ def _the_other(tokens: list[Token]) -> list[Token]:
 def _with_copulas(tokens: list[Token]) -> list[Token]:
     """Read "the bin's open", "the kettle's standing there" as "the bin is open": no owner stands before such words."""
     result: list[Token] = []
-    for token, after in zip(tokens, [*tokens[1:], None], strict=True):
+    for at, token in enumerate(tokens):
+        after = tokens[at + 1] if at + 1 < len(tokens) else None
         stem = token.text.removesuffix("'s")
         follows = after.text if after is not None and after.kind is Kind.WORD else ""
-        verbal = follows.endswith("ing") and follows not in section("nouns") | section("ing_modifiers")
+        ends = at + 2 >= len(tokens) or tokens[at + 2].kind in BREAKS or tokens[at + 2].text in JOINTS
+        verbal = follows.endswith("ing") and (ends or follows not in section("nouns") | section("ing_modifiers"))
         plain = stem != token.text and token.text not in section("be") | section("let_verbs") and stem != "let"
         if plain and (verbal or follows in _IS_BEFORE | section("prepositions")):
             cut = token.span.end - 2
@@ -118,7 +127,7 @@ def _without_asides(tokens: list[Token]) -> list[Token]:
     for token in tokens:
         if token.text == "wherever":
             skipping = True
-        if skipping and token.kind in _BREAKS:
+        if skipping and token.kind in BREAKS:
             skipping = False
             if result and result[-1].kind is Kind.COMMA and token.kind is Kind.COMMA:
                 continue
@@ -138,7 +147,7 @@ def _of_oneself(tokens: list[Token]) -> list[Token]:
         return tokens
     if asks or _speaks_of_oneself(tokens):
         begin = 0
-    breaks = (i for i in range(begin, len(tokens)) if tokens[i].kind in _BREAKS or words[i] in ("so", "but"))
+    breaks = (i for i in range(begin, len(tokens)) if tokens[i].kind in BREAKS or words[i] in ("so", "but"))
     end = len(tokens) - 1 if asks else next(breaks, len(tokens))
     said = fold(tokens[begin:end], Kind.SKIP, " ")
     said.note = STATEMENT
@@ -150,8 +159,8 @@ def _speaks_of_oneself(tokens: list[Token]) -> bool:
     words = [t.text for t in tokens[:4]]
     start = 2 if words[:2] in (["i", "am"], ["we", "are"]) else 1 if words[:1] and words[0] in _WE_ARE else 0
     going = start > 0 and words[start : start + 2] in (["going", "to"], ["about", "to"])
-    unable = len(words) > 1 and words[0] in _SPEAKERS and words[1] in _UNABLE
-    indifferent = len(words) > 2 and words[0] in _SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
+    unable = len(words) > 1 and words[0] in SPEAKERS and words[1] in _UNABLE
+    indifferent = len(words) > 2 and words[0] in SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
     return going or unable or indifferent
 
 
@@ -165,7 +174,7 @@ def _absent(tokens: list[Token]) -> list[Token]:
         words = [t.text for t in tokens]
     if not words or words[0] not in ("nothing", "no", "none"):
         return tokens
-    at = next((i for i in range(1, len(words) - 1) if words[i] in _MAY and words[i + 1] in _STAYS), 0)
+    at = next((i for i in range(1, len(words) - 1) if words[i] in _MODALS and words[i + 1] in _STAYS), 0)
     if not at:
         return tokens
     should, be = replace(tokens[at], text="should"), replace(tokens[at + 1], text="be")
@@ -173,27 +182,50 @@ def _absent(tokens: list[Token]) -> list[Token]:
 
 
 def _negative_state(tokens: list[Token]) -> list[Token]:
-    """Read "the lamp should not be on" as "no lamp should be on"; so with *make sure … is not* and *neither … nor*."""
+    """Read "the lamp should not be on" as "no lamp should be on", "it must not be moved" as "do not move it".
+
+    So with *make sure … is not* and *neither … nor*.
+    """
+    for begin in (*(i + 1 for i in range(len(tokens) - 1, -1, -1) if tokens[i].kind in BREAKS), 0):
+        found = _negative_state_from(tokens, begin)
+        if found is not None:
+            return found
+    return tokens
+
+
+def _negative_state_from(tokens: list[Token], begin: int) -> list[Token] | None:
+    """The same for the piece that begins at ``begin``; ``None`` if it says no such thing."""
     words = [t.text for t in tokens]
-    begin = next((i + 1 for i in range(len(words) - 1, -1, -1) if tokens[i].kind in _BREAKS and i + 1 < len(words)), 0)
-    begin += words[begin : begin + 1] != [] and words[begin] in _JOINTS
+    begin += words[begin : begin + 1] != [] and words[begin] in JOINTS
     starts = [(i, n) for i in range(begin, len(words)) for n in (3, 2, 1) if _ensures(words[i : i + n], n)]
     begin, lead = starts[-1] if starts else (begin, 0)
     start = begin + lead + (words[begin + lead : begin + lead + 1] == ["that"])
-    for at in range(start + 1, len(words) - 1):
-        full = words[at] in _DUTIES and words[at + 1] == "not" and words[at + 2 : at + 3] == ["be"]
-        short = words[at].endswith("n't") and words[at].removesuffix("n't") in _DUTIES and words[at + 1] == "be"
+    end = next((i for i in range(start, len(words)) if tokens[i].kind in BREAKS), len(words))
+    for at in range(start + 1, end - 1):
+        full = words[at] in _MODALS and words[at + 1] == "not" and words[at + 2 : at + 3] in _BEING
+        short = (
+            words[at].endswith("n't") and words[at].removesuffix("n't") in _MODALS and words[at + 1 : at + 2] in _BEING
+        )
         ensured = lead and (words[at] in ("isn't", "aren't") or words[at : at + 2] in (["is", "not"], ["are", "not"]))
-        neither = words[start] == "neither" and words[at] in _DUTIES and words[at + 1] == "be"
+        neither = words[start] == "neither" and words[at] in _MODALS and words[at + 1] == "be"
         if not (full or short or ensured or neither):
             continue
         subject = tokens[start + neither : at]
-        if not subject or any(t.text in _PRONOUNS for t in subject):
-            return tokens
         rest = tokens[at + (3 if full else 1 if ensured and words[at].endswith("n't") else 2) :]
+        done = builtin().verb(rest[0].text) if rest and not ensured else None
+        if done is not None and done[1] == "ed" and rest[0].text not in (*_END_STATES, "left"):
+            ban = [replace(tokens[at], text=word) for word in ("do", "not")] + [replace(rest[0], text=done[0])]
+            return [
+                *tokens[:begin],
+                *ban,
+                *(replace(t, text="or") if t.text == "nor" else t for t in subject),
+                *rest[1:],
+            ]
+        if not subject or any(t.text in PRONOUNS for t in subject):
+            return None
         should = [replace(tokens[at], text=word) for word in ("should", "be")]
         return [*tokens[:begin], *_denied(subject), *should, *rest]
-    return tokens
+    return None
 
 
 def _ensures(words: list[str], length: int) -> bool:
@@ -217,7 +249,7 @@ def _denied(subject: list[Token]) -> list[Token]:
 def _coordinated_states(tokens: list[Token]) -> list[Token]:
     """Read "the door should be open and the window shut" as "… and the window should be shut"."""
     words = [t.text for t in tokens]
-    be = next((i for i, word in enumerate(words) if word == "be" and i and words[i - 1] in (*_DUTIES, "to")), None)
+    be = next((i for i, word in enumerate(words) if word == "be" and i and words[i - 1] in (*_MODALS, "to")), None)
     if be is None or words[be + 1 : be + 2] == [] or words[be + 1] not in _END_STATES:
         return tokens
     joint = be + 2
@@ -266,7 +298,7 @@ def _given(tokens: list[Token]) -> list[Token]:
         return tokens
     verb = next((i for i in (article + 1, article + 2) if i < len(words) and words[i] in _TREATMENTS), None)
     ends = verb is not None and (
-        verb + 1 == len(tokens) or tokens[verb + 1].kind in _BREAKS or words[verb + 1] in _JOINTS
+        verb + 1 == len(tokens) or tokens[verb + 1].kind in BREAKS or words[verb + 1] in JOINTS
     )
     if verb is None or not ends:
         return tokens
@@ -278,7 +310,7 @@ def _not_about(tokens: list[Token]) -> list[Token]:
     words = [t.text for t in tokens]
     if words[:2] not in (["don't", "leave"], ["never", "leave"], ["dont", "leave"]):
         return tokens
-    end = next((i for i, t in enumerate(tokens) if t.kind in _BREAKS), len(tokens))
+    end = next((i for i, t in enumerate(tokens) if t.kind in BREAKS), len(tokens))
     if words[end - 1] not in ("around", "about") or words[end - 2] not in _POSTURES:
         return tokens
     said = fold(tokens[:end], Kind.SKIP, " ")
@@ -287,22 +319,31 @@ def _not_about(tokens: list[Token]) -> list[Token]:
 
 
 def _staying(tokens: list[Token]) -> list[Token]:
-    """Read "the other one stays put", "the mug stays where it is" as "leave the other one alone"."""
+    """Read "the other one stays put", "the mug should be left where it is" as "leave the other one alone"."""
     for at, token in enumerate(tokens):
         following = [t.text for t in tokens[at + 1 : at + 3]]
-        put = following[:1] == ["put"] and (at + 2 == len(tokens) or tokens[at + 2].kind in _BREAKS)
-        if token.text not in _STAYS or not (put or following in (["where", "it"], ["where", "they"], ["as", "it"])):
+        alone = following[:1] in (["put"], ["alone"], ["untouched"]) and (
+            at + 2 == len(tokens) or tokens[at + 2].kind in BREAKS
+        )
+        state = following[:1] != [] and following[0] in _END_STATES | {"up", "down", "raised", "lowered"}
+        kept = (
+            alone
+            or (state and token.text in _STAYS)
+            or (following[:1] in (["where"], ["as"]) and following[1:] in (["it"], ["they"]))
+        )
+        stays = token.text in _STAYS or (token.text == "left" and at > 1 and tokens[at - 1].text == "be")
+        if not (stays and kept):
             continue
         begin = at
-        while begin and tokens[begin - 1].kind not in _BREAKS and tokens[begin - 1].text not in _JOINTS:
+        while begin and tokens[begin - 1].kind not in BREAKS and tokens[begin - 1].text not in JOINTS:
             begin -= 1
         subject = tokens[begin:at]
-        while subject and subject[-1].text in _DUTIES:
+        while subject and subject[-1].text in _MODALS | {"be"}:
             subject = subject[:-1]
         if not subject or any(t.text in section("modals") | {"you"} for t in subject):
             continue
         lead = replace(subject[0], text="leave", span=subject[0].span._replace(end=subject[0].span.start))
-        behind = [replace(tokens[at + 1], text="alone"), *tokens[at + 2 :]] if put else tokens[at + 1 :]
+        behind = [replace(tokens[at + 1], text="alone"), *tokens[at + 2 :]] if alone else tokens[at + 1 :]
         return [*tokens[:begin], lead, *subject, *_staying(behind)]
     return tokens
 
@@ -325,11 +366,15 @@ def _question(tokens: list[Token], start: int, end: int) -> list[Token] | None:
 
 
 def _without_posture(tokens: list[Token]) -> list[Token]:
-    """Leave out "that are lying around", and "lying" of "should be lying on": they say only that things are there."""
+    """Leave out "that are lying around", "lying" of "should be lying on", "what is left of": the things are there."""
     result: list[Token] = []
     at = 0
     while at < len(tokens):
-        words = [t.text for t in tokens[at : at + 3]]
+        words = [t.text for t in tokens[at : at + 4]]
+        rest = next((n for n in (3, 4) if " ".join(words[:n]) in _REST_OF), 0)
+        if rest:
+            at += rest
+            continue
         relative = words[:1] in (["that"], ["which"]) and words[1:2] in (["is"], ["are"])
         first = at + 2 if relative else at + 1
         adjective = words[0] in ("is", "are") and words[1:2] == ["left"] and words[2:3] and words[2] in _END_STATES
@@ -339,20 +384,38 @@ def _without_posture(tokens: list[Token]) -> list[Token]:
             continue
         end = first
         while (relative or words[0] == "be") and end < len(tokens) and tokens[end].text in _POSTURES:
+            if tokens[end].text == "left" and end + 1 < len(tokens) and tokens[end + 1].text in _BEHIND_LEFT:
+                break
             end += 1
+        placed = end < len(tokens) and tokens[end].text in _PLACING
         if end > first and not relative:
             result.append(tokens[at])
+        elif end > first and placed:
+            result += tokens[at:first]  # "that is lying on the shelf": where it is tells which one is meant
+        elif words[0] in _STANDING and placed and end == first:
+            sentence = next((i + 1 for i in range(len(result) - 1, -1, -1) if result[i].kind is Kind.STOP), 0)
+            asked = result[sentence:] != [] and result[sentence].text in ("is", "are")
+            copula = asked or (result != [] and result[-1].text in section("be") | {"be"})
+            finite = words[0].endswith("s") or _relates(result)
+            said = () if copula else ("is",) if finite else ("that", "is")
+            result += [replace(tokens[at], text=word) for word in said]
+            at += 1
+            continue
         at = end if end > first else at
         result += tokens[at : at + 1]
         at += 1
     return result
 
 
+def _relates(before: list[Token]) -> bool:
+    return bool(before) and before[-1].text in ("that", "which", "who")
+
+
 def _passive_question(tokens: list[Token]) -> list[Token]:
     """Read "could the lamp be turned off" as "the lamp should be turned off"."""
     be = next((i for i, t in enumerate(tokens) if t.text == "be"), 0)
     words = [t.text for t in tokens[:be]]
-    if len(words) < 2 or words[0] not in _MAY or words[1] in ("there", "you"):
+    if len(words) < 2 or words[0] not in _ASKING or words[1] in ("there", "you"):
         return tokens
     tokens[0].text = "should"
     return [*tokens[1:be], tokens[0], *tokens[be:]]
@@ -365,7 +428,7 @@ def _unwanted(tokens: list[Token]) -> list[Token]:
     rest = tokens[at + 1 :]
     if rest and rest[0].text == "to" and len(rest) > 1 and rest[1].text in ("see", "find", "have"):
         rest = rest[2:]
-    if not negated or not rest or rest[0].text not in _NOTHING or tokens[0].text not in _SPEAKERS:
+    if not negated or not rest or rest[0].text not in _NOTHING or tokens[0].text not in SPEAKERS:
         return tokens
     rest[0].text = _NOTHING[rest[0].text]
     place = next((i for i, t in enumerate(rest) if t.text in section("prepositions")), len(rest))
@@ -390,6 +453,7 @@ def _complement(tokens: list[Token]) -> int:
 
 _SENTENCES = (
     _passive_question,
+    *IDIOMS,
     _absent,
     _negative_state,
     _coordinated_states,
