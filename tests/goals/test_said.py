@@ -133,6 +133,68 @@ def test_what_must_not_be_touched_is_not_touched() -> None:
     assert not any("key1" in step for step in steps(grounded))
 
 
+def test_what_was_forbidden_does_not_happen_for_a_while_either() -> None:
+    assert said("03_drawer", "study1", "Put the pen in the drawer without opening it.").plans == ()
+    assert said("03_drawer", "study1", "The drawer must not be opened. Take the key out of it.").plans == ()
+
+
+def test_a_condition_is_looked_at_once() -> None:
+    text = "If the book is on the shelf, take it and put it on the table, otherwise leave it."
+    assert "(at book1 table1 on)" in end(said("02_table", "corner1", text))
+
+
+def test_to_put_something_is_more_than_to_take_it() -> None:
+    assert said("03_drawer", "study2", "Put the pen in with the key.").plans == ()  # rather than (holding pr2 pen1)
+
+
+def test_what_leaves_no_trace_is_not_claimed_to_be_done() -> None:
+    grounded = said("living_room", "room1", "Fold the blanket.")
+    assert grounded.refused is not None
+    assert "no predicate of this domain shows it" in grounded.refused[1].message
+
+
+@pytest.mark.parametrize(
+    ("text", "where"),
+    [
+        ("Fill the mug with water and heat it in the microwave.", "(at mug1 microwave1 in)"),
+        ("Heat some milk in the microwave.", "microwave1 in)"),
+        ("Boil some water on the stove.", "stove1_burner"),
+    ],
+)
+def test_it_is_done_where_it_was_said(text: str, where: str) -> None:
+    grounded = said("kitchen", "kitchen1", text)
+    task, state = grounded.world.task, grounded.world.task.init
+    passed: set[str] = set()
+    for instruction in grounded.plans[0].instructions:
+        state = task.by_instruction[instruction].apply(state)
+        passed.update(map(str, task.decode(state)))
+    assert any(where in fact for fact in passed)
+
+
+@pytest.mark.parametrize(
+    "text", ["Warm the plate on the stove.", "Microwave the kettle.", "Heat the kettle in the microwave."]
+)
+def test_where_it_cannot_be_done_it_is_not_done_elsewhere(text: str) -> None:
+    grounded = said("kitchen", "kitchen1", text)
+    assert grounded.plans == ()
+    assert grounded.refused is not None
+    assert grounded.refused[1].why is Why.IMPOSSIBLE
+
+
+def test_an_empty_vessel_is_heated_with_water_alone() -> None:
+    grounded = said("kitchen", "kitchen1", "Warm the pot on the stove.")
+    assert {fact for fact in end(grounded) if fact.startswith("(contains pot1")} == {"(contains pot1 water)"}
+
+
+def test_in_it_is_in_what_was_spoken_of_rather_than_where_that_was_done() -> None:
+    grounded = said("kitchen", "kitchen1", "Take the cup and fill it up at the tap. Put the noodles in it.")
+    assert "(contains cup1 ramen)" in end(grounded)
+
+
+def test_of_things_with_numbers_the_one_with_that_number_is_meant() -> None:
+    assert said("living_room", "room4", "Switch to channel 7.").plans == ()
+
+
 def test_what_was_forbidden_does_not_happen() -> None:
     grounded = said("04_tea", "pantry1", "Put the tea bag in the cup. Don't add milk.")
     assert "(contains cup1 tea)" in end(grounded)

@@ -18,9 +18,10 @@ from tmd.energy.constraints import Constraints as Needs
 from tmd.energy.energy import Energy
 from tmd.energy.plans import Choice, Inferred, Path, RankedPlan, Refusal, Step, StepGoal, why_lost
 from tmd.energy.proposers import PLANNER_SOURCE, Candidate, Instructions, Proposer, Situation
-from tmd.goals.clause_goal import Refused, Why
+from tmd.goals.clause_goal import Refused, Why, text_of
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.follow import Constraints, Context, Follower, Target
+from tmd.goals.grounder import TRUE
 from tmd.goals.steps import Role
 from tmd.goals.steps import Step as GoalStep
 from tmd.language.clause import Clause, Parsed
@@ -105,10 +106,22 @@ class GoalInference:
             if isinstance(found, Refused):
                 return Inferred((), tuple(text.refusals), (step.number, found))
             ways = found
+        nothing = self._shows_nothing(steps, ways)
+        if nothing is not None and constraints == Constraints(self.world.task) and not self.config.guess:
+            return Inferred((), tuple(text.refusals), (0, nothing))
         ways = _distinct([text.finished(way, state) for way in ways], top)
         plans = [RankedPlan(way.path.choices, way.path.state, goals=way.goals) for way in ways]
         told = tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
         return Inferred(told, tuple(text.refusals))
+
+    def _shows_nothing(self, steps: Sequence[GoalStep], ways: Sequence[_Way]) -> Refused | None:
+        """That nothing of a text leaves a trace, as far as this domain goes: *fold the blanket*."""
+        asked = [step.clause for step in steps if step.role is Role.MAIN and step.clause.direct]
+        goals = [goal for way in ways[:1] for goal in way.goals]
+        if not asked or not goals or any(goal.formula != TRUE or not goal.row for goal in goals):
+            return None
+        message = f"'{text_of(asked[0])}' would leave everything here as it is: no predicate of this domain shows it"
+        return Refused(Why.NOT_UNDERSTOOD, message, "say what shall be different afterwards, or allow guesses")
 
 
 class _Text:
@@ -235,8 +248,12 @@ class _Text:
         begun: Instructions = ()
         for ways in target.ways:
             answer: Answer = self.planner.fill(state, ways)
+            if isinstance(answer, GaveUp):
+                answer = self._far(state, ways)
             if isinstance(answer, Filled):
                 begun, state = (*begun, *answer.plan), answer.state
+            elif isinstance(answer, Unreachable) and not self.inference.config.guess:
+                return Refused(Why.IMPOSSIBLE, f"'{_said(target)}' cannot be done here: {answer.reason}")
         proposals = list(self._executables(target.step, way)) if target.step.role is Role.MAIN else []
         reason = ""
         for aim, answer in self._attempts(state, target.aims):

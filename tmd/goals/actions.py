@@ -190,10 +190,9 @@ class _Words:
             if parts & set(PREPOSITIONS[preposition]) or (preposition == "on" and parts & _HANGING):
                 yield preposition, self._atom(predicate, given)
                 return
-        verb = builtin().verb(split_name(predicate.name)[0])
-        placed = (
-            verb is not None and verb[1] == "ed" and "put" in family(verb[0]) and len(split_name(predicate.name)) == 1
-        )
+        first, *rest = split_name(predicate.name)
+        verb = builtin().verb(first)
+        placed = not rest and verb is not None and verb[1] == "ed" and "put" in family(verb[0])  # "stowed"
         if parts & LOCATED or placed:
             for preposition in ("in", "on", "next_to"):
                 yield preposition, self._atom(predicate, given)

@@ -88,13 +88,15 @@ class ClauseReading:
     """The nouns whose meaning is being asked for: none leads to itself."""
     strict: bool = False
     """Every place that was said must have a slot."""
+    awaited: bool = False
+    """It is not asked for but waited for: of what a pronoun may mean, that of which it holds already is meant."""
     pronoun: str | None = None
     antecedent: int | None = None
     """Which of what ``pronoun`` may mean is tried."""
 
     def again(self, *, strict: bool) -> ClauseReading:
         """A fresh reading of the same clause."""
-        return ClauseReading(self.clause, self.state, self.moments, self.memory, strict=strict)
+        return ClauseReading(self.clause, self.state, self.moments, self.memory, strict=strict, awaited=self.awaited)
 
 
 def text_of(clause: Clause) -> str:

@@ -9,7 +9,7 @@ from itertools import product
 
 from tmd.pddl.conjunctions import conjuncts, signed_atoms
 from tmd.pddl.model import Atom, Domain, Formula, GroundAtom
-from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.pddl.task import Cube, Operator, Task
 
 _MOST = 512
 """So many conjunctions are made of a goal and of what must be kept."""
@@ -160,17 +160,26 @@ def _named(cubes: Sequence[Cube], task: Task) -> set[str]:
     return {a for atom in task.names(bits) for a in atom.args} - constants
 
 
-def without_operators(task: Task, forbidden: Bits, names: Collection[str] = ()) -> Task:
-    """The task without the operators that make an atom of ``forbidden`` true, or handle one of ``names``.
+def without_operators(task: Task, forbidden: Cube, names: Collection[str] = ()) -> Task:
+    """The task without the operators that make a literal of ``forbidden`` hold, or handle one of ``names``.
 
     An operator that does so under a condition is there where that does not hold.
     """
-    kept = (o for o in task.operators if not o.add & forbidden and not set(o.instruction.args) & set(names))
+    harmful = (forbidden.positive, forbidden.negative)
+    kept = (
+        o
+        for o in task.operators
+        if not (o.add & harmful[0] or o.delete & harmful[1]) and not set(o.instruction.args) & set(names)
+    )
     operators = tuple(_harmless(operator, forbidden) for operator in kept)
     return replace(task, operators=operators, by_instruction={o.instruction: o for o in operators})
 
 
-def _harmless(operator: Operator, forbidden: Bits) -> Operator:
+def _harmless(operator: Operator, forbidden: Cube) -> Operator:
     """The operator, but for the states where a condition of it would make something forbidden true."""
-    harmful = tuple(effect.condition for effect in operator.conditional if effect.add & forbidden)
+    harmful = tuple(
+        effect.condition
+        for effect in operator.conditional
+        if effect.add & forbidden.positive or effect.delete & forbidden.negative
+    )
     return replace(operator, forbidden=(*operator.forbidden, *harmful)) if harmful else operator

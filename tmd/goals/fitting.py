@@ -42,6 +42,9 @@ class Fitting:
 
     def may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
         """Whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
+        none = unit.direct is not None and reading.clause.phrase(unit.direct).quantifier is Quantifier.NONE
+        if none or reading.clause.verb in ("put", "place", "set", "make_sure"):
+            return False  # they say where something shall be, or nothing
         said = [pair for slot in row.places for pair in self.fillers(slot, unit, reading)]
         where = any(said[:1] and said[0][0] in PREPOSITIONS[p] for p in ("in", "on", "next_to", "under"))
         if not where or len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:

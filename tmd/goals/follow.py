@@ -9,9 +9,10 @@ from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.nouns import Bound, Memory, Referent
 from tmd.goals.reading import GoalReader
+from tmd.goals.senses import words_of
 from tmd.goals.states import BE
 from tmd.goals.steps import PARTINGS, Step, in_order
-from tmd.language.clause import Clause, Condition, Mood, Parsed
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
 from tmd.language.coverage import REMINDER
 from tmd.language.pronouns import is_pronoun
 from tmd.pddl.task import Bits, Cube, Task
@@ -107,7 +108,12 @@ class Follower:
         if not due:
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return Target(step, None, note=note), context
-        goal = self.reader.read(step.clause, state, context.memory)
+        if step.clause.mood is Mood.KEEP:
+            preserved = self._preserved(step.clause, step.number, state, context.memory)
+            if isinstance(preserved, Refused):
+                return preserved
+            return Target(step, None, note="it stays as it is"), replace(context, kept=(*context.kept, *preserved))
+        goal = self.reader.read(step.clause, state, context.memory, awaited=step.awaited)
         if isinstance(goal, Refused):
             unread = {Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION}
             if step.clause.verb in PARTINGS:
@@ -172,6 +178,8 @@ class Follower:
         """Whether a step is to be done in ``state``."""
         if step.otherwise:
             return context.guard is False
+        if context.guard is not None and step.guards and all(guard.carried for guard in step.guards):
+            return context.guard  # "if the lamp is on, turn it off and bring it": what was so when it was said
         for condition in step.guards:
             found = self._holds(condition, context, state)
             if isinstance(found, Refused):
@@ -205,41 +213,43 @@ class Follower:
 
     def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> Constraints | Refused:
         """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
-        forbidden: Bits = 0
+        forbidden = Cube(0, 0)
         names: set[str] = set()
         kept: list[Kept] = []
         for clause in parsed.constraints:
             found = self._avoided(clause, state, memory)
             if isinstance(found, Refused):
                 return found
-            forbidden |= found[0]
+            forbidden = Cube(forbidden.positive | found[0].positive, forbidden.negative | found[0].negative)
             names |= found[1]
             kept += found[2]
         for number, clause in enumerate(parsed.clauses):
-            if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions):
+            other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
+            if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions or other):
                 preserved = self._preserved(clause, number, state, memory)
                 if isinstance(preserved, Refused):
                     return preserved
                 kept += preserved
-        task = without_operators(self.task, forbidden, names) if forbidden or names else self.task
+        task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
         return Constraints(task, tuple(kept))
 
-    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Bits, set[str], list[Kept]] | Refused:
-        """The atoms that must not become true, the things that must not be handled, and literals to keep."""
+    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
+        """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
         if clause.verb in _NEVER and not self._declared(clause.verb):
             names = {n for noun in clause.direct for n in self.reader.nouns.things(noun, state)}
             if not names:
                 return self.reader.referents.not_there(clause)
             for name in tuple(names):
                 names.update(self.reader.grounder.relatives(name, 0))
-            return 0, names, []
+            return Cube(0, 0), names, []
         final = clause.implied or bool(clause.result)
         goal = self.reader.read(
             replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
         )
         if isinstance(goal, Refused):
-            return (0, set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
-        forbidden: Bits = 0
+            return (Cube(0, 0), set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
+        added: Bits = 0
+        deleted: Bits = 0
         kept: list[Kept] = []
         for atom in atoms_of(goal.formula):
             bit = 1 << self.task.index[atom]
@@ -253,10 +263,10 @@ class Follower:
                 and not state & bit
                 and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes)
             ):
-                forbidden |= bit
+                added |= bit
             elif not stands and state & bit:
-                kept.append(Kept((Cube(bit, 0),), -1, hard=True))
-        return forbidden, set(), kept
+                deleted |= bit
+        return Cube(added, deleted), set(), kept
 
     def _declared(self, verb: str) -> bool:
         return any(table.of(verb) for table in self.reader.tables)
@@ -278,7 +288,8 @@ class Follower:
         if clause.result and clause.result not in ("alone",):
             goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
             if isinstance(goal, Refused):
-                return goal
+                parts = clause.direct != () and all(noun in words_of("parts") for noun in clause.direct)
+                return [] if parts else goal  # "leave the lid open": that of what will have been spoken of
             held = [cube for cube in goal.cubes if cube.holds(state)]
             return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
@@ -304,7 +315,8 @@ def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory
     constants = reader.world.profiles.constants
     bound = dict(memory.bound)
     recent: dict[str, None] = {}
-    for noun, names in goal.meant.items():
+    # "heat it in the microwave, and add the noodles": to what was heated; where it was done comes after that
+    for noun, names in sorted(goal.meant.items(), key=lambda said: " " in said[0]):
         chosen = tuple(n for n in names if n in mentioned) or tuple(
             n for n in names if any(o in mentioned for level in range(4) for o in reader.grounder.relatives(n, level))
         )

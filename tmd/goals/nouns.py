@@ -140,8 +140,17 @@ class Nouns:
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
         if not self.guess and matches and matches[0].how == NAME and self._of_another_class(noun, best):
             return ()
-        best = self._told_apart(noun, best, state)
+        best = self._numbered(noun, self._told_apart(noun, best, state))
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _numbered(self, noun: str, names: Iterable[str]) -> list[str]:
+        """The names with the number of a noun, if it has one and they have: *channel 7* is no channel of four."""
+        *_, last = split_name(noun)
+        found = list(names)
+        numbers = {name: split_name(name)[-1] for name in found}
+        if not last.isdigit() or not all(number.isdigit() for number in numbers.values()):
+            return found
+        return [name for name, number in numbers.items() if int(number) == int(last)]
 
     def _of_another_class(self, noun: str, names: list[str]) -> bool:
         """Whether a class that a noun names has nothing here: a *floor lamp* is no ceiling lamp."""
@@ -151,9 +160,14 @@ class Nouns:
     def _told_apart(self, noun: str, names: list[str], state: Bits) -> list[str]:
         """Of things that share only the head of a compound those that its modifiers mean: *Ann's bed*, *coffee cup*."""
         modifiers = split_name(noun)[:-1]  # a noun may be no word at all: "é", "²"
-        if not modifiers or len(names) < 2 or noun in self.world.mentions.lexicon.nouns:
+        if not modifiers or len(names) < 2:
             return names
-        called = [n for n in names if any(set(modifiers) & set(split_name(kind)) for kind in self._kinds(n))]
+        declared = self.world.mentions.lexicon.nouns.get(noun)
+        if declared is not None:  # "upper_drawer: [top_drawer]" in the lexicon means cabinet1_top_drawer
+            whole = [set(split_name(alias)) for alias in declared if len(split_name(alias)) > 1]
+            return [n for n in names if any(words <= set(split_name(n)) for words in whole)] or names
+        alike = {word for modifier in modifiers for word in state_words(modifier)}  # the upper drawer is the top one
+        called = [n for n in names if any(alike & set(split_name(kind)) for kind in self._kinds(n))]
         if called:
             return called
         owners = [m.name for m in self.world.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
@@ -201,11 +215,12 @@ class Nouns:
         fitting = [m for m in ranked if self.grounder.is_a(m.name, types)]
         named = [m.name for m in fitting if m.how == NAME and m.score == fitting[0].score]
         if named:
-            return tuple(named)
+            return tuple(self._numbered(noun, named))
         aliases = [m.name for m in fitting if m.how == ALIAS or (self.guess and m.how == WORDNET)]
         if aliases:
             later = {other for one in aliases for other in self.turns_into(one)}
-            return tuple(name for name in aliases if name not in later) or tuple(aliases)
+            fresh = [name for name in aliases if name not in later] or aliases
+            return tuple(self._numbered(noun, fresh))
         contents: dict[str, None] = {}
         for thing in self.things(noun, state):
             contents.update(dict.fromkeys(c for c in self.contents(thing, state) if self.grounder.is_a(c, types)))

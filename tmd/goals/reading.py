@@ -9,7 +9,7 @@ from itertools import combinations, islice, product
 from tmd.errors import TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
 from tmd.goals.fitting import Fitting
-from tmd.goals.grounder import FALSE, Moments, atoms_of, conjunction, disjunction, negation, only_negative
+from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disjunction, negation, only_negative
 from tmd.goals.nouns import Memory, Mode, Referent, relations_said
 from tmd.goals.referents import Referents
 from tmd.goals.requirements import Requirements
@@ -17,18 +17,15 @@ from tmd.goals.senses import family
 from tmd.goals.states import BE, States
 from tmd.goals.table import (
     ACTIONS,
-    FIRST,
     PREPOSITIONS,
     RELATION,
     GoalRow,
     GoalTable,
     Slot,
-    split_predicate,
 )
 from tmd.goals.why import why_impossible
 from tmd.language.clause import Clause, Quantifier
 from tmd.language.lexicon import Lexicon
-from tmd.pddl.conjunctions import predicates_of
 from tmd.pddl.model import Formula, Or
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
@@ -66,9 +63,9 @@ class GoalReader:
         self.grounder = self.referents.grounder
         self.nouns = self.referents.nouns
 
-    def read(self, clause: Clause, state: Bits, memory: Memory) -> ClauseGoal | Refused:
-        """What ``clause`` asks for, said when ``state`` holds."""
-        reading = ClauseReading(clause, state, Moments(state, memory.first), memory)
+    def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refused:
+        """What ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
+        reading = ClauseReading(clause, state, Moments(state, memory.first), memory, awaited=awaited)
         if (
             clause.implied
             and clause.verb == "have"
@@ -128,7 +125,9 @@ class GoalReader:
                         return found
             finally:
                 self.grounder.exact = False
-        for strict, verbs in ((True, own), (True, others), (False, own), (False, others)):
+        looser = () if self._is_placing(reading.clause) else ((False, others),)  # to put is more than to take
+        alone = not any(r.source in reading.clause.direct for r in reading.clause.relations)
+        for strict, verbs in ((True, own), (True, others), (False, own), *looser):
             for verb in verbs:
                 # what another verb leaves without a trace says nothing of this one: to put is not to sit
                 rows = [row for row in table.of(verb) if verb in own or not row.traceless]
@@ -137,6 +136,8 @@ class GoalReader:
                 found = self._by_rows(rows, reading.again(strict=strict))
                 if isinstance(found, ClauseGoal):
                     return found
+                if alone and verb == reading.clause.verb and found.why is Why.IMPOSSIBLE:
+                    return found  # what the verb itself asks for can never be: its relatives would ask for less
                 if failure is None or failure.why is Why.NOT_UNDERSTOOD:
                     failure = found
             settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
@@ -191,8 +192,19 @@ class GoalReader:
         if inner is None or not self.nouns.constants(inner, ("object",), reading.state):
             return None
         others = [(r, t) for r, t in unit.relations if r != "of"]
-        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, reading.clause)), reading)
-        return None if isinstance(found, Refused) else found
+        clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
+            counted = replace(
+                clause.phrase(inner), quantifier=measure.quantifier, number=measure.number, plural=measure.plural
+            )
+            reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
+        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
+        reading.clause = clause
+        if isinstance(found, Refused):
+            return None
+        if unit.direct is not None and inner in reading.meant:
+            reading.meant.setdefault(unit.direct, reading.meant[inner])
+        return found
 
     def _finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refused:
         if reading.clause.direct and all(
@@ -233,9 +245,11 @@ class GoalReader:
             if isinstance(found, Refused):
                 failure = failure or found
             elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
+                if reading.awaited:
+                    return found
                 held = held or (found, reading.meant)  # so already: rather what is not
                 reading.meant = before
-            elif held is None or not options[number][1] or _looks_back(found[1]):
+            elif held is None or not options[number][1] or found[1].looks_back:
                 return found
         if held is not None:
             reading.meant = held[1]
@@ -255,6 +269,17 @@ class GoalReader:
                 if not isinstance(found, Refused):
                     return found
             reading.antecedent = None
+        said = (t for r in rows for s in r.places for _, t in self.fitting.fillers(s, unit, reading) if t is not None)
+        pronoun = next((target for target in said if self.referents.points_back(target)), None)
+        if pronoun is not None and reading.clause.together.get(pronoun, 1) == 1:
+            # "in it" is in what was spoken of last, by whatever row: not by the first row in something else
+            reading.pronoun = pronoun
+            for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
+                reading.antecedent = number
+                found = self._with_rows(rows, unit, reading)
+                if not isinstance(found, Refused) and not is_object:
+                    return found
+            reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)
 
     def _with_rows(
@@ -407,7 +432,8 @@ class GoalReader:
 
         def whole(binding: Mapping[str, str]) -> Formula:
             formula = leaf(binding)
-            if formula == FALSE or not (self.grounder.live or row.traceless):
+            settled = formula == TRUE and row.source == ACTIONS  # no action moves a curtain from where it hangs
+            if formula == FALSE or ((settled or not self.grounder.live) and not row.traceless):
                 # what can never be so is not "not so already", but for one of many: all filters shall be clean
                 return FALSE if formula == FALSE else _NEVER_OTHERWISE
             return conjunction((formula, *(extra(binding) for extra in further))) if further else formula
@@ -467,8 +493,3 @@ class GoalReader:
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.world.task, self.grounder)
         return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")
-
-
-def _looks_back(row: GoalRow) -> bool:
-    """Whether a row speaks of how things were at first: *put it back* is said of what was moved."""
-    return any(split_predicate(name)[1] == FIRST for name in predicates_of(row.condition))

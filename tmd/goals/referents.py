@@ -9,7 +9,7 @@ from itertools import pairwise
 from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
-from tmd.goals.senses import words_of
+from tmd.goals.senses import state_words, words_of
 from tmd.goals.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
 from tmd.language.lexicon import Lexicon
@@ -175,7 +175,9 @@ class Referents:
                 things = tuple(n for n in held if self.grounder.fits(n, types)) or things
         if not likely and noun in words_of("parts"):
             # "the lid", where lids are no things of their own, is that of what was spoken of
-            things = tuple(n for n in reading.memory.recent if self.grounder.is_a(n, types))[:1]
+            spoken = [n for n in reading.memory.recent if self.grounder.is_a(n, types)]
+            opened = [n for n in spoken if self.nouns.state_of(state_words("open"), n) is not None]
+            things = tuple(opened or spoken)[:1]
         inside = self._by_now_in(noun, types, reading) if phrase.quantifier is Quantifier.PLAIN else ()
         if inside and place:
             return Referent(noun, inside, definite=True)

@@ -46,8 +46,9 @@ class Requirements:
         """What must hold besides: contents, *without*, adjectives of a substance, where further nouns are."""
         found: list[Requirement] = []
         for variable, referent in pairs:
-            noun = referent.noun
-            relations = leftover if noun == direct else self.referents.relations_of(noun, reading.clause)
+            # a pronoun goes by the name of what it stands for, and what was said of it is said of the direct object
+            noun = direct if row.direct is not None and variable == row.direct.variable else referent.noun
+            relations = leftover if noun == direct else self.referents.relations_of(referent.noun, reading.clause)
             for relation, target in relations:
                 if relation in _SELECTING or relation.startswith("not_"):
                     continue
@@ -69,13 +70,18 @@ class Requirements:
                     for name in referent.names
                     for target in names
                 )
-                tool = (noun == direct or never) and relation in ("with", "using", "by", "via", "through")
+                tool = (noun == direct or never) and relation in ("with", "using", "via", "through")
                 if tool and self._tool(names, reading):
                     continue
                 if noun == direct and relation not in _RESTRICTING:
-                    if never and relation in PREPOSITIONS["in"] and self._takes_others(names, reading):
+                    inside = relation in (*PREPOSITIONS["in"], *PREPOSITIONS["on"])
+                    thing = not (self.nouns.guess or self._is_substance(referent))
+                    if never and inside and thing and self._takes_others(relation, names, reading):
                         found.append(lambda _: FALSE)  # no kettle is heated in the microwave
-                    self._approach(referent, relation, names, reading)
+                    self._approach(row, variable, referent, (relation, names), reading)
+                    continue
+                if never and relation in PREPOSITIONS["next_to"]:
+                    reading.notes.append(f"'{relation.replace('_', ' ')} {target.replace('_', ' ')}' says nothing here")
                     continue
                 found.append(self._relation_goal(variable, relation, names, reading))
         found += self._substance_attributes(row, pairs, reading)
@@ -84,10 +90,10 @@ class Requirements:
                 found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
         return found
 
-    def _takes_others(self, places: Sequence[str], reading: ClauseReading) -> bool:
-        """Whether other things may ever be in one of some places."""
+    def _takes_others(self, relation: str, places: Sequence[str], reading: ClauseReading) -> bool:
+        """Whether other things may ever be in, or on, one of some places."""
         return any(
-            self.nouns.related("in", name, place, reading.moments) != FALSE
+            self.nouns.related(relation, name, place, reading.moments) != FALSE
             for place in places
             for name in self.world.profiles.objects
             if name != place
@@ -110,11 +116,35 @@ class Requirements:
 
         return goal
 
-    def _approach(self, referent: Referent, relation: str, names: Sequence[str], reading: ClauseReading) -> None:
-        """Do it there, or with that: a place or a tool that no slot takes."""
-        formula = disjunction(
-            self.nouns.related(relation, name, target, reading.moments)
+    def _approach(
+        self, row: GoalRow, variable: str, referent: Referent, said: tuple[str, Sequence[str]], reading: ClauseReading
+    ) -> None:
+        """Do it there, or with that: a place or a tool that no slot takes; a substance is where its vessel is."""
+        relation, names = said
+        contents = [
+            t
+            for r, noun in self.referents.relations_of(referent.noun, reading.clause)
+            if r == "of"
+            for t in self.referents.targets(noun, reading)
+        ]  # "a mug of water": with the water in it
+        carriers = [
+            (
+                name,
+                disjunction(self.nouns.related("of", name, t, reading.moments) for t in contents) if contents else TRUE,
+            )
             for name in referent.names
+        ]
+        if self._is_substance(referent):
+            grounder, now = self.grounder, reading.moments
+            goals = [
+                (n, grounder.ground(row.condition, {variable: n, RELATION: "in"}, [variable], now))
+                for n in referent.names
+            ]
+            inside = (atom for name, goal in goals for atom in sorted(atoms_of(goal)) if atom.args[1:] == (name,))
+            carriers = [(atom.args[0], Atom(atom.predicate, atom.args)) for atom in inside]
+        formula = disjunction(
+            conjunction((held, self.nouns.related(relation, name, target, reading.moments)))
+            for name, held in carriers
             for target in names
             if name != target
         )

@@ -37,6 +37,7 @@ class Step:
         guards: Conditions of which it depends whether it is done.
         otherwise: It is done where the guards of the step before it did not hold.
         optional: It may be left out where it is not understood: *when they are done*.
+        awaited: It is waited for, not asked for: *until it boils*.
     """
 
     clause: Clause
@@ -45,6 +46,7 @@ class Step:
     guards: tuple[Condition, ...] = ()
     otherwise: bool = False
     optional: bool = False
+    awaited: bool = False
 
 
 def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
@@ -63,11 +65,14 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
     if clause.mood is Mood.KEEP:
         if clause.result and clause.result != "alone":
             yield Step(replace(clause, verb="be", mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
+        elif guards:
+            yield Step(clause, number, Role.MAIN, guards, clause.otherwise)  # "if it is there, leave it, otherwise …"
         return
     for condition in clause.conditions:
         if condition.word in EARLIER and not condition.negated:
             for inner in condition.clauses:
-                yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True)
+                awaited = inner.verb == "be"
+                yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True, awaited=awaited)
     yield Step(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
     if clause.duration and not clause.verb.startswith("wait"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
@@ -78,4 +83,5 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
             for inner in condition.clauses:
                 # "before you leave" says when, and is nothing to be done where nobody knows how
                 optional = condition.word not in ("before", "with") or inner.verb in PARTINGS
-                yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional)
+                awaited = condition.word in ("until", "till")
+                yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional, awaited=awaited)

@@ -19,6 +19,7 @@ from functools import cached_property
 
 from tmd.errors import Location, TmdError
 from tmd.language.lexicon import Declared
+from tmd.pddl.conjunctions import predicates_of
 from tmd.pddl.hierarchy import hierarchy
 from tmd.pddl.model import And, Atom, Domain, Equals, Exists, Forall, Formula, Imply, Not, Or
 from tmd.pddl.parentheses import parse
@@ -112,6 +113,11 @@ class GoalRow:
     def traceless(self) -> bool:
         """Whether it brings about nothing that a state shows."""
         return self.condition == And()
+
+    @property
+    def looks_back(self) -> bool:
+        """Whether it speaks of how things were at first: *put it back* is said of what was moved."""
+        return any(split_predicate(name)[1] == FIRST for name in predicates_of(self.condition))
 
 
 @dataclass(frozen=True, slots=True, order=True)

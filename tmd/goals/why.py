@@ -19,9 +19,8 @@ _OF_TYPE = "it is not of the type"
 def why_impossible(condition: Formula, binding: Mapping[str, str], task: Task, grounder: Grounder) -> str:
     """The first fact that can never hold, with what forbids it."""
     reasons = [why_never(atom, task) for atom in _wanted(condition, binding) if not grounder.can_hold(atom)]
-    broken = [
-        reason for reason in reasons if _OF_TYPE not in reason
-    ]  # says more than that something is of another type
+    # a broken condition says more than that something is of another type
+    broken = [reason for reason in reasons if _OF_TYPE not in reason]
     return next(iter((*broken, *reasons)), "no plan can bring that about")
 
 
