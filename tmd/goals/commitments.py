@@ -165,13 +165,12 @@ def without_operators(task: Task, forbidden: Cube, names: Collection[str] = ()) 
 
     An operator that does so under a condition is there where that does not hold.
     """
-    harmful = (forbidden.positive, forbidden.negative)
-    kept = (
-        o
-        for o in task.operators
-        if not (o.add & harmful[0] or o.delete & harmful[1]) and not set(o.instruction.args) & set(names)
+    operators = tuple(
+        _harmless(operator, forbidden)
+        for operator in task.operators
+        if not (operator.add & forbidden.positive or operator.delete & forbidden.negative)
+        and not set(operator.instruction.args) & set(names)
     )
-    operators = tuple(_harmless(operator, forbidden) for operator in kept)
     return replace(task, operators=operators, by_instruction={o.instruction: o for o in operators})
 
 

@@ -260,24 +260,21 @@ class GoalReader:
     def _with_places(
         self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
     ) -> tuple[Formula, GoalRow] | Refused:
-        """As :meth:`_with_rows`; a place that was not said is what was spoken of last that a row fits."""
-        if any((p, None) in self.fitting.fillers(s, unit, reading) for r in rows for s in r.places for p in _ELIDED):
-            reading.pronoun = ""
-            for number in range(len(self.referents.antecedents("", reading))):
-                reading.antecedent = number
-                found = self._with_rows(rows, unit, reading)
-                if not isinstance(found, Refused):
-                    return found
-            reading.antecedent = None
-        said = (t for r in rows for s in r.places for _, t in self.fitting.fillers(s, unit, reading) if t is not None)
-        pronoun = next((target for target in said if self.referents.points_back(target)), None)
-        if pronoun is not None and reading.clause.together.get(pronoun, 1) == 1:
-            # "in it" is in what was spoken of last, by whatever row: not by the first row in something else
+        """As :meth:`_with_rows`, with places that point back: what was spoken of last and a row fits.
+
+        A place may be left out (*pour the milk*) or be a pronoun (*pour the milk in it*); it is then no object of the
+        clause itself, whatever row would fit that.
+        """
+        fillers = [f for row in rows for slot in row.places for f in self.fitting.fillers(slot, unit, reading)]
+        back = [""] if any(relation in _ELIDED and target is None for relation, target in fillers) else []
+        pronouns = (target for _, target in fillers if target is not None and self.referents.points_back(target))
+        back += [p for p in islice(pronouns, 1) if reading.clause.together.get(p, 1) == 1]
+        for pronoun in back:
             reading.pronoun = pronoun
             for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
                 reading.antecedent = number
                 found = self._with_rows(rows, unit, reading)
-                if not isinstance(found, Refused) and not is_object:
+                if not isinstance(found, Refused) and not (pronoun and is_object):
                     return found
             reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)

@@ -121,27 +121,8 @@ class Requirements:
     ) -> None:
         """Do it there, or with that: a place or a tool that no slot takes; a substance is where its vessel is."""
         relation, names = said
-        contents = [
-            t
-            for r, noun in self.referents.relations_of(referent.noun, reading.clause)
-            if r == "of"
-            for t in self.referents.targets(noun, reading)
-        ]  # "a mug of water": with the water in it
-        carriers = [
-            (
-                name,
-                disjunction(self.nouns.related("of", name, t, reading.moments) for t in contents) if contents else TRUE,
-            )
-            for name in referent.names
-        ]
-        if self._is_substance(referent):
-            grounder, now = self.grounder, reading.moments
-            goals = [
-                (n, grounder.ground(row.condition, {variable: n, RELATION: "in"}, [variable], now))
-                for n in referent.names
-            ]
-            inside = (atom for name, goal in goals for atom in sorted(atoms_of(goal)) if atom.args[1:] == (name,))
-            carriers = [(atom.args[0], Atom(atom.predicate, atom.args)) for atom in inside]
+        substance = self._is_substance(referent)
+        carriers = self._vessels(row, variable, referent, reading) if substance else self._filled(referent, reading)
         formula = disjunction(
             conjunction((held, self.nouns.related(relation, name, target, reading.moments)))
             for name, held in carriers
@@ -151,6 +132,28 @@ class Requirements:
         if formula not in (FALSE, TRUE):
             reading.approach.append(formula)
         reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
+
+    def _filled(self, referent: Referent, reading: ClauseReading) -> list[tuple[str, Formula]]:
+        """The things meant, each with what must be in it: *a mug of water* is one with the water in it."""
+        said = self.referents.relations_of(referent.noun, reading.clause)
+        contents = [t for r, noun in said if r == "of" for t in self.referents.targets(noun, reading)]
+        if not contents:
+            return [(name, TRUE) for name in referent.names]
+        return [
+            (name, disjunction(self.nouns.related("of", name, t, reading.moments) for t in contents))
+            for name in referent.names
+        ]
+
+    def _vessels(
+        self, row: GoalRow, variable: str, referent: Referent, reading: ClauseReading
+    ) -> list[tuple[str, Formula]]:
+        """What a substance is in where the goal is reached, each with the fact that it is in there."""
+        found = []
+        for name in referent.names:
+            goal = self.grounder.ground(row.condition, {variable: name, RELATION: "in"}, [variable], reading.moments)
+            inside = [atom for atom in sorted(atoms_of(goal)) if atom.args[1:] == (name,)]
+            found += [(atom.args[0], Atom(atom.predicate, atom.args)) for atom in inside]
+        return found
 
     def _is_substance(self, referent: Referent) -> bool:
         return bool(referent.names) and all(name in self.world.profiles.constants for name in referent.names)
