@@ -148,7 +148,7 @@ class Requirements:
         self, row: GoalRow, variable: str, referent: Referent, reading: ClauseReading
     ) -> list[tuple[str, Formula]]:
         """What a substance is in where the goal is reached, each with the fact that it is in there."""
-        found = []
+        found: list[tuple[str, Formula]] = []
         for name in referent.names:
             goal = self.grounder.ground(row.condition, {variable: name, RELATION: "in"}, [variable], reading.moments)
             inside = [atom for atom in sorted(atoms_of(goal)) if atom.args[1:] == (name,)]
