@@ -103,7 +103,12 @@ class Fitting:
 
     def fillers(self, slot: Slot, unit: Unit, reading: ClauseReading) -> list[tuple[str, str | None]]:
         """What was said in a slot: relation and noun; a particle alone leaves the noun to what was spoken of."""
-        said = [(r, t) for r, t in unit.relations if relations_said(r, slot.prepositions)]
+        said = [
+            (r, t)
+            for r, t in unit.relations
+            if relations_said(r, slot.prepositions)
+            and not (r == "with" and reading.clause.phrase(t).quantifier is Quantifier.NONE)
+        ]
         if len({r for r, _ in said}) > 1 or len(said) > 1:
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
             said = [pair for pair in said if not self.referents.tells_which(unit, *pair, reading)] or said[-1:]

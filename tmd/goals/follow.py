@@ -125,6 +125,9 @@ class Follower:
             return goal
         if goal.formula == TRUE:
             return Target(step, goal, already=True, note="nothing that a state shows"), context
+        if step.besides:
+            own = tuple(replace(k, hard=True) if k.clause == step.number else k for k in context.kept)
+            context = replace(context, kept=own)
         targets = tuple(a for a in aims(goal.cubes, context.kept, goal.released, self.task) if a)
         hard = [k for k in context.kept if k.hard]
         if not targets or (hard and not combined(goal.cubes, hard)):
@@ -251,7 +254,7 @@ class Follower:
         added: Bits = 0
         deleted: Bits = 0
         kept: list[Kept] = []
-        for atom in atoms_of(goal.formula):
+        for atom in sorted(atoms_of(goal.formula)):
             bit = 1 << self.task.index[atom]
             if final:
                 stands = any(cube.positive & bit for cube in goal.cubes)

@@ -226,6 +226,11 @@ class Nouns:
             contents.update(dict.fromkeys(c for c in self.contents(thing, state) if self.grounder.is_a(c, types)))
         return tuple(contents)
 
+    def substances(self, noun: str) -> tuple[str, ...]:
+        """All constants that a noun may mean by its name or by the words of the domain."""
+        ranked = self.world.mentions.ranked(noun)
+        return tuple(m.name for m in ranked if m.name in self.world.profiles.constants and m.how in (NAME, ALIAS))
+
     def facts_about(self, name: str) -> tuple[GroundAtom, ...]:
         """The atoms that may hold in which ``name`` stands."""
         return self._of_object.get(name, ())

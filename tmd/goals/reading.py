@@ -69,7 +69,7 @@ class GoalReader:
         if (
             clause.implied
             and clause.verb == "have"
-            and any(r.source in clause.direct and r.relation != "of" for r in clause.relations)
+            and any(r.source in clause.direct and r.relation not in ("of", "with", "without") for r in clause.relations)
         ):
             placed = self.read(replace(clause, verb="put", implied=False), state, memory)
             if not isinstance(placed, Refused):

@@ -45,6 +45,10 @@ class Requirements:
     ) -> list[Requirement]:
         """What must hold besides: contents, *without*, adjectives of a substance, where further nouns are."""
         found: list[Requirement] = []
+        if row.direct is None:  # the noun stands in the pattern: "have coffee"
+            for relation, target in leftover:
+                if relation == "without" or reading.clause.phrase(target).quantifier is Quantifier.NONE:
+                    found.append(self._without(row, pairs, self.referents.targets(target, reading), reading))
         for variable, referent in pairs:
             # a pronoun goes by the name of what it stands for, and what was said of it is said of the direct object
             noun = direct if row.direct is not None and variable == row.direct.variable else referent.noun
@@ -58,6 +62,8 @@ class Requirements:
                     continue
                 if not names or set(names) <= set(referent.names):
                     continue
+                if relation == "of" and self._never(referent, relation, names, reading):
+                    names = (*names, *self.nouns.substances(target))  # a jar of coffee holds powder, not the drink
                 beside = self.nouns.constants(target, ("object",), reading.state)
                 supplied = any(n in self.world.profiles.constants for n in names) or all(map(self._is_supply, names))
                 if relation in ("with", "and") and beside and supplied and self._is_substance(referent):
@@ -65,11 +71,7 @@ class Requirements:
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue
-                never = all(
-                    self.nouns.related(relation, name, target, reading.moments) == FALSE
-                    for name in referent.names
-                    for target in names
-                )
+                never = self._never(referent, relation, names, reading)
                 tool = (noun == direct or never) and relation in ("with", "using", "via", "through")
                 if tool and self._tool(names, reading):
                     continue
@@ -89,6 +91,14 @@ class Requirements:
             if referent.noun in reading.wanted:
                 found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
         return found
+
+    def _never(self, referent: Referent, relation: str, names: Sequence[str], reading: ClauseReading) -> bool:
+        """Whether nothing that is meant may ever stand in a relation to one of ``names``."""
+        return all(
+            self.nouns.related(relation, name, target, reading.moments) == FALSE
+            for name in referent.names
+            for target in names
+        )
 
     def _takes_others(self, relation: str, places: Sequence[str], reading: ClauseReading) -> bool:
         """Whether other things may ever be in, or on, one of some places."""
@@ -205,7 +215,7 @@ class Requirements:
         def goal(binding: Mapping[str, str]) -> Formula:
             own = self.grounder.ground(row.condition, {**binding, RELATION: "in"}, binding, reading.moments)
             found = []
-            for atom in atoms_of(own):
+            for atom in sorted(atoms_of(own)):
                 for place, argument in enumerate(atom.args):
                     for name in names:
                         other = atom._replace(args=(*atom.args[:place], name, *atom.args[place + 1 :]))

@@ -38,6 +38,7 @@ class Step:
         otherwise: It is done where the guards of the step before it did not hold.
         optional: It may be left out where it is not understood: *when they are done*.
         awaited: It is waited for, not asked for: *until it boils*.
+        besides: It must hold together with what the same clause asks for: *with its door open*.
     """
 
     clause: Clause
@@ -47,6 +48,7 @@ class Step:
     otherwise: bool = False
     optional: bool = False
     awaited: bool = False
+    besides: bool = False
 
 
 def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
@@ -84,4 +86,7 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
                 # "before you leave" says when, and is nothing to be done where nobody knows how
                 optional = condition.word not in ("before", "with") or inner.verb in PARTINGS
                 awaited = condition.word in ("until", "till")
-                yield Step(inner, number, Role.LATER, guards, clause.otherwise, optional=optional, awaited=awaited)
+                besides = condition.word == "with"
+                yield Step(
+                    inner, number, Role.LATER, guards, clause.otherwise, optional=optional, awaited=awaited, besides=besides
+                )

@@ -232,7 +232,8 @@ def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[L
     state = _Attachment(draft)
     for position, node in enumerate(arguments):
         following = arguments[position + 1] if position + 1 < len(arguments) else None
-        if isinstance(node, Tree) and isinstance(following, Tree) and state.gapped(node, following):
+        beyond = arguments[position + 2] if position + 2 < len(arguments) else None
+        if isinstance(node, Tree) and isinstance(following, Tree) and state.gapped(node, following, beyond):
             continue
         if not isinstance(node, Tree):
             _add_fold(draft, node)
@@ -307,6 +308,9 @@ class _Attachment:
             self.draft.relations.extend(Relation(name, s.name, t.name) for s in self.host for t in targets)
         else:
             self.pending.append((name, targets))
+        if paired and name in _ORIGIN:
+            self.paired = True  # where it goes is still to come
+            return
         if preposition.form == "relative":
             chained = later > 1 or self.draft.verb.stem not in section("placing")
             self.host = targets if chained else self.host
@@ -319,7 +323,7 @@ class _Attachment:
         if (name not in _NEVER_HOSTS or targets[0].name in ("one", "ones")) and targets[0].name not in PERSONS:
             self.host = targets
 
-    def gapped(self, node: Tree[Leaf], following: Tree[Leaf]) -> bool:
+    def gapped(self, node: Tree[Leaf], following: Tree[Leaf], beyond: Tree[Leaf] | Leaf | None) -> bool:
         """Read "the cups on the table and the books on the shelf": the second pair stands for itself."""
         if node.data != "place" or following.data != "place":
             return False
@@ -329,7 +333,10 @@ class _Attachment:
         if len(phrases) < 2 or not self.draft.direct:
             return False
         bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
-        place = next(_leaves(following)).text in section("static") | {"into", "onto"}
+        last = following
+        if next(_leaves(following)).text in _ORIGIN and isinstance(beyond, Tree) and beyond.data == "place":
+            last = beyond  # "the pillow from the floor onto the sofa"
+        place = next(_leaves(last)).text in section("static") | {"into", "onto"}
         other = self.draft.verb.stem in section("placing") and place
         if not (phrases[-1].determined or bare) or not (same or other):
             return False

@@ -62,7 +62,10 @@ def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 def _exceptions(tokens: list[Token]) -> None:
     """Read "everything but the cup", "all of them except for the cup": *but* is a preposition there."""
     for at, token in enumerate(tokens[1:-1], 1):
-        whole = any(t.text in _WHOLES for t in tokens[max(0, at - 4) : at])
+        end = next((i for i in range(at, len(tokens)) if tokens[i].kind in (Kind.STOP, Kind.COMMA, Kind.SEP)), len(tokens))
+        # "all the cups on the table but the red one on the shelf" makes no exception
+        last = not any(t.kind is Kind.P for t in tokens[at + 1 : end])
+        whole = any(t.text in _WHOLES for t in tokens[max(0, at - (7 if last else 4)) : at])
         if token.text in ("but", "save") and whole and tokens[at + 1].kind in _NP | {Kind.ADJ}:
             token.kind, token.text = Kind.P, "except"
             if tokens[at + 1].text == "for":

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
+from tmd.language.attachment import is_number
 from tmd.language.lexicon import builtin
 from tmd.language.tokens import Kind, Token
 from tmd.language.words import section
@@ -12,6 +13,7 @@ from tmd.language.words import section
 SPEAKERS = frozenset({"i", "we"})
 _PUTTING = frozenset({"put", "place", "pop", "stick", "go", "goes", "belong", "belongs"})
 PRONOUNS = frozenset({"it", "they", "them", "you", "i", "we", "he", "she", "this", "that", "there"})
+_DUTIES = frozenset({"should", "must", "has", "have", "needs", "need", "ought"})
 BREAKS = (Kind.STOP, Kind.COMMA)
 JOINTS = frozenset({"and", "but", "then", "while"})
 
@@ -91,6 +93,70 @@ def _could_do_with(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _one_of_many(tokens: list[Token]) -> list[Token]:
+    """Read "one of the two lamps" as "one of the lamps": how many there are picks none of them."""
+    for at in range(len(tokens) - 4):
+        words = [t.text for t in tokens[at : at + 4]]
+        if is_number(words[0]) and words[1] == "of" and words[2] in section("determiners") and is_number(words[3]):
+            return [*tokens[: at + 3], *_one_of_many(tokens[at + 4 :])]
+    return tokens
+
+
+def _so_should(tokens: list[Token]) -> list[Token]:
+    """Read "the cup should be in the sink and so should the mug" as "the cup and the mug should be in the sink"."""
+    words = [t.text for t in tokens]
+    for at in range(4, len(words) - 2):
+        if words[at - 1] == "so" and words[at] in _DUTIES and words[at] in words[: at - 2] and words[at - 2] == "and":
+            first = words.index(words[at])
+            end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS), len(words))
+            return [*tokens[:first], tokens[at - 2], *tokens[at + 1 : end], *tokens[first : at - 2], *tokens[end:]]
+    return tokens
+
+
+def _with_them(tokens: list[Token]) -> list[Token]:
+    """Read "put the cups on the shelf, and the mug with them" as "put the cups and the mug on the shelf"."""
+    words = [t.text for t in tokens]
+    for at in range(5, len(words) - 1):
+        ends = at + 2 == len(words) or tokens[at + 2].kind in BREAKS
+        if words[at] != "with" or words[at + 1] not in ("it", "them") or not ends:
+            continue
+        joint = next((i for i in range(at - 1, 0, -1) if words[i] == "and"), 0)
+        verb = next((i for i in range(joint) if words[i] in _PUTTING), None)
+        said = verb is not None and words[joint + 1] in section("determiners") | section("quantifiers")
+        place = next((i for i in range(verb or 0, joint) if words[i] in section("prepositions")), None)
+        if said and place is not None:
+            cut = joint - (tokens[joint - 1].kind is Kind.COMMA)
+            return [*tokens[:place], *tokens[joint:at], *tokens[place:cut], *tokens[at + 2 :]]
+    return tokens
+
+
+def _everything_else(tokens: list[Token]) -> list[Token]:
+    """Read "put the pen in the drawer and everything else in the bin" as "… and everything except that …"."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words)):
+        if words[at] == "else" and words[at - 1] in ("everything", "anything"):
+            cut = tokens[at].span.start + 1
+            but = replace(tokens[at], text="except", span=tokens[at].span._replace(end=cut))
+            them = replace(tokens[at], text="them", span=tokens[at].span._replace(start=cut))
+            return [*tokens[:at], but, them, *_everything_else(tokens[at + 1 :])]
+    return tokens
+
+
+def _coming_off(tokens: list[Token]) -> list[Token]:
+    """Read "the cups have to come off the table" as "take the cups off the table"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 1):
+        duty = at - 1 if words[at - 1] in ("should", "must") else at - 2 if words[at - 1] == "to" else -1
+        if words[at] != "come" or words[at + 1] not in ("off", "out", "from") or duty < 1 or words[duty] not in _DUTIES:
+            continue
+        begin = duty
+        while begin and tokens[begin - 1].kind not in BREAKS and words[begin - 1] not in (*JOINTS, "so"):
+            begin -= 1
+        if begin < duty and words[begin] not in PRONOUNS - {"it", "they", "this", "that"}:
+            return [*tokens[:begin], replace(tokens[at], text="take"), *tokens[begin:duty], *tokens[at + 1 :]]
+    return tokens
+
+
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _none_of,
     _in_with,
@@ -98,5 +164,10 @@ IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _needing,
     _not_done_yet,
     _could_do_with,
+    _one_of_many,
+    _so_should,
+    _with_them,
+    _everything_else,
+    _coming_off,
 )
 """What is done with each sentence, in this order."""

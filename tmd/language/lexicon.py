@@ -19,6 +19,8 @@ _TYPO_LENGTH = 4
 """Shorter words are never corrected."""
 _TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
+_NOUN_TYPO_RATIO = 0.8
+"""The same where a noun of the domain may be meant: one wrong letter of five."""
 
 
 @cache
@@ -190,7 +192,10 @@ class Lexicon:
             return swapped[0]
         if word.endswith("s") and (stem := self.correct(word[:-1])):
             return stem + "s"
-        near = difflib.get_close_matches(word, self._by_initial.get(word[0], ()), 1, _TYPO_RATIO)
+        group = self._by_initial.get(word[0], ())
+        near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
+        if not near:
+            near = difflib.get_close_matches(word, sorted(self._own_nouns.intersection(group)), 1, _NOUN_TYPO_RATIO)
         # "soapy" is no slip of "soap": letters get lost at the end, endings are not made up
         return near[0] if near and not word.startswith(near[0]) else None
 

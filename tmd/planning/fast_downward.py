@@ -17,8 +17,14 @@ from tmd.planning.unified import EngineSpec, UnifiedPlanner
 OPTIMAL = "astar(hmax())"
 """Optimal for every domain that Fast Downward translates without axioms, and the fastest such configuration."""
 
-FIRST = "eager_greedy([ff()],preferred=[ff()])"
-"""Fast, and content with any plan."""
+FIRST = (
+    "let(hff,ff(),let(hlm,landmark_sum(lm_reasonable_orders_hps(lm_rhw())),eager_greedy([hff,hlm],preferred=[hff])))"
+)
+"""Fast, and content with any plan.
+
+FF alone does not see that a full hand takes nothing more: of a goal that clears a table of four things it evaluates two
+million states in vain, with landmarks beside it 1,700. On the bundled problems the plans are as long.
+"""
 
 OPTIMAL_WITH_AXIOMS = "astar(blind())"
 """Universal preconditions become axioms, under which hmax may overestimate."""
