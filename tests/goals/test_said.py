@@ -138,6 +138,47 @@ def test_what_was_forbidden_does_not_happen_for_a_while_either() -> None:
     assert said("03_drawer", "study1", "The drawer must not be opened. Take the key out of it.").plans == ()
 
 
+def test_what_shall_be_so_besides_holds_at_the_same_time() -> None:
+    assert said("living_room", "room5", "Let the microwave run with its door open.").plans == ()
+    assert said("living_room", "room5", "Let the microwave run with its door closed.").plans != ()
+
+
+def test_with_and_without() -> None:
+    grounded = said("kitchen", "kitchen1", "I'd like a coffee with sugar but no milk.")
+    (vessel,) = {
+        fact.split()[1] for fact in end(grounded) if fact.endswith(" coffee)") and fact.startswith("(contains c")
+    }
+    assert f"(contains {vessel} sugar)" in end(grounded)
+    assert f"(contains {vessel} milk)" not in end(grounded)
+    assert "(not (contains cup1 sugar))" in goals(said("kitchen", "kitchen1", "I'd like a coffee without sugar."))[0]
+
+
+def test_everything_is_taken_off_a_table() -> None:
+    grounded = said(
+        "living_room", "room5", "Leave the juice where it is, but everything else has to come off the coffee table."
+    )
+    assert {fact for fact in end(grounded) if fact.startswith("(at ") and fact.endswith(" coffee_table1 on)")} == {
+        "(at juice_carton1 coffee_table1 on)"
+    }
+
+
+def test_everything_else_is_all_but_what_was_spoken_of() -> None:
+    grounded = said("02_table", "corner2", "Leave the cup where it is and put everything else on a table.")
+    assert "(at cup1 shelf1 on)" in end(grounded)
+    assert {"(at book1 table1 on)", "(at book1 table2 on)"} & end(grounded)
+
+
+def test_what_must_not_be_touched_is_what_its_adjective_says() -> None:
+    grounded = said("living_room", "room1", "Throw away the empty soda can but don't touch the full one.")
+    assert "(at soda_tin2 bin1 in)" in end(grounded)
+    assert not any("soda_tin1" in step for step in steps(grounded))
+
+
+def test_what_is_wanted_done_is_to_be_done() -> None:
+    grounded = said("kitchen", "kitchen5", "I would like the table laid with the spoon and the fork.")
+    assert {"(at spoon1 table1 on)", "(at fork1 table1 on)"} <= end(grounded)
+
+
 def test_a_condition_is_looked_at_once() -> None:
     text = "If the book is on the shelf, take it and put it on the table, otherwise leave it."
     assert "(at book1 table1 on)" in end(said("02_table", "corner1", text))
@@ -278,7 +319,6 @@ def test_nothing_is_handled_for_nothing(kitchen: str) -> None:
 WRONG = [
     ("02_table/corner1", "Swap the cup and the book.", {"(at cup1 shelf1 on)", "(at book1 table1 on)"}),
     ("02_table/corner1", "Put the book under the table.", None),
-    ("02_table/corner2", "Leave the cup where it is and put everything else on a table.", {"(at cup1 shelf1 on)"}),
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
     ("03_drawer/study2", "Put everything in the drawers on the table.", {"(at key1 table1 on)", "(at pen1 table1 on)"}),
     ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),

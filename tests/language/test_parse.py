@@ -62,6 +62,32 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("The radio stays put.", ["(leave, [radio])"]),
         ("The radio should be left alone.", ["(leave, [radio])"]),
         ("The floor needs sweeping.", ["(sweep, [floor])"]),
+        ("Put the two empty jars in the crate.", ["(put, [jar, crate], in: jar -> crate)"]),
+        ("Carry both dry towels.", ["(carry, [towel])"]),
+        (
+            "The rake should be in the shed and so should the hose.",
+            ["(put, [rake, shed, hose], in: rake -> shed, in: hose -> shed)"],
+        ),
+        (
+            "Put the rakes in the shed, and the hose with them.",
+            ["(put, [rake, shed, hose], in: rake -> shed, in: hose -> shed)"],
+        ),
+        ("The tools have to come off the bench.", ["(take, [tool, bench], off: tool -> bench)"]),
+        (
+            "Put the rake in the shed, the hose from the lawn onto the hook and both pots in the crate.",
+            [
+                "(put, [rake, shed, hose, lawn, hook, pot, crate], in: rake -> shed, from: hose -> lawn, "
+                "onto: hose -> hook, in: pot -> crate)"
+            ],
+        ),
+        (
+            "Take everything off the garden bench but the rake.",
+            ["(take, [everything, garden_bench, rake], except: everything -> rake, off: everything -> garden_bench)"],
+        ),
+        (
+            "Everything else goes in the crate.",
+            ["(put, [everything, them, crate], except: everything -> them, in: everything -> crate)"],
+        ),
         ("The blinds should be down.", ["(lower, [blind])"]),
         ("Bring the blind down and the curtain up.", ["(bring_down, [blind])", "(raise, [curtain])"]),
         ("The blind should stay up.", ["(leave, [blind])"]),
@@ -156,6 +182,15 @@ def test_a_condition_is_carried_to_what_is_joined_to_its_clause() -> None:
 def test_the_one_that_a_thing_goes_to_is_like_the_one_that_it_comes_from() -> None:
     clause = parse("Move the red pen from the left shelf to the right one.").clauses[0]
     assert clause.antecedents["right_one"][0] == "shelf"
+
+
+def test_one_is_one_of_what_was_told_apart() -> None:
+    _, second = parse("Throw away the wrapper and the empty can, then wash the full one.").clauses
+    assert second.antecedents["one"][0] == "can"
+    (clause,) = parse("Put the nuts in one bowl and the figs in the other.").clauses
+    assert clause.antecedents["one"] == ("bowl",)
+    (clause,) = parse("Sweep one of the two floors.").clauses
+    assert clause.phrase("floor").number != 2
 
 
 def test_ones_are_told_apart() -> None:

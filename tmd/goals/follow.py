@@ -239,7 +239,7 @@ class Follower:
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
         """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
         if clause.verb in _NEVER and not self._declared(clause.verb):
-            names = {n for noun in clause.direct for n in self.reader.nouns.things(noun, state)}
+            names = {n for noun in clause.direct for n in self._kept_things(clause, noun, state)}
             if not names:
                 return self.reader.referents.not_there(clause)
             for name in tuple(names):
@@ -284,7 +284,8 @@ class Follower:
                 targets = nouns.things(relation.target, state)
                 referent = Referent(noun, names)
                 names = nouns.related_now(referent, relation.relation, targets, state, Moments(state, state)) or names
-        return names
+        said, _ = nouns.narrowed(Referent(noun, names), clause.phrase(noun), state, Moments(state, state))
+        return said.names
 
     def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
         """*Leave the door open* keeps that; *leave the cup where it is* keeps where it is."""

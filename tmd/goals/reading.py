@@ -90,8 +90,17 @@ class GoalReader:
         return found
 
     def _state(self, reading: ClauseReading) -> ClauseGoal | Refused:
-        """What a clause says to be so, or to be there."""
+        """What a clause says to be so, or to be there.
+
+        *I want the table laid* is to lay it, where no state is called so.
+        """
+        clause = reading.clause
         asked = self.states.read(reading)
+        done = self.lexicon.verb(clause.result) if clause.result and clause.verb in ("have", "get", "be") else None
+        if isinstance(asked, Refused) and asked.why is Why.NOT_UNDERSTOOD and done is not None and done[1] == "ed":
+            said = replace(clause, verb=done[0], result=None, implied=False)
+            found = self.read(said, reading.state, reading.memory, awaited=reading.awaited)
+            return asked if isinstance(found, Refused) else found
         return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
 
     def knows(self, noun: str) -> bool:

@@ -84,9 +84,14 @@ def _steps(clause: Clause, number: int) -> Iterator[Step]:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:
                 # "before you leave" says when, and is nothing to be done where nobody knows how
-                optional = condition.word not in ("before", "with") or inner.verb in PARTINGS
-                awaited = condition.word in ("until", "till")
-                besides = condition.word == "with"
+                said = condition.word
                 yield Step(
-                    inner, number, Role.LATER, guards, clause.otherwise, optional=optional, awaited=awaited, besides=besides
+                    inner,
+                    number,
+                    Role.LATER,
+                    guards,
+                    clause.otherwise,
+                    optional=said not in ("before", "with") or inner.verb in PARTINGS,
+                    awaited=said in ("until", "till"),
+                    besides=said == "with",
                 )

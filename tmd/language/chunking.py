@@ -41,6 +41,7 @@ _PLAIN_VERBS = frozenset(
 )  # fmt: skip
 """... and behind that of these, if it is one of the next."""
 _STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done", "up", "down"})
+_ENDS = (Kind.STOP, Kind.COMMA, Kind.SEP)
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
 
 
@@ -62,7 +63,7 @@ def chunk(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
 def _exceptions(tokens: list[Token]) -> None:
     """Read "everything but the cup", "all of them except for the cup": *but* is a preposition there."""
     for at, token in enumerate(tokens[1:-1], 1):
-        end = next((i for i in range(at, len(tokens)) if tokens[i].kind in (Kind.STOP, Kind.COMMA, Kind.SEP)), len(tokens))
+        end = next((i for i in range(at, len(tokens)) if tokens[i].kind in _ENDS), len(tokens))
         # "all the cups on the table but the red one on the shelf" makes no exception
         last = not any(t.kind is Kind.P for t in tokens[at + 1 : end])
         whole = any(t.text in _WHOLES for t in tokens[max(0, at - (7 if last else 4)) : at])

@@ -179,6 +179,9 @@ def _read_base(
     )
     if kind in (Kind.SUBJECT, Kind.NEG) or (kind is Kind.TO and previous and previous.form == "inf"):
         return verb if sure else noun
+    counting = previous is not None and (kind is Kind.NUM or previous.text in ("both", "all"))
+    if counting and adjective and nominal_next:
+        return noun  # "the two empty bottles"
     if kind is Kind.AUX:
         be = previous is not None and previous.text in section("be") | {"has", "have", "had"}
         return noun if be else verb

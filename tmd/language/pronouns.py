@@ -29,11 +29,12 @@ _AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
 
 @dataclass(frozen=True, slots=True)
 class _Mention:
-    """A thing that was spoken of, with how far it stands from the verb."""
+    """A thing that was spoken of, with how far it stands from the verb, and whether an adjective told which one."""
 
     name: str
     plural: bool
     penalty: int
+    described: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,11 +71,15 @@ def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()
                 # "the red block on the blue one": one of what the clause itself spoke of before
                 places = (p.place for p in draft.mentions() if p.name == pronoun)
                 place = next(places, draft.verb.span.start)  # it may stand in a relative clause
-                own = [p.name for p in draft.mentions() if p.place < place and not p.pronoun]
+                own = [p for p in draft.mentions() if p.place < place and not p.pronoun]
+                # "the peanuts in one bowl and the chips in the other": what stands behind the same preposition
+                behind = {r.relation for r in clause.relations if r.target == pronoun}
+                alike = {r.target for r in clause.relations if r.relation in behind}
+                own.sort(key=lambda p: (p.name not in alike, not (p.plural or p.said().attributes or "_" in p.name)))
                 # "from the left shelf to the right one": a place, as that from where it goes
                 goes = any(r.target == pronoun and r.relation in _ARRIVING for r in clause.relations)
                 left = [r.target for r in clause.relations if goes and r.relation in _LEAVING]
-                ranked, count = tuple(dict.fromkeys((*left[:1], *own[:1], *ranked))), 1
+                ranked, count = tuple(dict.fromkeys((*left[:1], *(p.name for p in own[:1]), *ranked))), 1
                 if pronoun != "one":
                     ranked = tuple(dict.fromkeys(name.rpartition("_")[2] for name in ranked))
             if ranked:
@@ -104,7 +109,9 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     """Return a clause that stands for itself with its pronouns' antecedents among the clauses before it."""
     names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
     places = [name for name in clause.objects if is_pronoun(name)]
-    antecedents = {name: tuple(names) for name in places if names}
+    telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
+    told = sorted(names, key=lambda name: name not in telling)
+    antecedents = {name: tuple(told if is_one(name) else names) for name in places if names}
     return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
 
 
@@ -178,6 +185,9 @@ def _rank(pronoun: str, draft: Draft, scenes: list[_Scene]) -> tuple[tuple[str, 
             others = [name for name, _ in _scored(recent, own, draft) if name not in group]
             return (*group, *others), len(group)
     scored = _scored(recent, own, draft)
+    if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
+        telling = {m.name for s in recent for m in s.mentions if m.described or m.plural}
+        scored.sort(key=lambda pair: pair[0] not in telling)
     if pronoun in SINGULAR:
         plural = {m.name for s in recent for m in s.mentions if m.plural}
         scored = [pair for pair in scored if pair[0] not in plural] or scored
@@ -219,7 +229,8 @@ def _scene(draft: Draft, clause: Clause) -> _Scene:
     for phrase in direct:
         names = _meant(phrase, clause)
         together.extend(names)
-        mentions.extend(_Mention(name, phrase.plural or phrase.name in PLURAL, spread) for name in names)
+        described = bool(phrase.said().attributes) or "_" in phrase.name
+        mentions.extend(_Mention(name, phrase.plural or phrase.name in PLURAL, spread, described) for name in names)
         mentions.extend(_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase)
     for name in clause.antecedents.get("", ())[: clause.together.get("", 1)]:
         together.append(name)

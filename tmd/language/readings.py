@@ -113,7 +113,8 @@ def _read_determiner(token: Token, previous: Token | None, following: Token | No
             return
     if token.text in ("the", "a", "an", "my", "your", "its", "every"):
         return
-    verb_next = following is not None and following.strength == 3 and following.form == "base"
+    adjective = following is not None and following.text in section("drop_adjectives")  # "both empty bottles"
+    verb_next = following is not None and following.strength == 3 and following.form == "base" and not adjective
     if not (nominal or of) or (verb_next and token.text in section("pronouns") and previous is not None):
         token.kind = Kind.PRON if token.text in section("pronouns") else Kind.DET
 
