@@ -10,9 +10,9 @@ import sys
 from functools import cache
 from pathlib import Path
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import read_problem
+from tmd.pddl.reading.reader import read_problem
 from tmd.veil.demonstration import read_demonstrations
 from tmd.veil.replay import replay
 from tmd.world.compile import compile_problem

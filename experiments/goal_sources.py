@@ -11,20 +11,20 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.energy.energy import Energy
-from tmd.energy.statistics import count
-from tmd.energy.weights import named_weights
-from tmd.goals.table import ACTIONS, DECLARED, LEARNED
+from tmd.evaluation.sentence_tests import Outcome, SentenceTest, judge, read_sentences, summary
+from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
 from tmd.ground import Grounded, TaskPlanners, infer
+from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
+from tmd.inference.energy import Energy
+from tmd.inference.learned.knowledge import Knowledge
+from tmd.inference.learned.store import known
+from tmd.inference.learning.statistics import count
+from tmd.inference.policy.policy import Policy
+from tmd.inference.weights import named_weights
 from tmd.language import parse
 from tmd.language.clause import Clause, Mood, Parsed
-from tmd.learned.knowledge import Knowledge
-from tmd.learned.store import known
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
-from tmd.policy.policy import Policy
-from tmd.sentences import Outcome, SentenceTest, judge, read_sentences, summary
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import find_domain, find_problems
 

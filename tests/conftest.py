@@ -23,9 +23,9 @@ if "PYTEST_XDIST_WORKER" not in os.environ:
 import pytest
 from hypothesis import settings
 
-from tmd.learned.knowledge import study
-from tmd.learned.store import place, save
-from tmd.planning.compiled import digest
+from tmd.inference.learned.knowledge import study
+from tmd.inference.learned.store import place, save
+from tmd.planning.search.numba_build import digest
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
@@ -43,7 +43,7 @@ def pytest_configure(config: pytest.Config) -> None:
     """Compile the searches first: the command that did so would say so, where its test expects nothing."""
     if hasattr(config, "workerinput") or os.environ.get("NUMBA_CACHE_DIR"):
         return
-    if not list((ROOT / "tmd" / "planning" / "__pycache__").glob(f"greedy.search_any_{digest()}-*.nbc")):
+    if not list((ROOT / "tmd" / "planning" / "search" / "__pycache__").glob(f"greedy.search_any_{digest()}-*.nbc")):
         subprocess.run([sys.executable, "-m", "tmd.planning"], cwd=ROOT, capture_output=True, check=True)
 
 

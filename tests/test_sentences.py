@@ -11,9 +11,17 @@ import pytest
 import tmd
 from tests.cli.conftest import run_tmd
 from tmd.api import DomainKit
-from tmd.errors import ExitCode, TmdError
-from tmd.pddl.goal import with_goal
-from tmd.sentences import Outcome, SentenceResult, SentenceTest, judge, read_sentences, result_json, summary
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.evaluation.sentence_tests import (
+    Outcome,
+    SentenceResult,
+    SentenceTest,
+    judge,
+    read_sentences,
+    result_json,
+    summary,
+)
+from tmd.pddl.reading.goal import with_goal
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("problems/*/*.sentences.jsonl"))

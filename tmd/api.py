@@ -11,20 +11,20 @@ from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
-from tmd.energy.config import DEFAULT, preset
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.export.from_unified import from_unified_planning
-from tmd.export.planned import planned
+from tmd.export.planned_problem import planned
 from tmd.export.strips import restored
 from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
 from tmd.ground import Grounded
 from tmd.ground import ground as ground_text
-from tmd.learned.knowledge import Knowledge
-from tmd.learned.store import known
-from tmd.pddl.goal import with_goal
+from tmd.inference.config import DEFAULT, preset
+from tmd.inference.learned.knowledge import Knowledge
+from tmd.inference.learned.store import known
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import read_plan as read_plan_file
-from tmd.pddl.reader import read_domain, read_problem
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import AUTO, IN_PROCESS, solve
 from tmd.planning.result import Filled, Unreachable

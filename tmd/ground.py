@@ -14,26 +14,26 @@ from __future__ import annotations
 from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
-from tmd.energy.algorithm1 import Inference
-from tmd.energy.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.energy.energy import Energy
-from tmd.energy.goal_directed import GoalInference
-from tmd.energy.plans import Inferred, RankedPlan, Refusal
-from tmd.energy.proposers import SequenceModel, proposers_of
-from tmd.energy.statistics import count
-from tmd.energy.weights import Weights, named_weights
 from tmd.goals.clause_goal import Refused
-from tmd.goals.follow import Follower
-from tmd.goals.sources import goal_reader
-from tmd.goals.table import GoalTable
+from tmd.goals.sources.all_sources import goal_reader
+from tmd.goals.sources.table import GoalTable
+from tmd.goals.text_following import Follower
+from tmd.inference.algorithm1 import Inference
+from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
+from tmd.inference.energy import Energy
+from tmd.inference.goal_directed import GoalInference
+from tmd.inference.learning.statistics import count
+from tmd.inference.policy.policy import Policy, Reward
+from tmd.inference.proposers import SequenceModel, proposers_of
+from tmd.inference.ranking import Inferred, RankedPlan, Refusal
+from tmd.inference.weights import Weights, named_weights
 from tmd.language import parse
 from tmd.language.clause import Clause, Parsed
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Planner
-from tmd.policy.policy import Policy, Reward
 from tmd.veil.library import Library
 from tmd.veil.world import World
 

@@ -13,7 +13,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from tmd.check.run import Checker
+from tmd.check.checker import Checker
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZES = ((25, 250), (50, 500), (100, 1_000), (200, 2_000))

@@ -23,10 +23,10 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "planning"))
 from record_queries import random_goal, random_walk
 
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.fast_downward import fast_downward
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled
 from tmd.planning.unified import UnifiedPlanner
 from tmd.world.compile import compile_problem

@@ -12,7 +12,7 @@ import sys
 import time
 
 import tmd
-from tmd.energy.config import PRESETS
+from tmd.inference.config import PRESETS
 
 TEXT = (
     "Fill the pot with water. Put the pot on the stove. Turn on the burner. Wait until the water boils. "

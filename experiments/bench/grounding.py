@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import GroundAtom, Problem, TypedName
-from tmd.pddl.reader import read_domain
+from tmd.pddl.reading.reader import read_domain
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder

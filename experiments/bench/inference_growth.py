@@ -13,8 +13,8 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from tmd.energy.config import DEFAULT, PRESETS
 from tmd.ground import ground
+from tmd.inference.config import DEFAULT, PRESETS
 from tmd.pddl.model import GroundAtom, TypedName
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn

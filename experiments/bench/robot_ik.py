@@ -14,15 +14,15 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.robot.collision import Checker
-from tmd.robot.kinematics import Array, Tree
-from tmd.robot.motion import CLEARANCE, STRIDES
-from tmd.robot.pose import Pose
-from tmd.robot.posture import TUCKED
-from tmd.robot.pr2 import Pr2
-from tmd.robot.pr2_urdf import prepare
-from tmd.robot.rrt import plan
-from tmd.robot.simulator import Simulator
+from tmd.robot.pr2.arm_motion import CLEARANCE, STRIDES
+from tmd.robot.pr2.collision import Checker
+from tmd.robot.pr2.kinematics import Array, Tree
+from tmd.robot.pr2.posture import TUCKED
+from tmd.robot.pr2.pr2 import Pr2
+from tmd.robot.pr2.rrt import plan
+from tmd.robot.pr2.urdf import prepare
+from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.simulator import Simulator
 
 POSES = 200
 QUERIES = 20
@@ -46,7 +46,7 @@ def main() -> None:
 
 def inverse_kinematics() -> None:
     """Success within the limits, solutions and milliseconds a pose."""
-    from tmd.robot.ik import ArmKinematics
+    from tmd.robot.pr2.ik import ArmKinematics
 
     arm = ArmKinematics(Tree(prepare().root), "right")
     rng = np.random.default_rng(0)

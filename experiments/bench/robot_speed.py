@@ -15,12 +15,12 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from tmd.errors import TmdError
-from tmd.robot.engine import STEPS_PER_SECOND
-from tmd.robot.film import Film, open_movie
-from tmd.robot.record import Listener, Order
-from tmd.robot.rendering import egl_starts
-from tmd.robot.stage import Stage
+from tmd.diagnostics import TmdError
+from tmd.robot.monitor.listeners import Listener, Order
+from tmd.robot.session import Stage
+from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.rendering import egl_starts
+from tmd.robot.video.film import Film, open_movie
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.world.environment import load_environment

@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from tmd import __version__
-from tmd.atomic import write_text
+from tmd.files import write_text
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]

@@ -21,10 +21,10 @@ from experiments.execution.cases import ALL, ONE, demonstrations, plans, with_fa
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import report
 from experiments.execution.run import corpus, run, skills_of
-from tmd.atomic import make_directory, write_text
-from tmd.errors import ExitCode, TmdError
-from tmd.pddl.syntax import read_text
-from tmd.robot.execute import MOST_REPAIRS
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.files import make_directory, write_text
+from tmd.pddl.reading.syntax import read_text
+from tmd.robot.monitor.executor import MOST_REPAIRS
 
 OPENING, CLOSING = "<!-- tables -->", "<!-- end of tables -->"
 

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from experiments.execution.record import Case
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction, read_plan
-from tmd.robot.faults import Fault, opportunities
-from tmd.robot.skill_file import Skills
+from tmd.robot.monitor.faults import Fault, opportunities
+from tmd.robot.skills.skill_file import Skills
 from tmd.veil.corpus import Corpus
 
 ALL, ONE = "all", "one"

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from tmd.errors import Location, TmdError
-from tmd.robot.faults import Happening
+from tmd.diagnostics import Location, TmdError
+from tmd.robot.monitor.faults import Happening
 
 Key: TypeAlias = tuple[str, str, str, int]
 
@@ -55,7 +55,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One instruction as it went; see :class:`tmd.robot.outcome.Step`.
+    """One instruction as it went; see :class:`tmd.robot.skills.results.Step`.
 
     Attributes:
         instruction: What was done.

@@ -13,12 +13,12 @@ from experiments.execution.record import FAILED, Case, Line, Record
 from experiments.execution.trace import Trace
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.faults import Fault, Happening
-from tmd.robot.outcome import Step
-from tmd.robot.record import Order, Title
-from tmd.robot.simulator import STEPS_PER_SECOND
-from tmd.robot.skill_file import Skills, load_skills
-from tmd.robot.stage import Stage
+from tmd.robot.monitor.faults import Fault, Happening
+from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.session import Stage
+from tmd.robot.sim.simulator import STEPS_PER_SECOND
+from tmd.robot.skills.results import Step
+from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import struct
 
-from tmd.robot.simulator import Simulator
+from tmd.robot.sim.simulator import Simulator
 
 
 class Trace:

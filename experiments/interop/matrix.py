@@ -13,13 +13,13 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from experiments.interop.tools import TOOLS
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS
-from tmd.export.planned import Planned, planned
+from tmd.export.planned_problem import Planned, planned
 from tmd.export.strips import restored
 from tmd.pddl.plan_file import format_plan, parse_plan, read_plan
-from tmd.pddl.reader import read_domain, read_problem
+from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate
 from tmd.planning.backends import solve
 from tmd.planning.result import Filled

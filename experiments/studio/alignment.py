@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
-from tmd.studio.alignment import NO_HABITS, Habits, propose
-from tmd.studio.pieces import cut
+from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
+from tmd.studio.demonstrations.clause_spans import cut
+from tmd.veil.clause_alignment import speaks_of, split
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import align, learn
-from tmd.veil.split import speaks_of, split
 from tmd.veil.world import World
 from tmd.world.folder import find_domain, find_problems
 
@@ -116,7 +116,7 @@ RULES: Mapping[str, Rule] = {
     "all to the first clause": first,
     "as many for each": even,
     "next clause when its object is touched": touched,
-    "objects (tmd.veil.split)": objects,
+    "objects (tmd.veil.clause_alignment)": objects,
     "studio, nothing learned": unlearned,
     "studio": studio,
 }

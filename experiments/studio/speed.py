@@ -12,11 +12,11 @@ from collections.abc import Callable
 from pathlib import Path
 
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.archive import Archive
-from tmd.studio.drafts import Drafts
-from tmd.studio.offers import Offers
-from tmd.studio.session import Session
-from tmd.studio.teaching import Teacher
+from tmd.studio.applicable_actions import Offers
+from tmd.studio.demonstrations.demo_store import Archive
+from tmd.studio.demonstrations.drafts import Drafts
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.learning.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.world.folder import find_domain, find_problems

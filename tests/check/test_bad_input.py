@@ -13,10 +13,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tmd.check.checker import Checker
 from tmd.check.diagnostic import Diagnostic
 from tmd.check.pddl_file import check_domain_text, check_problem_text
-from tmd.check.run import Checker
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 
 ROOT = Path(__file__).resolve().parents[2]
 CAFE = ROOT / "experiments" / "checkers" / "cases" / "none"

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from tmd.check.checker import Checker
 from tmd.check.codes import SEVERITY, SUMMARY
-from tmd.check.run import Checker
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
 

@@ -10,10 +10,10 @@ import yaml
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.check.layout_pddl import WIDTH, format_pddl
-from tmd.check.layout_yaml import format_yaml
-from tmd.errors import TmdError
-from tmd.pddl.reader import parse_domain
+from tmd.diagnostics import TmdError
+from tmd.format.pddl_layout import WIDTH, format_pddl
+from tmd.format.yaml_layout import format_yaml
+from tmd.pddl.reading.reader import parse_domain
 
 ROOT = Path(__file__).resolve().parents[2]
 BUNDLED = sorted(

@@ -7,12 +7,12 @@ from pathlib import Path
 
 import pytest
 
+from tmd.check.checker import Checker
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.diagnostic import Diagnostic
-from tmd.check.layout_yaml import format_yaml
-from tmd.check.run import Checker
-from tmd.check.words import check_lexicon
-from tmd.language.lexicon_file import read_lexicon
+from tmd.check.lexicon_words import check_lexicon
+from tmd.format.yaml_layout import format_yaml
+from tmd.language.lexicon.file import read_lexicon
 
 ROOT = Path(__file__).resolve().parents[2]
 SOUND = "  - take|grasp X: (holding pr2 ?x)\n  - put|keep X in|on Y: (at ?x ?y ?rel)\n"

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from tmd.check.checker import Checker
 from tmd.check.codes import Severity
 from tmd.check.pddl_file import check_domain_text, check_problem_text
-from tmd.check.run import Checker
 
 CASES = {
     "blocks without types": (

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from tmd.atomic import make_directory, write_bytes, write_text
-from tmd.errors import OutputError
+from tmd.diagnostics import OutputError
+from tmd.files import make_directory, write_bytes, write_text
 
 
 def names(directory: Path) -> list[str]:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, Ended, Tmd
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 DOMAIN = """(define (domain lamps)
   (:requirements :strips :typing)

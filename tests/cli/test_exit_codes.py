@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd, heed_interrupts
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 PLANS = BLOCKS / "plans"

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Tmd, run_tmd
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 PLAN = BLOCKS / "plans" / "valid-sussman.plan"

@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import ROOT, Tmd
-from tmd.errors import ExitCode
-from tmd.pddl.goal import with_goal
-from tmd.pddl.reader import read_domain, read_problem
+from tmd.diagnostics import ExitCode
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_formula
 from tmd.planning.backends import IN_PROCESS, solve

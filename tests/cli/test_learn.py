@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 
 from tests.cli.conftest import ROOT, Ended, Tmd
-from tmd.errors import ExitCode
-from tmd.learned.knowledge import Knowledge, study
-from tmd.learned.store import MANIFEST, place, recall, save
+from tmd.diagnostics import ExitCode
+from tmd.inference.learned.knowledge import Knowledge, study
+from tmd.inference.learned.store import MANIFEST, place, recall, save
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

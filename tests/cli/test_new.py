@@ -10,10 +10,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.cli.conftest import ROOT, Tmd
-from tmd.errors import ExitCode, TmdError
-from tmd.language.lexicon import Lexicon
-from tmd.learned.knowledge import study
-from tmd.sentences import read_sentences
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.evaluation.sentence_tests import read_sentences
+from tmd.inference.learned.knowledge import study
+from tmd.language.lexicon.lexicon import Lexicon
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.scaffold import STARTS, scaffold

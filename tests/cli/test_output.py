@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Tmd
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 TEXT = "Fill the pot with water."

@@ -15,14 +15,14 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 HIDE_PYBULLET = "import sys; sys.modules['pybullet'] = None"
 HIDE_FFMPEG = "import sys; sys.modules['imageio_ffmpeg'] = None"
 HIDE_PILLOW = "import sys; sys.modules['PIL'] = None"
 HIDE_PR2 = "import importlib.metadata as m\ndef files(name): raise m.PackageNotFoundError(name)\nm.files = files"
 STOP_WHEELS = (
-    "import tmd.robot.go as go\nfrom tmd.robot.outcome import SkillError, Stage\n"
+    "import tmd.robot.skills.navigate_and_look as go\nfrom tmd.robot.skills.results import SkillError, Stage\n"
     "def drive(*_): raise SkillError(Stage.PATH, 'the wheels do not turn')\n"
     "go.drive = drive"
 )
@@ -288,7 +288,7 @@ def test_what_cannot_be_run(
 def test_what_cannot_be_simulated(
     tmd: Tmd, tmp_path: Path, code: ExitCode, arguments: list[str | Path], before: str, told: str
 ) -> None:
-    from tmd.robot.pr2_urdf import packaged
+    from tmd.robot.pr2.urdf import packaged
 
     (tmp_path / "box.urdf").write_text(URDF)
     (tmp_path / "lost.urdf").write_text(packaged("urdf/pr2.urdf").read_text())  # without the folder of its meshes
@@ -346,7 +346,7 @@ def test_an_interrupt_in_made_code_keeps_its_exit_code(tmp_path: Path, number: i
     """A plain KeyboardInterrupt would let the interpreter end by SIGINT."""
     (tmp_path / "stopped.py").write_text(
         "import os, sys\n"
-        "from tmd.cli.stopping import stoppable\n"
+        "from tmd.cli.signals import stoppable\n"
         "try:\n"
         "    with stoppable():\n"
         f"        exec('os.kill(os.getpid(), {int(number)})')\n"

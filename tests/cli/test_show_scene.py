@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, Tmd
-from tests.veil500.conftest import write_small
-from tmd.errors import ExitCode
+from tests.datasets.conftest import write_small
+from tmd.diagnostics import ExitCode
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("PIL", reason="needs the extra robot")

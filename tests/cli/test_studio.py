@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("viser", reason="needs the extra studio")
 
 from tmd.cli.program import run as main
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 
 def test_a_port_in_use_is_told_before_anything_is_learned(capsys: pytest.CaptureFixture[str]) -> None:

@@ -10,7 +10,7 @@ import pytest
 from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd, run_tmd
 from tests.view.reading import Reader
 from tmd.cli.program import run
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 TEXT = "Put the cup on the first table."
 WHERE = ("--environment", "corner2")

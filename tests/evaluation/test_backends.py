@@ -19,16 +19,17 @@ import pytest
 
 from tests.cli.conftest import Ended, heed_interrupts, run_tmd
 from tmd import __version__
-from tmd.errors import DataError, ExitCode, MissingToolError, TmdError
-from tmd.evaluation import cluster, models
-from tmd.evaluation.backends import WorkerLostError
-from tmd.evaluation.config import Shard
-from tmd.evaluation.experiment import ExperimentConfig, collect, run, work
-from tmd.evaluation.units import Unit
+from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
+from tmd.evaluation.models import model
+from tmd.evaluation.runs import cluster
+from tmd.evaluation.runs.backends import WorkerLostError
+from tmd.evaluation.runs.config import Shard
+from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run, work
+from tmd.evaluation.runs.jobs import Unit
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
-SAME_CODE = "import tmd.evaluation.cluster\ntmd.evaluation.cluster.source_digest = lambda: 'tests'\n"
+SAME_CODE = "import tmd.evaluation.runs.cluster\ntmd.evaluation.runs.cluster.source_digest = lambda: 'tests'\n"
 COMMAND = ("experiment", "--task", "ramen", "--train-tasks", "ramen", "--models", "empty,chance")
 needs_dask = pytest.mark.skipif(find_spec("distributed") is None, reason="the package distributed is not installed")
 needs_signals = pytest.mark.skipif(sys.platform == "win32", reason="no signals here")
@@ -353,13 +354,13 @@ def test_a_unit_that_kills_its_workers_is_told(
     preload = tmp_path / "killer.py"
     preload.write_text(
         SAME_CODE + "import os, signal\n"
-        "from tmd.evaluation import models\n"
-        "class Killer(models.Empty):\n"
+        "from tmd.evaluation.models import model\n"
+        "class Killer(model.Empty):\n"
         "    def fit(self, *_):\n"
         "        os.kill(os.getpid(), signal.SIGKILL)\n"
-        "models.MODELS['killer'] = Killer\n"
+        "model.MODELS['killer'] = Killer\n"
     )
-    monkeypatch.setattr(models, "MODELS", {**models.MODELS, "killer": models.Empty})
+    monkeypatch.setattr(model, "MODELS", {**model.MODELS, "killer": model.Empty})
     cluster_.work(3, "--preload", str(preload))
     with pytest.raises(WorkerLostError, match="brought down several workers"):
         run(on(cluster_, tmp_path / "out", models=("killer",), test_environments=(1,)))
@@ -453,7 +454,7 @@ def told(tmp_path: Path, *options: str, before: str = "") -> Ended:
 @needs_dask
 @pytest.mark.parametrize("address", ["tcp://127.0.0.1:9", "tcp://no-such-host.invalid:8786"])
 def test_a_scheduler_out_of_reach_is_told(tmp_path: Path, address: str) -> None:
-    hurry = "import tmd.evaluation.cluster as c; c.CONNECT = 1.0"
+    hurry = "import tmd.evaluation.runs.cluster as c; c.CONNECT = 1.0"
     ended = told(tmp_path, "--backend", "dask", "--scheduler", address, before=hurry)
     assert ended.code == ExitCode.MISSING_TOOL
     assert ended.err.splitlines()[-2:][0] == f"error: no scheduler answers at {address}"

@@ -8,8 +8,8 @@ from typing import Any
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.evaluation.confusion import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
-from tmd.evaluation.records import Clause, Line, Segment
+from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
+from tmd.evaluation.runs.records import Clause, Line, Segment
 
 TEXT = "Take the cup. Fill it, then put it down."
 SEGMENTS = [

@@ -11,14 +11,14 @@ from typing import Any, TypeVar
 import numpy as np
 import pytest
 
-from tmd.energy.config import PAPER
-from tmd.energy.plans import RankedPlan
-from tmd.energy.weights import NAMES, OURS, Weights, named_weights
-from tmd.evaluation.crf import ROWS, Crf
-from tmd.evaluation.dataset import BundledData, Example
-from tmd.evaluation.folds import given_fold
-from tmd.evaluation.prediction import Prediction, Served
-from tmd.evaluation.units import fit_text
+from tmd.evaluation.models.paper_models import ROWS, Crf
+from tmd.evaluation.models.prediction import Prediction, Served
+from tmd.evaluation.runs.dataset import BundledData, Example
+from tmd.evaluation.runs.folds import given_fold
+from tmd.evaluation.runs.jobs import fit_text
+from tmd.inference.config import PAPER
+from tmd.inference.ranking import RankedPlan
+from tmd.inference.weights import NAMES, OURS, Weights, named_weights
 from tmd.pddl.task import Cube
 from tmd.planning.result import Filled, NoPlanner, Unreachable
 from tmd.veil.library import Library

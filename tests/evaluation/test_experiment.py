@@ -11,12 +11,13 @@ from pathlib import Path
 
 import pytest
 
-from tmd import atomic
-from tmd.errors import OutputError, TmdError
-from tmd.evaluation import experiment, models
-from tmd.evaluation.experiment import ExperimentConfig, collect, run
-from tmd.evaluation.report import write_report
-from tmd.evaluation.summary import summarise
+from tmd import files as atomic
+from tmd.diagnostics import OutputError, TmdError
+from tmd.evaluation.models import model
+from tmd.evaluation.report.report import write_report
+from tmd.evaluation.runs import experiment
+from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run
+from tmd.evaluation.runs.summary import summarise
 from tmd.pddl.plan_file import parse_instruction
 
 ROOT = Path(__file__).parents[2]
@@ -219,4 +220,4 @@ def test_means_and_standard_errors() -> None:
 
 
 def test_every_model_has_a_row_to_be_asked_for() -> None:
-    assert set(experiment.DEFAULT_MODELS) <= set(models.MODELS)
+    assert set(experiment.DEFAULT_MODELS) <= set(model.MODELS)

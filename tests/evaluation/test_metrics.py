@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tmd.datasets.veil500 import VeilData, absent_types, compile_environment, from_veil, load, mentioned
 from tmd.evaluation.metrics import (
     Scorer,
     Scores,
@@ -28,8 +29,7 @@ from tmd.evaluation.metrics import (
     visible,
 )
 from tmd.pddl.model import GroundAtom, Instruction, Problem, TypedName
-from tmd.pddl.reader import parse_domain
-from tmd.world.veil500 import VeilData, absent_types, compile_environment, from_veil, load, mentioned
+from tmd.pddl.reading.reader import parse_domain
 
 DOMAIN = """
 (define (domain shelf)

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmd.errors import TmdError
-from tmd.evaluation.dataset import BundledData, Example, VeilDataset
-from tmd.evaluation.predefined import PredefinedTemplates
-from tmd.evaluation.prediction import Prediction
-from tmd.evaluation.template_file import FILE, load_templates
+from tmd.diagnostics import TmdError
+from tmd.evaluation.models.predefined_templates import PredefinedTemplates
+from tmd.evaluation.models.prediction import Prediction
+from tmd.evaluation.models.template_file import FILE, load_templates
+from tmd.evaluation.runs.dataset import BundledData, Example, VeilDataset
 from tmd.pddl.validator import validate
 from tmd.veil.demonstration import Demonstration
 from tmd.world.folder import DomainFolder

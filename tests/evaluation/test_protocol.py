@@ -11,13 +11,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.errors import TmdError
-from tmd.evaluation.config import ExperimentConfig
-from tmd.evaluation.dataset import BundledData, Dataset, Example, VeilDataset
-from tmd.evaluation.folds import Fold, folds_of, given_fold, halves, ranges
-from tmd.evaluation.incomplete import leave_out, sentences
-from tmd.evaluation.protocol import read_protocol
-from tmd.evaluation.units import units_of
+from tmd.diagnostics import TmdError
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.dataset import BundledData, Dataset, Example, VeilDataset
+from tmd.evaluation.runs.folds import Fold, folds_of, given_fold, halves, ranges
+from tmd.evaluation.runs.incomplete import leave_out, sentences
+from tmd.evaluation.runs.jobs import units_of
+from tmd.evaluation.runs.protocol import read_protocol
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 

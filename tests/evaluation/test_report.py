@@ -15,11 +15,11 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from tmd.errors import OutputError, TmdError
-from tmd.evaluation.examples import best_and_worst
-from tmd.evaluation.records import Line, read_run
-from tmd.evaluation.report import print_table, write_report
-from tmd.evaluation.summary import summarise
+from tmd.diagnostics import OutputError, TmdError
+from tmd.evaluation.report.examples import best_and_worst
+from tmd.evaluation.report.report import print_table, write_report
+from tmd.evaluation.runs.records import Line, read_run
+from tmd.evaluation.runs.summary import summarise
 
 EVIL = "<script>alert('é $x$')</script> & <b onclick=\"x\">\u2028[bold]"
 

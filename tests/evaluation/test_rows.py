@@ -16,14 +16,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.energy.config import PAPER, PRESETS
-from tmd.errors import TmdError
-from tmd.evaluation.crf import ROWS, Crf
-from tmd.evaluation.dataset import BundledData, Example
-from tmd.evaluation.incomplete import sentences
+from tmd.diagnostics import TmdError
 from tmd.evaluation.metrics import ied
-from tmd.evaluation.models import MODELS, Model, make_model
-from tmd.evaluation.prediction import Prediction
+from tmd.evaluation.models.model import MODELS, Model, make_model
+from tmd.evaluation.models.paper_models import ROWS, Crf
+from tmd.evaluation.models.prediction import Prediction
+from tmd.evaluation.runs.dataset import BundledData, Example
+from tmd.evaluation.runs.incomplete import sentences
+from tmd.inference.config import PAPER, PRESETS
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
 from tmd.veil.demonstration import Demonstration, Segment

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import stats
 
+from tmd.evaluation.runs.summary import METRICS, summarise
 from tmd.evaluation.significance import compare, holm, intervals, sign_flip
-from tmd.evaluation.summary import METRICS, summarise
 
 
 def prediction(model: str, number: int, score: float, text: str | None = None, **changes: object) -> dict[str, Any]:

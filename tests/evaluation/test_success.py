@@ -13,22 +13,22 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from tmd.errors import TmdError
-from tmd.evaluation.config import ExperimentConfig
-from tmd.evaluation.dataset import BundledData, forget_datasets
-from tmd.evaluation.examples import best_and_worst
-from tmd.evaluation.experiment import run
+from tmd.diagnostics import TmdError
 from tmd.evaluation.metrics import Scorer
-from tmd.evaluation.records import Line, read_run
-from tmd.evaluation.report import print_table, write_report
+from tmd.evaluation.report.examples import best_and_worst
+from tmd.evaluation.report.report import print_table, write_report
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.dataset import BundledData, forget_datasets
+from tmd.evaluation.runs.experiment import run
+from tmd.evaluation.runs.records import Line, read_run
+from tmd.evaluation.runs.summary import TESTED, summarise
 from tmd.evaluation.significance import compare
-from tmd.evaluation.summary import TESTED, summarise
-from tmd.pddl.goal import with_goal
+from tmd.pddl.forced_execution import rollout
 from tmd.pddl.model import Formula, Problem
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.reader import read_problem
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import read_problem
 from tmd.pddl.semantics import holds
-from tmd.pddl.simulator import rollout
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

@@ -15,16 +15,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.evaluation.dataset import BundledData, Example
-from tmd.evaluation.tree import InstructionTree
+from tmd.evaluation.models.instruction_tree import InstructionTree
+from tmd.evaluation.runs.dataset import BundledData, Example
+from tmd.inference.policy.action_constraints import Things, learn_syntax
+from tmd.inference.policy.features import FIRST, Features, Menu
+from tmd.inference.policy.log_linear import Made, ascend, likelihood, log_probabilities
+from tmd.inference.policy.policy import bag, mentioned
+from tmd.inference.policy.training import number_features, steps_made, study
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.policy.features import FIRST, Features, Menu
-from tmd.policy.learn import number_features, steps_made, study
-from tmd.policy.policy import bag, mentioned
-from tmd.policy.reward import Made, ascend, likelihood, log_probabilities
-from tmd.policy.syntax import Things, learn_syntax
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World, make_world
 
@@ -262,8 +262,8 @@ def test_the_seed_decides_to_the_byte(data: Kitchens, lessons: list[Example]) ->
 SCRIPT = """
 import hashlib, sys
 import numpy as np
-from tmd.evaluation.dataset import BundledData
-from tmd.evaluation.tree import InstructionTree
+from tmd.evaluation.runs.dataset import BundledData
+from tmd.evaluation.models.instruction_tree import InstructionTree
 data = BundledData("ramen")
 model = InstructionTree(rounds=1).fit(data.examples[:6], data, np.random.default_rng(0))
 said = [str(model.predict(e, data, np.random.default_rng(0))) for e in data.examples[12:15]]

@@ -11,11 +11,12 @@ from typing import Any, Self
 import numpy as np
 import pytest
 
-from tmd.energy.weights import NAMES, Weights
-from tmd.evaluation import models, units
-from tmd.evaluation.dataset import Dataset, Example
-from tmd.evaluation.experiment import ExperimentConfig, run
-from tmd.evaluation.prediction import Prediction
+from tmd.evaluation.models import model
+from tmd.evaluation.models.prediction import Prediction
+from tmd.evaluation.runs import jobs
+from tmd.evaluation.runs.dataset import Dataset, Example
+from tmd.evaluation.runs.experiment import ExperimentConfig, run
+from tmd.inference.weights import NAMES, Weights
 
 ROOT = Path(__file__).parents[2]
 STEPS = 5
@@ -66,7 +67,7 @@ class Toy:
 
 @pytest.fixture(autouse=True)
 def toy(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(models, "MODELS", {**models.MODELS, "toy": Toy})
+    monkeypatch.setattr(model, "MODELS", {**model.MODELS, "toy": Toy})
     for name, value in (("fits", 0), ("restores", 0), ("dies_after", None), ("dies_predicting", False)):
         monkeypatch.setattr(Toy, name, value)
 
@@ -178,13 +179,13 @@ def test_rows_do_not_depend_on_what_else_is_tested(tmp_path: Path) -> None:
 
 
 def test_a_journal_belongs_to_one_process(tmp_path: Path) -> None:
-    unit = units.Unit("toy", "t", ("f",))
+    unit = jobs.Unit("toy", "t", ("f",))
     first, second = Toy(), Toy()
-    with units._journal(first, unit, tmp_path), units._journal(second, unit, tmp_path):
+    with jobs._journal(first, unit, tmp_path), jobs._journal(second, unit, tmp_path):
         assert first.journal == tmp_path / "toy-t.journal.jsonl"
         assert second.journal is None
     third = Toy()
-    with units._journal(third, unit, tmp_path):
+    with jobs._journal(third, unit, tmp_path):
         assert third.journal == first.journal
 
 
@@ -206,7 +207,7 @@ def test_models_read_what_is_left_of_a_text(tmp_path: Path, monkeypatch: pytest.
     class Same(Other):
         name = "toy"
 
-    monkeypatch.setattr(models, "MODELS", {"other": Other, "toy": Same})
+    monkeypatch.setattr(model, "MODELS", {"other": Other, "toy": Same})
     run(config(tmp_path, models=("other", "toy"), drop_sentences=0.5))
     assert read["toy"] == read["other"]
     demonstrations = (ROOT / "problems" / "kitchen" / "ramen" / "demonstrations.jsonl").read_text().splitlines()

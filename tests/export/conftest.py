@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 from tests.pddl.conftest import RandomProblems
-from tmd.export.planned import Planned, planned, with_outcome
-from tmd.pddl.grounding import ground
+from tmd.export.planned_problem import Planned, planned, with_outcome
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import read_plan
-from tmd.pddl.reader import read_domain, read_problem
+from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import read_demonstrations
 from tmd.world.folder import DomainFolder

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from tests.view.conftest import corpus
-from tmd.energy.plans import RankedPlan, StepGoal
 from tmd.export.end_goal import end_goal
-from tmd.pddl.goal import with_goal
+from tmd.inference.ranking import RankedPlan, StepGoal
 from tmd.pddl.model import GroundAtom
+from tmd.pddl.reading.goal import with_goal
 from tmd.pddl.writer import format_formula
 
 END = (

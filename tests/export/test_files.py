@@ -9,15 +9,15 @@ from pathlib import Path
 import pytest
 
 from tests.export.conftest import ROOT, planned_case
-from tmd.errors import OutputError, TmdError
+from tmd.diagnostics import OutputError, TmdError
 from tmd.export import directory as directories
 from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS, chosen_files
-from tmd.export.planned import Planned, planned, with_outcome
+from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.export.record import format_record, format_schema, parse_record
 from tmd.pddl.model import TRUE, Instruction
 from tmd.pddl.plan_file import parse_plan
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate
 
 

@@ -7,13 +7,13 @@ from random import Random
 import pytest
 
 from tests.export.conftest import Val, planned_case, random_planned
-from tmd.errors import TmdError
-from tmd.export.planned import Planned, planned
+from tmd.diagnostics import TmdError
+from tmd.export.planned_problem import Planned, planned
 from tmd.export.strips import restored, strips
 from tmd.pddl import semantics
-from tmd.pddl.conjunctions import conjuncts
+from tmd.pddl.formulas import conjuncts
 from tmd.pddl.model import TRUE, Atom, Instruction, State
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
 

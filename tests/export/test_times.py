@@ -7,12 +7,12 @@ import pytest
 from tests.export.conftest import Val, planned_case
 from tmd.export.durative import format_durative_domain, format_durative_problem, token
 from tmd.export.formats import FORMATS
-from tmd.export.planned import Planned
+from tmd.export.planned_problem import Planned
 from tmd.export.strips import restored
 from tmd.export.temporal import format_popf, format_temporal
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_plan
-from tmd.pddl.reader import parse_domain
+from tmd.pddl.reading.reader import parse_domain
 
 
 @pytest.mark.parametrize("name", ["durative", "plansys2"])

@@ -11,11 +11,11 @@ from typing import Any
 import pytest
 
 from tests.export.conftest import planned_case
-from tmd.export.planned import Planned, planned
-from tmd.export.tree import format_tree
+from tmd.export.behavior_tree import format_tree
+from tmd.export.planned_problem import Planned, planned
 from tmd.pddl import semantics
 from tmd.pddl.model import TRUE, GroundAtom, Instruction, Problem, State
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 
 SCHEMA = Path(__file__).with_name("behavior_tree.xsd")
 

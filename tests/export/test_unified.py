@@ -8,19 +8,19 @@ from typing import Any
 import pytest
 
 from tests.export.conftest import planned_case
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.export.formats import FORMATS
 from tmd.export.from_unified import from_unified_planning
-from tmd.export.planned import Planned
+from tmd.export.planned_problem import Planned
 from tmd.export.unified import (
     format_anml,
     plan_from_unified_planning,
     plan_to_unified_planning,
     to_unified_planning,
 )
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import Instruction
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate
 
 pytestmark = pytest.mark.filterwarnings("ignore")

@@ -5,14 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.goals.conftest import corpus, pddl
-from tmd.goals.actions import rows_of_actions
-from tmd.goals.follow import Follower
-from tmd.goals.learned import learn_goals, table_from_json, table_to_json
-from tmd.goals.reading import Refused, Why
-from tmd.goals.sources import declared_goals, goal_reader
+from tmd.goals.reading.reader import Refused, Why
+from tmd.goals.sources.actions import rows_of_actions
+from tmd.goals.sources.all_sources import declared_goals, goal_reader
+from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
+from tmd.goals.text_following import Follower
 from tmd.ground import ground
+from tmd.inference.learned.knowledge import study
 from tmd.language import parse
-from tmd.learned.knowledge import study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from tests.goals.conftest import corpus, pddl
-from tmd.errors import Location, TmdError
-from tmd.goals.learned import table_from_json, table_to_json
-from tmd.goals.table import GoalTable, PutBack, Slot, read_row, read_table, slot_types
-from tmd.language.lexicon import Declared
+from tmd.diagnostics import Location, TmdError
+from tmd.goals.sources.demonstrations import table_from_json, table_to_json
+from tmd.goals.sources.table import GoalTable, PutBack, Slot, read_row, read_table, slot_types
+from tmd.language.lexicon.lexicon import Declared
 
 DRAWER = corpus("03_drawer").folder.domain
 TEA = corpus("04_tea").folder.domain

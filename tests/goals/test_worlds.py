@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 import tmd
-from tmd.pddl.goal import with_goal
-from tmd.sentences import Outcome, judge, read_sentences
+from tmd.evaluation.sentence_tests import Outcome, judge, read_sentences
+from tmd.pddl.reading.goal import with_goal
 
 WORLDS = Path(__file__).parent / "worlds"
 FLOORS = {

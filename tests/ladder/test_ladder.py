@@ -7,13 +7,13 @@ from pathlib import Path
 
 import pytest
 
-from tmd.energy.config import PAPER
-from tmd.goals.reading import Why
+from tmd.goals.reading.reader import Why
 from tmd.ground import ground
-from tmd.learned.knowledge import Knowledge, study
-from tmd.pddl.goal import with_goal
+from tmd.inference.config import PAPER
+from tmd.inference.learned.knowledge import Knowledge, study
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.reading.goal import with_goal
 from tmd.pddl.semantics import holds
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
-from tmd.pddl.grounding import ground
+from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.semantics import apply
 
 PAGE = Path(__file__).parents[2] / "docs" / "pddl-support.md"

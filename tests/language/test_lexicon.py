@@ -4,12 +4,12 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.language import Lexicon
 from tmd.language.data import rebuild
-from tmd.language.lexicon import builtin
-from tmd.language.morphology import is_plural, singular
-from tmd.language.words import data_text, section
+from tmd.language.lexicon.lexicon import builtin
+from tmd.language.lexicon.morphology import is_plural, singular
+from tmd.language.lexicon.word_lists import data_text, section
 
 DICT = Path("/usr/share/wordnet")
 

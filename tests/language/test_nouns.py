@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.language import Lexicon
-from tmd.language.nouns import ALIAS, LEARNED, NAME, WORDNET, Candidate, rank
-from tmd.language.wordnet import similarity
+from tmd.language.lexicon.nouns import ALIAS, LEARNED, NAME, WORDNET, Candidate, rank
+from tmd.language.lexicon.wordnet import similarity
 
 THINGS = (
     Candidate("microwave1", "microwave", ("device", "object")),

@@ -36,8 +36,8 @@ from tmd.pddl.model import (
     TypeDeclaration,
     TypedName,
 )
-from tmd.pddl.portable import portable
-from tmd.pddl.reader import read_domain, read_problem
+from tmd.pddl.normalise import portable
+from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment

@@ -11,10 +11,10 @@ from typing import Any, TypeAlias
 import pytest
 
 from tmd.pddl import semantics
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import Atom, GroundAtom, Instruction, Problem
 from tmd.pddl.plan_file import read_plan
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_domain, format_formula, format_problem

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.errors import TmdError
-from tmd.pddl.check import check_domain, check_problem
-from tmd.pddl.reader import (
+from tmd.diagnostics import TmdError
+from tmd.pddl.reading.checking import check_domain, check_problem
+from tmd.pddl.reading.reader import (
     parse_domain,
     parse_domain_unchecked,
     parse_problem,

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.errors import OutputError, TmdError
+from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import format_plan, parse_instruction, parse_plan, read_plan, write_plan
 

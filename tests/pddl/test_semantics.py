@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl import semantics
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_formula
 
 DOMAIN = """

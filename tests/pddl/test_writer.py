@@ -7,11 +7,11 @@ from collections.abc import Iterator
 
 import pytest
 
-from tmd.errors import TmdError
-from tmd.pddl.grounding import ground
+from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import And, Atom, Effect, Exists, Forall, Formula, Imply, Not, Or, Problem, TypedName
-from tmd.pddl.portable import portable
-from tmd.pddl.reader import parse_domain, parse_problem
+from tmd.pddl.normalise import portable
+from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_domain, format_problem
 
 HEAD = "(define (domain d) (:requirements :adl :action-costs) (:types a b c - object s - a) "

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PROBE = """
 import numba
-from tmd.planning import compiled
+from tmd.planning.search import numba_build as compiled
 compiled._announce_compiling()
 def other(x): return x + 1
 def first(x): return x + 2

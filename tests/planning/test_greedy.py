@@ -8,13 +8,13 @@ from itertools import pairwise
 import pytest
 from hypothesis import given, settings
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.task import Cube, Task
 from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, InTurn, last_resort, make
 from tmd.planning.eliminate import eliminate
-from tmd.planning.greedy import ENTRY, put, take
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.search import FirstSearch, OptimalSearch, replayed
+from tmd.planning.search.greedy import ENTRY, put, take
+from tmd.planning.search.in_process import FirstSearch, OptimalSearch, replayed
 
 from .test_search import canonical, random_tasks
 

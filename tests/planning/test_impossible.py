@@ -10,11 +10,11 @@ import pytest
 
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.counting import Counts, null_space
-from tmd.planning.filler import GapFiller
-from tmd.planning.impossible import Impossible
-from tmd.planning.mutex import Mutexes
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, Unreachable
+from tmd.planning.unsolvability.invariants import Counts, null_space
+from tmd.planning.unsolvability.mutexes import Mutexes
+from tmd.planning.unsolvability.proofs import Impossible
 
 Walk = Callable[[Task, Random, int], list[Bits]]
 Kitchen = Callable[[str], Task]

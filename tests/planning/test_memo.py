@@ -9,10 +9,10 @@ import pytest
 
 from tmd.pddl.semantics import regress
 from tmd.pddl.task import Bits, Cube, Operator, Task
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.memo import needs_before, needs_of
 from tmd.planning.result import Filled, GaveUp
-from tmd.planning.search import OptimalSearch
+from tmd.planning.search.in_process import OptimalSearch
 
 Walk = Callable[[Task, Random, int], list[Bits]]
 Kitchen = Callable[[str], Task]

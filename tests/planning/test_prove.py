@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.prove import Segment, Verdict, needs, prove
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 

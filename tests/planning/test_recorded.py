@@ -14,7 +14,7 @@ import pytest
 from tmd.pddl import semantics
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.fast_downward import fast_downward
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
 
 NAMES = sorted(path.stem for path in (Path(__file__).parent / "queries").glob("*.jsonl"))

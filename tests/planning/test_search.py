@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.errors import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.search import Backend, OptimalSearch
+from tmd.planning.search.in_process import Backend, OptimalSearch
 
 FAR = 10**9
 ATOMS = 5
@@ -205,7 +205,7 @@ def test_both_forms_of_the_kernel_do_the_same(
 def test_without_numba_the_answers_are_the_same(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
     expected = OptimalSearch(pantry).fill(pantry.init, pantry.goal)
     monkeypatch.setitem(sys.modules, "numba", None)
-    monkeypatch.setattr("tmd.planning.search.find_spec", lambda name: None)
+    monkeypatch.setattr("tmd.planning.search.in_process.find_spec", lambda name: None)
     search = OptimalSearch(pantry)
     assert search.backend == "python"
     assert search.fill(pantry.init, pantry.goal) == expected

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.parentheses import parse
-from tmd.pddl.read_formula import read_condition
+from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.parentheses import parse
 from tmd.pddl.task import Cube, Task
 from tmd.planning import up_worker
 from tmd.planning.backends import make, solve
 from tmd.planning.fast_downward import OPTIMAL, OPTIMAL_WITH_AXIOMS, fast_downward, has_universal, spec
-from tmd.planning.filler import GapFiller
+from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
 from tmd.planning.unified import EngineSpec, UnifiedPlanner, judged
 

@@ -14,7 +14,7 @@ from typing import Any
 import pytest
 
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import read_problem
+from tmd.pddl.reading.reader import read_problem
 from tmd.veil.demonstration import Demonstration, read_demonstrations
 from tmd.veil.replay import replay
 from tmd.world.compile import compile_problem

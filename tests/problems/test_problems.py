@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import parse_problem, read_domain, read_problem
+from tmd.pddl.reading.reader import parse_problem, read_domain, read_problem
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_problem
 from tmd.planning.backends import AUTO, FAST_DOWNWARD_FIRST, solve

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 if TYPE_CHECKING:
-    from tmd.robot.simulator import Simulator
+    from tmd.robot.sim.simulator import Simulator
 
 URDF = """<robot name="box"><link name="box">
 <inertial><origin xyz="{offset}" rpy="0.3 0 0"/><mass value="{mass}"/>
@@ -22,7 +22,7 @@ URDF = """<robot name="box"><link name="box">
 @pytest.fixture
 def sim() -> Iterator[Simulator]:
     pytest.importorskip("pybullet", reason="needs the extra robot")
-    from tmd.robot.simulator import Simulator
+    from tmd.robot.sim.simulator import Simulator
 
     with Simulator() as world:
         yield world
@@ -31,7 +31,7 @@ def sim() -> Iterator[Simulator]:
 @pytest.fixture
 def box(sim: Simulator, tmp_path: Path) -> Callable[..., int]:
     """Loads a box; its frame is at the middle of its underside."""
-    from tmd.robot.simulator import Pose
+    from tmd.robot.sim.simulator import Pose
 
     def load(
         size: tuple[float, float, float],

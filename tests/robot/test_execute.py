@@ -12,14 +12,14 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tmd.pddl.grounding import ground
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.semantics import apply
-from tmd.robot.detour import Setbacks, without
-from tmd.robot.execute import MOST_REPAIRS, Executor
-from tmd.robot.observe import Observer
-from tmd.robot.outcome import Execution, SkillError, Stage, Status, Step
-from tmd.robot.skill_file import load_skills
+from tmd.robot.monitor.executor import MOST_REPAIRS, Executor
+from tmd.robot.monitor.failure_memory import Setbacks, without
+from tmd.robot.monitor.observation import Observer
+from tmd.robot.skills.results import Execution, SkillError, Stage, Status, Step
+from tmd.robot.skills.skill_file import load_skills
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.world.folder import find_domain

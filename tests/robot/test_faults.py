@@ -13,9 +13,9 @@ from experiments.execution.__main__ import CLOSING, OPENING, main
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
-from tmd.errors import ExitCode, TmdError
+from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom
-from tmd.robot.faults import Fault, Happening, opportunities
+from tmd.robot.monitor.faults import Fault, Happening, opportunities
 
 TAKE = ("find(ramen1)", "moveto(ramen1)", "grasp(ramen1)")
 

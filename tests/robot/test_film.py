@@ -19,17 +19,17 @@ pytest.importorskip("PIL", reason="needs the extra robot")
 pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
 
 from tests.cli.conftest import ROOT
-from tmd.errors import MissingToolError, OutputError, TmdError
+from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.camera import View
-from tmd.robot.captions import Caption, caption_height, filmstrip, under
-from tmd.robot.film import Film, open_movie
-from tmd.robot.movie_file import MovieFile
-from tmd.robot.observe import Mismatch
-from tmd.robot.outcome import Execution, Status, Step
-from tmd.robot.record import Order, Recorder, Title
-from tmd.robot.stage import Stage
+from tmd.robot.monitor.listeners import Order, Recorder, Title
+from tmd.robot.monitor.observation import Mismatch
+from tmd.robot.session import Stage
+from tmd.robot.skills.results import Execution, Status, Step
+from tmd.robot.video.camera import View
+from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
+from tmd.robot.video.film import Film, open_movie
+from tmd.robot.video.movie_file import MovieFile
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain
@@ -127,7 +127,7 @@ def test_a_film_does_not_change_the_run(run: Run) -> None:
 def test_the_mug_is_seen_from_the_best_angle() -> None:
     """What the camera looks at stands in the middle of the picture: repainted, it changes there."""
     with stage() as ready:
-        from tmd.robot.camera import FOV, Camera
+        from tmd.robot.video.camera import FOV, Camera
 
         camera = Camera(ready.cell)
         camera.follow(["mug1"], wide=False)

@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.errors import MissingToolError
-from tmd.robot import ik, pr2_urdf
-from tmd.robot.ik import ArmKinematics
-from tmd.robot.kinematics import Array, Tree
-from tmd.robot.pose import Pose
+from tmd.diagnostics import MissingToolError
+from tmd.robot.pr2 import ik
+from tmd.robot.pr2 import urdf as pr2_urdf
+from tmd.robot.pr2.ik import ArmKinematics
+from tmd.robot.pr2.kinematics import Array, Tree
+from tmd.robot.sim.pose import Pose
 
 try:
     TREE = Tree(pr2_urdf.prepare().root)

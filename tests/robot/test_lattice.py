@@ -8,9 +8,9 @@ from typing import cast
 import numpy as np
 import pytest
 
-from tmd.robot.base_motion import _Lattice
-from tmd.robot.collision import Checker
-from tmd.robot.kinematics import Array
+from tmd.robot.pr2.base_motion import _Lattice
+from tmd.robot.pr2.collision import Checker
+from tmd.robot.pr2.kinematics import Array
 
 
 class Walls:

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.robot.layout import GAP, Footprint, apart, arrange, floor_spots, inside
-from tmd.robot.pose import Pose
+from tmd.robot.scene.furniture_layout import GAP, Footprint, apart, arrange, floor_spots, inside
+from tmd.robot.sim.pose import Pose
 
 SIZES = st.dictionaries(
     st.sampled_from([f"f{i}" for i in range(14)]),

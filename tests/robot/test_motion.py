@@ -10,14 +10,14 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.follow import Group, exact
-from tmd.robot.kinematics import Array
-from tmd.robot.motion import between, plan_arm, plan_base, plan_line, plan_poses
-from tmd.robot.pose import Pose
-from tmd.robot.pr2 import Pr2
-from tmd.robot.rrt import plan, shorten
-from tmd.robot.simulator import Simulator
-from tmd.robot.trajectory import dense, timed
+from tmd.robot.pr2.arm_motion import between, plan_arm, plan_base, plan_line, plan_poses
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.pr2 import Pr2
+from tmd.robot.pr2.rrt import plan, shorten
+from tmd.robot.pr2.trajectory import dense, timed
+from tmd.robot.pr2.trajectory_following import Group, exact
+from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.simulator import Simulator
 
 Box = Callable[..., int]
 DOWN = (0.0, 0.7071067811865476, 0.0, 0.7071067811865476)

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.robot.pose import Pose
+from tmd.robot.sim.pose import Pose
 
 numbers = st.floats(-2, 2)
 

@@ -11,10 +11,10 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.pose import Pose
-from tmd.robot.posture import TUCKED
-from tmd.robot.pr2 import Pr2, finger_angle, finger_gap
-from tmd.robot.simulator import Simulator
+from tmd.robot.pr2.posture import TUCKED
+from tmd.robot.pr2.pr2 import Pr2, finger_angle, finger_gap
+from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.simulator import Simulator
 
 Box = Callable[..., int]
 DOWN = (0.0, 0.7071067811865476, 0.0, 0.7071067811865476)

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmd.errors import MissingToolError, TmdError
-from tmd.robot import pr2_urdf
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.robot.pr2 import urdf as pr2_urdf
 
 
 @pytest.fixture

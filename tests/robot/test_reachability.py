@@ -10,11 +10,11 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.hand import HandChecker
-from tmd.robot.pose import Pose
-from tmd.robot.pr2 import Pr2
-from tmd.robot.simulator import Simulator
-from tmd.robot.span import Wrists
+from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.pr2 import Pr2
+from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.sim.pose import Pose
+from tmd.robot.sim.simulator import Simulator
 
 Box = Callable[..., int]
 BASES = ((0.0, 0.0, 0.0), (0.7, -0.4, 2.1))

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmd.errors import TmdError
-from tmd.robot.pose import Pose
+from tmd.diagnostics import TmdError
+from tmd.robot.sim.pose import Pose
 from tmd.world.environment import Environment, load_environment
 from tmd.world.folder import DomainFolder
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
-from tmd.robot.scene import OVERLAP, Scene
-from tmd.robot.simulator import Simulator
+from tmd.robot.scene.scene import OVERLAP, Scene
+from tmd.robot.sim.simulator import Simulator
 
 ROOT = Path(__file__).parents[2]
 ACTED_IN = sorted(path.parent.name for path in ROOT.glob("domains/*/skills.yaml"))

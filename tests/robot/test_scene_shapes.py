@@ -8,10 +8,10 @@ from xml.etree import ElementTree
 
 import pytest
 
-from tmd.errors import TmdError
-from tmd.robot.colours import PALETTE, mixed, rgba
-from tmd.robot.kinds import KINDS
-from tmd.robot.shapes import Shapes
+from tmd.diagnostics import TmdError
+from tmd.robot.assets.colours import PALETTE, mixed, rgba
+from tmd.robot.assets.kinds import KINDS
+from tmd.robot.assets.shapes import Shapes
 from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
 
@@ -66,8 +66,8 @@ def test_every_part_that_is_worked_has_its_grip(folder: Path) -> None:
 
 @pytest.mark.parametrize("kind", [k for k, v in KINDS.items() if v.sort != "part"])
 def test_a_kind_can_be_built_without_parts(kind: str) -> None:
-    from tmd.robot.look import Parts
-    from tmd.robot.model import Model
+    from tmd.robot.assets.appearance import Parts
+    from tmd.robot.assets.urdf_builder import Model
 
     entry = KINDS[kind]
     model = Model(kind, 1.0)

@@ -13,9 +13,9 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
-from tmd.errors import MissingToolError, TmdError
-from tmd.robot import rendering
-from tmd.robot.simulator import Pose, Simulator
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.robot.sim import rendering
+from tmd.robot.sim.simulator import Pose, Simulator
 
 Box = Callable[..., int]
 
@@ -129,6 +129,6 @@ def test_a_window_without_a_display_is_refused(monkeypatch: pytest.MonkeyPatch) 
 
 
 def test_nothing_is_printed() -> None:
-    code = "from tmd.robot.simulator import Simulator\nwith Simulator() as s: s.picture((1, 1, 1), (0, 0, 0), 8, 8)"
+    code = "from tmd.robot.sim.simulator import Simulator\nwith Simulator() as s: s.picture((1, 1, 1), (0, 0, 0), 8, 8)"
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert (run.stdout, run.stderr) == ("", "")

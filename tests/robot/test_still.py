@@ -9,9 +9,9 @@ import pytest
 
 from tmd.pddl.model import Instruction, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.pose import Pose
-from tmd.robot.skill_file import visible
-from tmd.robot.still import INVISIBLE, Picture, Still, moved
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.skill_file import visible
+from tmd.robot.video.symbolic_renderer import INVISIBLE, Picture, Still, moved
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
@@ -107,8 +107,8 @@ def test_the_robot_stands_before_what_it_went_to() -> None:
 
 def test_a_scene_begins_as_the_simulated_one() -> None:
     pytest.importorskip("pybullet", reason="needs the extra robot")
-    from tmd.robot.scene import Scene
-    from tmd.robot.simulator import Simulator
+    from tmd.robot.scene.scene import Scene
+    from tmd.robot.sim.simulator import Simulator
 
     known = corpus("kitchen")
     environment = load_environment(known.file("kitchen2"))

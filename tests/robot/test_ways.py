@@ -11,13 +11,13 @@ import pytest
 
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
-from tmd.robot.cell import Cell
-from tmd.robot.hand import HandChecker
-from tmd.robot.operate import swing_options
-from tmd.robot.over import dip_options
-from tmd.robot.pose import Pose
-from tmd.robot.reach import with_room
-from tmd.robot.stage import Stage
+from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.session import Stage
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.articulated import swing_options
+from tmd.robot.skills.pour_and_dip import dip_options
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import with_room
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root

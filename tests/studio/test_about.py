@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
-from tmd.studio.about import about
-from tmd.studio.session import Session
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.object_info import about
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
-from tmd.view.wording import Wording
+from tmd.view.text.wording import Wording
 
 
 def test_parts_states_relations_and_edges(kitchen1: World) -> None:

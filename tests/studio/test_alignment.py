@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tmd.language import parse
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.alignment import NO_HABITS, Habits, propose
+from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import learn
 from tmd.veil.world import World

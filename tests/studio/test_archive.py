@@ -15,13 +15,13 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tmd import atomic
-from tmd.check.run import Checker
-from tmd.errors import OutputError, TmdError
+from tmd import files as atomic
+from tmd.check.checker import Checker
+from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.archive import Archive, demonstration
+from tmd.studio.demonstrations.demo_store import Archive, demonstration
+from tmd.studio.demonstrations.session import Session, Step
 from tmd.studio.lock import try_lock
-from tmd.studio.session import Session, Step
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import demonstration_line, read_demonstration, read_demonstrations
 from tmd.veil.world import make_world
@@ -34,8 +34,8 @@ WRITER = """
 import sys
 from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.archive import Archive
-from tmd.studio.session import Session
+from tmd.studio.demonstrations.demo_store import Archive
+from tmd.studio.demonstrations.session import Session
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
-from tmd.studio.correction import Correction
-from tmd.studio.session import Step
+from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.session import Step
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 

@@ -12,11 +12,11 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from tmd import atomic
-from tmd.errors import OutputError, TmdError
+from tmd import files as atomic
+from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.drafts import Drafts, place
-from tmd.studio.session import Session, Step
+from tmd.studio.demonstrations.drafts import Drafts, place
+from tmd.studio.demonstrations.session import Session, Step
 from tmd.veil.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]
@@ -26,8 +26,8 @@ DEMONSTRATOR = """
 import sys
 from pathlib import Path
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.drafts import Drafts
-from tmd.studio.session import Session
+from tmd.studio.demonstrations.drafts import Drafts
+from tmd.studio.demonstrations.session import Session
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -3,9 +3,9 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.energy.plans import Choice, RankedPlan, Refusal, Step
+from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
 from tmd.pddl.model import Instruction
-from tmd.studio.energies import energies
+from tmd.studio.panels.energies import energies
 
 
 def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:

@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.semantics import applicable
-from tmd.studio.offers import Offers
+from tmd.studio.applicable_actions import Offers
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
-from tmd.view.wording import Wording
+from tmd.view.text.wording import Wording
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

@@ -3,12 +3,12 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.energy.plans import StepGoal
-from tmd.pddl.goal import with_goal
+from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import GroundAtom
-from tmd.studio.about import about
-from tmd.studio.offers import Offers
-from tmd.studio.page import changed, fragment, goal_list, notice, object_facts, refused, step_list
+from tmd.pddl.reading.goal import with_goal
+from tmd.studio.applicable_actions import Offers
+from tmd.studio.object_info import about
+from tmd.studio.panels.html import changed, fragment, goal_list, notice, object_facts, refused, step_list
 from tmd.veil.world import World
 from tmd.view.goals import in_words
 

@@ -10,13 +10,13 @@ from typing import TypedDict, Unpack
 import numpy as np
 import pytest
 
-from tmd.energy.config import PAPER_EXTENDED
-from tmd.energy.journal import Journal
-from tmd.energy.learn import Learned, Propose, learn_weights
-from tmd.energy.weights import Weights, named_weights
-from tmd.evaluation import crf
-from tmd.evaluation.crf import Crf, loss
-from tmd.evaluation.dataset import BundledData, Example
+from tmd.evaluation.models import paper_models
+from tmd.evaluation.models.paper_models import Crf, loss
+from tmd.evaluation.runs.dataset import BundledData, Example
+from tmd.inference.config import PAPER_EXTENDED
+from tmd.inference.learning.journal import Journal
+from tmd.inference.learning.weight_learning import Learned, Propose, learn_weights
+from tmd.inference.weights import Weights, named_weights
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 
@@ -61,7 +61,7 @@ def test_a_correction_pushes_the_weights_from_the_plan_it_corrects(
         seen.append((propose, examples))
         return learn_weights(propose, examples, start, random, **options)
 
-    monkeypatch.setattr(crf, "learn_weights", listen)
+    monkeypatch.setattr(paper_models, "learn_weights", listen)
     learner = Crf(PAPER_EXTENDED, most_examples=2, rounds=1)
     learner.fit([*lessons, corrected], data, np.random.default_rng(0))
     ((propose, count),) = seen

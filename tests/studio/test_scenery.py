@@ -8,8 +8,8 @@ from unittest.mock import MagicMock
 import numpy as np
 import pytest
 
-from tmd.studio.scenery import Scenery
-from tmd.studio.setting import open_setting
+from tmd.studio.environment_view import open_setting
+from tmd.studio.view3d.scenery import Scenery
 from tmd.veil.corpus import Corpus
 
 FOV = 1.3

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.errors import TmdError
-from tmd.language.length import MAX_WORDS
+from tmd.diagnostics import TmdError
+from tmd.language.tagging.length import MAX_WORDS
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
-from tmd.studio.pieces import MAX_CHARACTERS, clean, cut
-from tmd.studio.session import MAX_STEPS, Session
+from tmd.studio.demonstrations.clause_spans import MAX_CHARACTERS, clean, cut
+from tmd.studio.demonstrations.session import MAX_STEPS, Session
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 

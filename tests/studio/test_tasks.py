@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from tmd.studio.session import Session
-from tmd.studio.tasks import task_texts
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.tasks import task_texts
 from tmd.veil.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]

@@ -9,15 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tmd.errors import TmdError
-from tmd.learned.knowledge import Knowledge, study
-from tmd.learned.library_json import library_to_json
-from tmd.learned.store import place, recall
+from tmd.diagnostics import TmdError
+from tmd.inference.learned.knowledge import Knowledge, study
+from tmd.inference.learned.library_json import library_to_json
+from tmd.inference.learned.store import place, recall
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.archive import Archive
-from tmd.studio.session import Session
-from tmd.studio.teaching import Teacher
+from tmd.studio.demonstrations.demo_store import Archive
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.learning.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import learn

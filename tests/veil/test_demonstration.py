@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import read_demonstrations
 

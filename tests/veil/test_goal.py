@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from experiments.check_demonstrations import check
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import read_problem
+from tmd.pddl.reading.reader import read_problem
 from tmd.veil.demonstration import Demonstration, demonstration_line, read_demonstrations
 from tmd.veil.goal import check_goal, read_goal
 from tmd.veil.replay import goal_holds, replay

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
+from tmd.veil.clause_alignment import split
 from tmd.veil.corpus import Corpus
-from tmd.veil.split import split
 
 TAKE = ("find(mug1)", "moveto(mug1)", "grasp(mug1)")
 PUT = ("moveto(sink1)", "keep(mug1, sink1, in)")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tmd.ground import Grounded, ground
-from tmd.learned.store import known
+from tmd.inference.learned.store import known
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 from tmd.world.folder import DomainFolder

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from tests.view.reading import Reader
-from tmd.energy.plans import Choice, RankedPlan, Refusal, Step
 from tmd.ground import Grounded
+from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
 from tmd.pddl.model import Instruction
 from tmd.view.candidates import candidates, factors_of, grouped
 

@@ -11,21 +11,21 @@ from pydantic import ValidationError
 
 from tests.view.conftest import corpus
 from tests.view.reading import Reader
-from tmd.cli.show_plans import grounded_json
-from tmd.energy.plans import StepGoal
+from tmd.cli.show.plans import grounded_json
 from tmd.ground import Grounded, ground
-from tmd.learned.store import known
-from tmd.pddl.goal import with_goal
+from tmd.inference.learned.store import known
+from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
-from tmd.studio.energies import energies
+from tmd.pddl.reading.goal import with_goal
+from tmd.studio.panels.energies import energies
 from tmd.veil.world import World
 from tmd.view.candidates import candidates
 from tmd.view.goals import ShownGoal, all_reached, followed
 from tmd.view.grounding_record import read_grounding
-from tmd.view.meaning import meanings
 from tmd.view.page import render
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
+from tmd.view.text.meaning import meanings
 
 TEXT = "Open the drawer. Take the key and put it on the table. Close the drawer. Close the drawer."
 PLAN = ["moveto(desk1)", "open(desk1_drawer)", "grasp(key1)", "moveto(table1)", "keep(key1, table1, on)"]

@@ -14,8 +14,8 @@ import pytest
 
 from tests.view.conftest import TEXT, corpus
 from tests.view.reading import Reader
-from tmd.energy.plans import Choice, RankedPlan, Refusal, Step
 from tmd.ground import Grounded
+from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
 from tmd.language import parse
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem, State, TypedName
@@ -98,7 +98,7 @@ def test_nonsense_is_shown_as_the_step_that_breaks(kitchen: World, text: str) ->
 
 
 def test_a_goal_that_is_not_reached_is_told() -> None:
-    from tmd.pddl.goal import with_goal
+    from tmd.pddl.reading.goal import with_goal
 
     problem = with_goal(corpus("02_table").world("corner2").task.problem, "(at cup1 table1 on)")
     page = render(Subject("goal", problem, planned("moveto(book1)")))
@@ -190,7 +190,7 @@ def test_the_pictures_of_a_filmstrip_are_found() -> None:
     pytest.importorskip("PIL")
     from PIL import Image
 
-    from tmd.robot.captions import filmstrip
+    from tmd.robot.video.captions import filmstrip
 
     for count in (1, 2, 3, 4, 5, 9, 13, 17, 40):
         data = io.BytesIO()

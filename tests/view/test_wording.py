@@ -5,10 +5,10 @@ from __future__ import annotations
 import pytest
 
 from tests.view.conftest import corpus
-from tmd.pddl.goal import with_goal
 from tmd.pddl.model import Atom, GroundAtom, Problem, TypedName
-from tmd.pddl.reader import parse_domain
-from tmd.view.wording import Wording
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import parse_domain
+from tmd.view.text.wording import Wording
 
 
 @pytest.fixture(scope="module")

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom, Problem
-from tmd.pddl.reader import parse_problem
+from tmd.pddl.reading.reader import parse_problem
 from tmd.pddl.writer import format_problem
 from tmd.world.compile import compile_domain, compile_problem
 from tmd.world.environment import load_environment

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.world.classes import Classes, Shape
 from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
-from tmd.world.yaml_source import YamlSource
+from tmd.world.yaml_positions import YamlSource
 
 KITCHEN = Path(__file__).parents[2] / "domains" / "kitchen"
 TYPES = {"thing": "object", "vessel": "thing", "part": "thing"}

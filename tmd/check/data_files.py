@@ -8,17 +8,17 @@ from typing import TYPE_CHECKING
 
 from tmd.check.codes import Severity
 from tmd.check.yaml_files import check_compiled, check_environment, check_objects
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import read_problem
-from tmd.pddl.syntax import Report
+from tmd.pddl.reading.reader import read_problem
+from tmd.pddl.reading.syntax import Report
 from tmd.world.compile import compile_problem
 from tmd.world.environment import EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
-from tmd.world.yaml_source import YamlSource
+from tmd.world.yaml_positions import YamlSource
 
 if TYPE_CHECKING:
-    from tmd.check.run import Checker
+    from tmd.check.checker import Checker
 
 
 class DataFiles:
@@ -70,10 +70,10 @@ class DataFiles:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.goal_verbs import check_goal_verbs, segments_of
-        from tmd.check.goals import check_goals
-        from tmd.check.words import check_lexicon, texts_of
-        from tmd.language.lexicon_file import read_lexicon
+        from tmd.check.lexicon_goals import check_goals
+        from tmd.check.lexicon_verbs import check_goal_verbs, segments_of
+        from tmd.check.lexicon_words import check_lexicon, texts_of
+        from tmd.language.lexicon.file import read_lexicon
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
@@ -129,12 +129,12 @@ class DataFiles:
         return objects | {t.name for t in domain.types} | {c.name for c in domain.constants} if objects else frozenset()
 
     def _skills(self, file: Path) -> None:
-        from tmd.robot.skill_file import load_skills
+        from tmd.robot.skills.skill_file import load_skills
 
         load_skills(self._folder(file), self._report(file))
 
     def _templates(self, file: Path) -> None:
-        from tmd.evaluation.template_file import load_templates
+        from tmd.evaluation.models.template_file import load_templates
 
         load_templates(self._folder(file))
 

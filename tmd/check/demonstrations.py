@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Problem, State
-from tmd.pddl.syntax import Report, nearest, read_text, split_lines
+from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
 from tmd.veil.demonstration import Demonstration, read_demonstration
 from tmd.veil.goal import check_goal
 from tmd.veil.replay import replay

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from tmd.check.codes import SEVERITY, Severity
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 
 
 @dataclass(frozen=True, slots=True)

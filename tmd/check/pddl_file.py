@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from tmd.check.codes import SEVERITY, Severity
-from tmd.check.lint_domain import lint_domain
-from tmd.check.lint_problem import lint_problem
-from tmd.errors import Location, TmdError
-from tmd.pddl.check import check_domain, check_problem
+from tmd.check.lint.domain import lint_domain
+from tmd.check.lint.problem import lint_problem
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
-from tmd.pddl.parentheses import parse
-from tmd.pddl.reader import parse_domain_unchecked, parse_problem_unchecked
-from tmd.pddl.syntax import Group, Node, Source, Word, split_lines
+from tmd.pddl.reading.checking import check_domain, check_problem
+from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.reader import parse_domain_unchecked, parse_problem_unchecked
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, split_lines
 
 _DECLARED_IN = {
     ":types": "unknown-type",

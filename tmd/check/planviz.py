@@ -12,9 +12,9 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from tmd.errors import Location, TmdError
-from tmd.pddl.reader import read_domain
-from tmd.pddl.syntax import Report, read_text, split_lines
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.reading.reader import read_domain
+from tmd.pddl.reading.syntax import Report, read_text, split_lines
 
 SUFFIX = "planviz.json"
 _SLOW = re.compile(r"\)\s*[+*{]")

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
-from tmd.pddl.reader import read_domain
-from tmd.pddl.syntax import Report, nearest, read_text
+from tmd.pddl.reading.reader import read_domain
+from tmd.pddl.reading.syntax import Report, nearest, read_text
 from tmd.world.classes import Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
-from tmd.world.yaml_source import YamlSource
+from tmd.world.yaml_positions import YamlSource
 
 
 def check_objects(folder: DomainFolder, report: Report) -> None:

@@ -12,10 +12,10 @@ from pathlib import Path
 import click
 
 from tmd import __version__
-from tmd.cli.faults import Fault, fault_of
+from tmd.cli.errors import Fault, fault_of
+from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
-from tmd.cli.roots import Roots
-from tmd.errors import ExitCode
+from tmd.diagnostics import ExitCode
 
 COMMANDS = (
     "ground",

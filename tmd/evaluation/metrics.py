@@ -14,7 +14,7 @@ Where a demonstration has a goal, a fourth comes first, which looks at no record
 
 * **success**: whether the goal holds in the last state of the prediction, the one that END looks at.
 
-Sequences are executed by force (:mod:`tmd.pddl.simulator`): preconditions are not read. Report
+Sequences are executed by force (:mod:`tmd.pddl.forced_execution`): preconditions are not read. Report
 the share of executable predictions beside END.
 """
 
@@ -26,10 +26,10 @@ from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import TypeAlias
 
+from tmd.pddl.forced_execution import Rollout, Simulator, rollout
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem
 from tmd.pddl.semantics import holds
-from tmd.pddl.simulator import Rollout, Simulator, rollout
 from tmd.pddl.task import Bits, Task
 
 __all__ = [

@@ -9,8 +9,8 @@ from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
-from tmd.atomic import write_bytes
-from tmd.errors import OutputError
+from tmd.diagnostics import OutputError
+from tmd.files import write_bytes
 
 
 def check_directory(directory: Path, *, overwrite: bool = False) -> None:

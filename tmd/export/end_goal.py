@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from tmd.energy.plans import RankedPlan
-from tmd.pddl.conjunctions import conjuncts
+from tmd.inference.ranking import RankedPlan
+from tmd.pddl.formulas import conjuncts
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import And, Atom, Formula, Not, Or
 from tmd.pddl.semantics import holds

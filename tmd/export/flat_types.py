@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tmd.pddl.conjunctions import conjuncts
+from tmd.pddl.formulas import conjuncts
 from tmd.pddl.hierarchy import TypeHierarchy
 from tmd.pddl.model import OBJECT, Atom, GroundAtom, Predicate, Problem, TypeDeclaration, TypedName
 

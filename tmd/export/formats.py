@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from tmd.errors import TmdError
-from tmd.export.planned import Planned
+from tmd.diagnostics import TmdError
+from tmd.export.planned_problem import Planned
 from tmd.export.strips import Strips
 from tmd.pddl.plan_file import format_plan
-from tmd.pddl.syntax import nearest
+from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
 Files: TypeAlias = Mapping[str, bytes]
@@ -113,7 +113,7 @@ def _protobuf(source: Planned) -> Files:
 
 
 def _tree(source: Planned) -> Files:
-    from tmd.export.tree import format_tree
+    from tmd.export.behavior_tree import format_tree
 
     return _texts({"tree.xml": format_tree(source)})
 

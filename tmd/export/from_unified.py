@@ -7,9 +7,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from tmd.errors import TmdError
-from tmd.pddl.check import check_problem
-from tmd.pddl.check_requirements import used_requirements
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -32,6 +30,8 @@ from tmd.pddl.model import (
     TypeDeclaration,
     TypedName,
 )
+from tmd.pddl.reading.checking import check_problem
+from tmd.pddl.reading.requirements import used_requirements
 
 _Outside: TypeAlias = Any
 """Something of unified-planning, which ships no types."""

@@ -10,8 +10,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from tmd.errors import Location, TmdError
-from tmd.export.planned import Planned
+from tmd.diagnostics import Location, TmdError
+from tmd.export.planned_problem import Planned
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.writer import format_domain, format_problem
 
@@ -95,9 +95,9 @@ def parse_record(text: str, file: str = "<text>") -> Planned:
     """
     from pydantic import ValidationError
 
-    from tmd.export.planned import planned
+    from tmd.export.planned_problem import planned
     from tmd.pddl.model import Instruction
-    from tmd.pddl.reader import parse_domain, parse_problem
+    from tmd.pddl.reading.reader import parse_domain, parse_problem
 
     try:
         read = PlanRecord.model_validate_json(text)

@@ -8,8 +8,8 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
-from tmd.errors import MissingToolError, TmdError
-from tmd.export.planned import Planned
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.export.planned_problem import Planned
 from tmd.pddl.writer import format_domain, format_problem
 
 _LIMIT = 600.0

@@ -16,10 +16,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.export.flat_types import with_flat_types
-from tmd.export.planned import Planned
-from tmd.pddl.grounding import ground
+from tmd.export.planned_problem import Planned
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import (
     ActionSchema,
     And,

@@ -12,10 +12,10 @@ from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any, TypeAlias
 
-from tmd.errors import MissingToolError, TmdError
-from tmd.export.planned import Planned
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.export.planned_problem import Planned
 from tmd.pddl.model import Instruction, Problem
-from tmd.pddl.portable import portable
+from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
 
 _WORD = re.compile(r"[A-Za-z_][\w-]*")

@@ -1,6 +1,7 @@
 """What was said, as PDDL goals: a clause becomes a condition that must hold when it is done.
 
-Begin with :mod:`tmd.goals.reading` (one clause) and :mod:`tmd.goals.follow` (a whole text, clause by clause).
+Begin with :mod:`tmd.goals.reading.reader` (one clause) and :mod:`tmd.goals.text_following` (a whole text, clause by
+clause).
 
 ==================  ==============================================================================
 ``table``           rows: a verb with its slots and its condition, as authors declare them

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 
 from tmd.goals.grounder import Moments
-from tmd.goals.nouns import Memory
-from tmd.goals.table import GoalRow
+from tmd.goals.reading.nouns import Memory
+from tmd.goals.sources.table import GoalRow
 from tmd.language.clause import Clause
 from tmd.pddl.model import Formula
 from tmd.pddl.task import Bits, Cube

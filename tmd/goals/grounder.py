@@ -10,14 +10,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from tmd.errors import TmdError
-from tmd.goals.table import FIRST, WAS, split_predicate
-from tmd.pddl.grounding import ground_condition
+from tmd.diagnostics import TmdError
+from tmd.goals.sources.table import FIRST, WAS, split_predicate
+from tmd.pddl.grounding.ground import ground_condition
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or
 from tmd.pddl.semantics import bindings
 from tmd.pddl.task import Bits, Cube
-from tmd.veil.states import PART_OF
+from tmd.veil.profiles import PART_OF
 from tmd.veil.world import World
 
 TRUE, FALSE = And(), Or()

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from tmd.goals.grounder import Grounder
-from tmd.goals.table import split_predicate
-from tmd.pddl.conjunctions import conjuncts
+from tmd.goals.sources.table import split_predicate
+from tmd.pddl.formulas import conjuncts
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import And, Atom, Exists, Forall, Formula, GroundAtom, Imply, Not, Or
 from tmd.pddl.semantics import holds

@@ -8,9 +8,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
-from tmd.language.lexicon import Lexicon
+from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.notation import clause_json, print_clause, read_clause
-from tmd.language.segments import by_segment, segments
+from tmd.language.tagging.segments import by_segment, segments
 
 if TYPE_CHECKING:
     from tmd.language.parser import parse

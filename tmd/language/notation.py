@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.language.clause import Clause, Condition, Mood, NounPhrase, Quantifier, Relation
 
 _CLAUSE = re.compile(r"\(\s*([\w'-]+)\s*,\s*\[([^\]]*)\]\s*((?:,[^()]*)?)\)\s*$")

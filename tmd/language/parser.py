@@ -9,22 +9,28 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from tmd.language.attachment import Draft, drafts
-from tmd.language.causatives import NEGATED
-from tmd.language.chunking import chunk
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
-from tmd.language.coverage import foreign, skipped
-from tmd.language.folding import fold_subordinates
-from tmd.language.grammar import parse_tokens
-from tmd.language.lexicon import Lexicon, builtin
-from tmd.language.pronouns import resolve, resolve_alone
-from tmd.language.readings import decide
-from tmd.language.requests import rewrite_requests
-from tmd.language.subordinate import Reader, condition_words, read_condition, read_prohibition, read_relative
-from tmd.language.tagging import tag
-from tmd.language.tokens import Kind, Token, drop_repeats, tokenise
-from tmd.language.wording import rewrite_words
-from tmd.language.words import section
+from tmd.language.lexicon.coverage import foreign, skipped
+from tmd.language.lexicon.lexicon import Lexicon, builtin
+from tmd.language.lexicon.word_lists import section
+from tmd.language.rewriting.causatives import NEGATED
+from tmd.language.rewriting.requests import rewrite_requests
+from tmd.language.rewriting.sentences import rewrite_words
+from tmd.language.syntax.attachment import Draft, drafts
+from tmd.language.syntax.chunking import chunk
+from tmd.language.syntax.grammar import parse_tokens
+from tmd.language.syntax.pronouns import resolve, resolve_alone
+from tmd.language.syntax.subordinate_folding import fold_subordinates
+from tmd.language.syntax.subordinate_reading import (
+    Reader,
+    condition_words,
+    read_condition,
+    read_prohibition,
+    read_relative,
+)
+from tmd.language.tagging.first_tags import tag
+from tmd.language.tagging.readings import decide
+from tmd.language.tagging.tokens import Kind, Token, drop_repeats, tokenise
 
 _HAPPENING = frozenset({"boil", "heat", "warm", "cool", "chill", "dry", "cook", "simmer", "soak", "charge", "melt"})
 """What a thing does by itself when it is put somewhere: to have it do so is what that is for."""

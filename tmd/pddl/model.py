@@ -2,7 +2,7 @@
 
 Everything here is immutable. Lifted things (:class:`Atom`, with variables) and ground things
 (:class:`GroundAtom`, :class:`Instruction`) are different types. Every node that is read from a text knows its
-:class:`~tmd.errors.Location`; locations take no part in equality or hashing.
+:class:`~tmd.diagnostics.Location`; locations take no part in equality or hashing.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
 
-from tmd.errors import Location
+from tmd.diagnostics import Location
 
 OBJECT = "object"
 """The root of the type hierarchy."""

@@ -16,9 +16,9 @@ from decimal import Decimal, InvalidOperation
 from itertools import pairwise
 from pathlib import Path
 
-from tmd.errors import Location, OutputError, TmdError
+from tmd.diagnostics import Location, OutputError, TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import read_text, split_lines
 
 _NAME = re.compile(r"[a-z0-9_][a-z0-9_-]*")
 _COST = re.compile(r";\s*cost\s*=\s*([0-9]{1,15})\s*(?:\((?:unit|general) cost\))?\s*$", re.IGNORECASE)

@@ -14,8 +14,8 @@ from functools import lru_cache
 from itertools import product
 from typing import TypeAlias
 
-from tmd.errors import TmdError
-from tmd.pddl.conjunctions import conjuncts, free_variables
+from tmd.diagnostics import TmdError
+from tmd.pddl.formulas import conjuncts, free_variables
 from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.model import (
     ActionSchema,
@@ -35,8 +35,8 @@ from tmd.pddl.model import (
     State,
     TypedName,
 )
+from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.regress import regress
-from tmd.pddl.syntax import nearest
 from tmd.pddl.writer import format_formula
 
 __all__ = [

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl import semantics
 from tmd.pddl.model import Instruction, Problem, State
 from tmd.pddl.semantics import Broken

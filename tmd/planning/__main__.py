@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from importlib.util import find_spec
 
-from tmd.pddl.grounding import ground
-from tmd.pddl.reader import parse_domain, parse_problem
-from tmd.planning.search import FirstSearch, OptimalSearch
+from tmd.pddl.grounding.ground import ground
+from tmd.pddl.reading.reader import parse_domain, parse_problem
+from tmd.planning.search.in_process import FirstSearch, OptimalSearch
 
 _DOMAIN = """
 (define (domain lamp) (:predicates (lit))

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from importlib.util import find_spec
 
-from tmd.errors import TmdError
-from tmd.pddl.grounding import ground
+from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import Problem
-from tmd.pddl.syntax import nearest
+from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, GaveUp, Planner
 
@@ -51,12 +51,12 @@ def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
         MissingToolError: The planner is not installed.
     """
     if name == IN_PROCESS:
-        from tmd.planning.filler import GapFiller
-        from tmd.planning.search import DEFAULT_CAP
+        from tmd.planning.gap_filler import GapFiller
+        from tmd.planning.search.in_process import DEFAULT_CAP
 
         return GapFiller(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == IN_PROCESS_FIRST:
-        from tmd.planning.search import DEFAULT_CAP, FirstSearch
+        from tmd.planning.search.in_process import DEFAULT_CAP, FirstSearch
 
         return FirstSearch(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:

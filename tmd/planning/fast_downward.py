@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
-from tmd.errors import MissingToolError
+from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import And, Domain, Exists, Forall, Formula, Imply, Not, Or
 from tmd.pddl.task import Task
 from tmd.planning.unified import EngineSpec, UnifiedPlanner

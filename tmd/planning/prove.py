@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import regress
 from tmd.pddl.task import Bits, Cube, Operator, Task

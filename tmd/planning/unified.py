@@ -1,6 +1,6 @@
 """Planners of unified-planning, each in a worker process of its own.
 
-The problem goes over as PDDL text (:func:`tmd.pddl.portable.portable`, then our writer) and is read there by
+The problem goes over as PDDL text (:func:`tmd.pddl.normalise.portable`, then our writer) and is read there by
 unified-planning's reader. So the reference sees the lifted domain and grounds it anew; it does not share our
 grounding.
 """
@@ -19,14 +19,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import tmd
-from tmd.errors import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.model import TRUE, Instruction
-from tmd.pddl.portable import portable
+from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.reachability import unreachable_reason
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
+from tmd.planning.unsolvability.reachability import unreachable_reason
 
 SOLVED = ("SOLVED_SATISFICING", "SOLVED_OPTIMALLY")
 """Statuses with a plan."""
@@ -188,7 +187,7 @@ class _Worker:
 
     def _start(self) -> None:
         self._directory = tempfile.TemporaryDirectory(prefix="tmd-planner-")
-        root = str(Path(tmd.__file__).resolve().parent.parent)
+        root = str(Path(__file__).resolve().parents[2])
         path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH", ""))))
         self._process = subprocess.Popen(
             [sys.executable, "-m", "tmd.planning.up_worker"],

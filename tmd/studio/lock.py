@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from tmd.errors import OutputError
+from tmd.diagnostics import OutputError
 
 _PAUSE = 0.01
 """Seconds between two attempts."""

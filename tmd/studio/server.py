@@ -15,7 +15,7 @@ from threading import Event, Lock, Thread
 from types import ModuleType
 from typing import TYPE_CHECKING
 
-from tmd.errors import MissingToolError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 

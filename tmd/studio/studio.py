@@ -8,17 +8,17 @@ from functools import cache
 from pathlib import Path
 from threading import RLock
 
-from tmd.errors import MissingToolError, TmdError
-from tmd.pddl.syntax import nearest
-from tmd.studio.archive import Archive
-from tmd.studio.drafts import Drafts, place
-from tmd.studio.figure import Figure
-from tmd.studio.offers import Offers
-from tmd.studio.pieces import clean
-from tmd.studio.session import Session
-from tmd.studio.setting import Setting, open_setting
-from tmd.studio.tasks import task_texts
-from tmd.studio.teaching import Teacher
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.pddl.reading.syntax import nearest
+from tmd.studio.applicable_actions import Offers
+from tmd.studio.demonstrations.clause_spans import clean
+from tmd.studio.demonstrations.demo_store import Archive
+from tmd.studio.demonstrations.drafts import Drafts, place
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.tasks import task_texts
+from tmd.studio.environment_view import Setting, open_setting
+from tmd.studio.learning.teaching import Teacher
+from tmd.studio.view3d.robot_mesh import Figure
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.world import make_world

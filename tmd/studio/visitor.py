@@ -11,19 +11,19 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from tmd.energy.plans import RankedPlan
-from tmd.errors import TmdError
-from tmd.robot.pose import Vector
-from tmd.studio.correct_panel import CorrectPanel
-from tmd.studio.demonstrate_panel import NUMBERED, DemonstratePanel
-from tmd.studio.object_panel import ObjectPanel
-from tmd.studio.page import notice
-from tmd.studio.performance import perform
-from tmd.studio.reel import Reel
-from tmd.studio.say_panel import SayPanel
-from tmd.studio.scenery import Scenery
-from tmd.studio.setting import Setting
-from tmd.studio.widgets import put
+from tmd.diagnostics import TmdError
+from tmd.inference.ranking import RankedPlan
+from tmd.robot.sim.pose import Vector
+from tmd.studio.environment_view import Setting
+from tmd.studio.panels.correct_panel import CorrectPanel
+from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
+from tmd.studio.panels.html import notice
+from tmd.studio.panels.object_panel import ObjectPanel
+from tmd.studio.panels.say_panel import SayPanel
+from tmd.studio.panels.widgets import put
+from tmd.studio.view3d.performance import perform
+from tmd.studio.view3d.playback import Reel
+from tmd.studio.view3d.scenery import Scenery
 
 if TYPE_CHECKING:
     from viser import ClientHandle, NotificationHandle

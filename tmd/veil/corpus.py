@@ -5,11 +5,11 @@ from __future__ import annotations
 from functools import cached_property
 from pathlib import Path
 
-from tmd.errors import TmdError
-from tmd.language.lexicon import Lexicon
+from tmd.diagnostics import TmdError
+from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Problem
-from tmd.pddl.reader import read_problem
-from tmd.pddl.syntax import nearest
+from tmd.pddl.reading.reader import read_problem
+from tmd.pddl.reading.syntax import nearest
 from tmd.veil.demonstration import Demonstration, read_demonstrations
 from tmd.veil.replay import check_executable
 from tmd.veil.world import World, make_world

@@ -24,10 +24,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.syntax import read_text, split_lines
+from tmd.pddl.reading.syntax import read_text, split_lines
 
 _KEYS = ("id", "task", "environment", "text", "segments")
 _ENDS = "\x85\u2028\u2029"

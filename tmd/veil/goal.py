@@ -6,11 +6,11 @@ import json
 import re
 from dataclasses import replace
 
-from tmd.errors import Location, TmdError
-from tmd.pddl.goal import with_goal
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Formula, Problem, State
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.syntax import read_text, split_lines
 from tmd.pddl.semantics import first_false
-from tmd.pddl.syntax import read_text, split_lines
 from tmd.veil.demonstration import Demonstration
 
 NOT_REACHED = "goal-not-reached"

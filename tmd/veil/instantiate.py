@@ -24,7 +24,7 @@ from dataclasses import dataclass
 from tmd.language.clause import Clause, Relation
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.states import Profile, shared
+from tmd.veil.profiles import Profile, shared
 from tmd.veil.template import Template
 from tmd.veil.world import World
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass, field
 
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.language.lexicon import Lexicon
+from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
+from tmd.veil.clause_alignment import split
 from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.split import split
+from tmd.veil.detours import tidy
 from tmd.veil.template import Template, generalise
-from tmd.veil.tidy import tidy
 from tmd.veil.world import World
 
 

@@ -1,7 +1,8 @@
 """Which objects of an environment a noun may mean.
 
-The evidence about words is the language room's (:func:`tmd.language.nouns.rank`). Here it meets the environment:
-a noun that names no object but something an object contains (*coffee*, *raspberry syrup*) means what contains it.
+The evidence about words is the language room's (:func:`tmd.language.lexicon.nouns.rank`). Here it meets the
+environment: a noun that names no object but something an object contains (*coffee*, *raspberry syrup*) means what
+contains it.
 """
 
 from __future__ import annotations
@@ -9,11 +10,11 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 
 from tmd.language.clause import Clause
-from tmd.language.lexicon import Lexicon
-from tmd.language.nouns import Candidate, Match, rank
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.nouns import Candidate, Match, rank
 from tmd.pddl.hierarchy import hierarchy
 from tmd.pddl.task import Bits
-from tmd.veil.states import Profiles
+from tmd.veil.profiles import Profiles
 
 CONTAINED = "contained"
 """How a :class:`Match` was found: the object contains what the noun names."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from tmd.errors import TmdError
-from tmd.pddl.goal import with_goal
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.pddl.reading.goal import with_goal
 from tmd.pddl.semantics import apply, first_broken, holds
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.goal import check_goal

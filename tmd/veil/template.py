@@ -9,7 +9,7 @@ from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.mentions import Mentions
-from tmd.veil.states import Profile, Profiles
+from tmd.veil.profiles import Profile, Profiles
 
 
 @dataclass(frozen=True, slots=True)

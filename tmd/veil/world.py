@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from tmd.language.lexicon import Lexicon
-from tmd.pddl.grounding import ground
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.grounding.ground import ground
 from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.model import Problem
 from tmd.pddl.task import Task
 from tmd.veil.mentions import Mentions
-from tmd.veil.states import Profiles
+from tmd.veil.profiles import Profiles
 
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.energy.plans import RankedPlan, Refusal
+from tmd.inference.ranking import RankedPlan, Refusal
 from tmd.view.markup import templates
 
 

@@ -6,12 +6,12 @@ from collections.abc import Iterable
 
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.language.lexicon import Lexicon
-from tmd.pddl.goal import with_goal
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.reading.goal import with_goal
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World
-from tmd.view.meaning import Meaning, after, meaning
 from tmd.view.subject import PlannedStep, Said, Subject
+from tmd.view.text.meaning import Meaning, after, meaning
 
 
 def demonstrated_subject(

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from tmd.energy.plans import StepGoal
+from tmd.inference.ranking import StepGoal
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import validate
-from tmd.view.wording import Wording
+from tmd.view.text.wording import Wording
 
 GUESS = "a guess"
 """A note on a step without a goal begins with this where its instructions were guessed."""

@@ -8,12 +8,12 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
-from tmd.energy.plans import Choice, RankedPlan, Refusal, Step, StepGoal
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
+from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step, StepGoal
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.pddl.model import Formula, Instruction
-from tmd.pddl.parentheses import parse
-from tmd.pddl.read_formula import read_condition
+from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.parentheses import parse
 from tmd.view.goals import why_refused
 
 

@@ -8,7 +8,7 @@ from base64 import b64encode
 from dataclasses import dataclass
 
 _COLUMNS, _GAP = 4, 10
-"""How :func:`tmd.robot.captions.filmstrip` lays a sheet out; a test holds the two together."""
+"""How :func:`tmd.robot.video.captions.filmstrip` lays a sheet out; a test holds the two together."""
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 _HEADER = struct.Struct(">8x4x4sII")
 _LARGEST = 50_000

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from tmd.energy.plans import RankedPlan, Refusal, StepGoal
+from tmd.inference.ranking import RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
 from tmd.veil.world import World
-from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
+from tmd.view.text.meaning import Meaning, meanings, meanings_in
 
 
 @dataclass(frozen=True, slots=True)

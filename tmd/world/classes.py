@@ -13,10 +13,10 @@ from typing import Annotated, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import OBJECT
-from tmd.pddl.syntax import nearest
-from tmd.world.yaml_source import YamlSource
+from tmd.pddl.reading.syntax import nearest
+from tmd.world.yaml_positions import YamlSource
 
 NAME = r"^[a-z][a-z0-9_]*$"
 ROOT = "root"
@@ -36,7 +36,7 @@ class Shape(BaseModel):
     """What a thing looks like, for the robot's scene; PDDL knows nothing of it (``docs/scenes.md``).
 
     Attributes:
-        kind: Which of the kinds of :mod:`tmd.robot.shapes` builds it.
+        kind: Which of the kinds of :mod:`tmd.robot.assets.shapes` builds it.
         size: Depth (to the front), width and height in metres; the kind's own where it is not said.
         colour: A colour's name or ``#rrggbb``; also the second colour, ``accent``.
         mass: Of an item, in kilograms.

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from tmd.errors import Location, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import (
     TRUE,
@@ -22,11 +22,11 @@ from tmd.pddl.model import (
     State,
     TypedName,
 )
-from tmd.pddl.parentheses import parse
-from tmd.pddl.read_formula import read_effects
-from tmd.pddl.reader import parse_domain
+from tmd.pddl.reading.formulas import read_effects
+from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.reader import parse_domain
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.pddl.semantics import apply
-from tmd.pddl.syntax import nearest, read_text
 from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder

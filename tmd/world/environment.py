@@ -27,9 +27,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from tmd.pddl.syntax import Report
+from tmd.pddl.reading.syntax import Report
 from tmd.world.classes import NAME, StateValue
-from tmd.world.yaml_source import YamlSource
+from tmd.world.yaml_positions import YamlSource
 
 Position = tuple[float, float, float]
 

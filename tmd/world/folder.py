@@ -11,12 +11,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from tmd.errors import TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Domain
-from tmd.pddl.reader import read_domain
-from tmd.pddl.syntax import nearest
+from tmd.pddl.reading.reader import read_domain
+from tmd.pddl.reading.syntax import nearest
 from tmd.world.classes import Classes, no_classes
-from tmd.world.yaml_source import YamlSource
+from tmd.world.yaml_positions import YamlSource
 
 _PACKAGE = Path(__file__).resolve().parent.parent
 

@@ -12,9 +12,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from tmd.atomic import make_directory, write_text
-from tmd.errors import OutputError, TmdError
-from tmd.pddl.syntax import nearest, read_text
+from tmd.diagnostics import OutputError, TmdError
+from tmd.files import make_directory, write_text
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.world.classes import NAME
 from tmd.world.folder import find_domain, find_problems
 

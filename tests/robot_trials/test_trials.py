@@ -1,0 +1,217 @@
+"""What an experiment ends with: one prediction for each environment is carried out, filmed, and shown in the page."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from html import unescape
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+pytest.importorskip("PIL", reason="needs the extra robot")
+pytest.importorskip("imageio_ffmpeg", reason="needs the extra robot")
+
+from tests.cli.conftest import run_tmd
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.evaluation.report.report import write_report
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.records import Line, read_run
+from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.runs.trial_records import Trial, Trials, read_trials
+from tmd.robot_trials import perform as performing
+from tmd.robot_trials.choice import choices
+from tmd.robot_trials.perform import orders_of
+from tmd.robot_trials.run import run_trials
+
+ROOT = Path(__file__).parents[2]
+TEXT = "Find the <b>mug</b>."
+SHORT = ["find(mug1)"]
+
+
+def line(environment: str, number: int, model: str = "full", **changes: object) -> dict[str, Any]:
+    made = {
+        "id": f"ramen-{environment}-{number}", "task": "ramen", "environment": environment, "model": model, "fold": "f",
+        "text": TEXT, "predicted": SHORT, "gold": SHORT, "executable": True, "IED": 50.0, "END": 50.0, "EED": 50.0,
+        "EED_trim": 50.0, "clauses": [{"text": "Find  the mug", "verb": "find", "latent": [], "said": SHORT}],
+        "segments": [],
+    }  # fmt: skip
+    return made | changes
+
+
+def finished(out: Path, lines: Sequence[dict[str, Any]], models: tuple[str, ...] = ("full",)) -> ExperimentConfig:
+    """The directory of a run that has these predictions."""
+    config = ExperimentConfig("ramen", out, models=models, domains=ROOT / "domains", problems=ROOT / "problems")
+    metrics = summarise(lines, models) | {"config": config.identity(""), "folds": {"f": {"train": 1, "test": 1}}}
+    out.mkdir(exist_ok=True)
+    (out / "metrics.json").write_text(json.dumps(metrics))
+    (out / "predictions.jsonl").write_text("".join(json.dumps(each) + "\n" for each in lines))
+    return config
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[ExperimentConfig, Trials]:
+    """Two kitchens, and in one of them nothing can be executed."""
+    out = tmp_path_factory.mktemp("trials") / "run"
+    config = finished(
+        out, [line("kitchen1", 1), line("kitchen2", 1, executable=False), line("kitchen2", 2, predicted=[])]
+    )
+    return config, run_trials(config, "kinematic")
+
+
+def test_a_trial_is_a_record_a_film_and_a_strip(made: tuple[ExperimentConfig, Trials]) -> None:
+    import imageio.v3 as iio
+
+    config, trials = made
+    one, two = trials.found
+    assert (one.status, one.reason, one.repairs, one.asked.id) == ("done", "", 0, "ramen-kitchen1-1")
+    assert [(s.instruction, s.outcome) for s in one.steps] == [("find(mug1)", "ok")]
+    assert "in view" in one.steps[0].said
+    assert (one.film, one.strip) == ("kitchen1.mp4", "kitchen1.png")
+    assert sum(1 for _ in iio.imiter(trials.directory / "kitchen1.mp4")) > 10
+    assert (two.status, two.film, two.asked.plan) == ("no_plan", None, [])
+    assert sorted(path.name for path in (config.out / "robot").iterdir()) == [
+        "kitchen1.json", "kitchen1.mp4", "kitchen1.png", "kitchen2.json",
+    ]  # fmt: skip
+
+
+def test_the_page_shows_it_and_loads_nothing(made: tuple[ExperimentConfig, Trials]) -> None:
+    page = write_report(made[0].out).read_text(encoding="utf-8")
+    assert re.search(r'<video [^>]*src="data:video/mp4;base64,[A-Za-z0-9+/]{1000,}', page)
+    assert re.search(r'<img [^>]*src="data:image/png;base64,[A-Za-z0-9+/]{1000,}', page)
+    assert not re.search(r'(?:src|href)="(?!data:|#)', page)
+    assert "img-src data:; media-src data:" in page
+    assert "no prediction of full can be executed there under PDDL" in page
+    assert "Find the &lt;b&gt;mug&lt;/b&gt;." in page
+    assert "<b>mug" not in page
+
+
+class Counted:
+    """Counts what is carried out, and does not do it."""
+
+    def __init__(self) -> None:
+        self.environments: list[str] = []
+
+    def __call__(self, job: performing.Job) -> Trial:
+        self.environments.append(job.asked.environment)
+        return Trial(asked=job.asked, status="done")
+
+
+@pytest.fixture
+def counted(monkeypatch: pytest.MonkeyPatch) -> Counted:
+    found = Counted()
+    monkeypatch.setattr(performing, "_carried_out", found)
+    return found
+
+
+def test_what_is_done_is_kept(made: tuple[ExperimentConfig, Trials], counted: Counted) -> None:
+    config, before = made
+    told: list[tuple[int, int]] = []
+    assert run_trials(config, "kinematic", lambda done, of: told.append((done, of))) == before
+    assert (counted.environments, told) == ([], [(2, 2)])
+
+
+@pytest.fixture
+def two(tmp_path: Path, counted: Counted) -> Iterator[ExperimentConfig]:
+    """A run with two trials that were made."""
+    config = finished(tmp_path / "run", [line("kitchen1", 1), line("kitchen2", 1)])
+    run_trials(config, "kinematic")
+    assert counted.environments == ["kitchen1", "kitchen2"]
+    counted.environments.clear()
+    yield config
+
+
+def test_what_is_missing_or_damaged_is_done_again(two: ExperimentConfig, counted: Counted) -> None:
+    folder = two.out / "robot"
+    whole = (folder / "kitchen1.json").read_text()
+    (folder / "kitchen1.json").write_text(whole[:50])
+    (folder / "kitchen3.json").write_text(whole)
+    (folder / "kitchen2.unfinished.mp4").write_text("cut off")
+    with pytest.raises(TmdError, match=r"kitchen1\.json: damaged"):
+        read_trials(two.out)
+    run_trials(two, "kinematic")
+    assert counted.environments == ["kitchen1"]
+    assert (folder / "kitchen1.json").read_text() == whole
+    assert sorted(path.name for path in folder.iterdir()) == ["kitchen1.json", "kitchen2.json"]
+
+
+def test_another_mode_or_prediction_is_another_trial(two: ExperimentConfig, counted: Counted) -> None:
+    run_trials(two, "physics")
+    assert counted.environments == ["kitchen1", "kitchen2"]
+    counted.environments.clear()
+    finished(two.out, [line("kitchen1", 1), line("kitchen2", 1, predicted=["find(bowl1)"])])
+    run_trials(two, "physics")
+    assert counted.environments == ["kitchen2"]
+
+
+def test_a_scene_that_cannot_be_built_is_told(tmp_path: Path) -> None:
+    config = finished(tmp_path / "run", [line("kitchen99", 1)])
+    (trial,) = run_trials(config, "kinematic").found
+    assert trial.status == "no_scene"
+    assert "kitchen99" in trial.reason
+
+
+@pytest.mark.parametrize(
+    ("changes", "reason"),
+    [({"domain": "veil500_sane"}, "has no skills.yaml"), ({"data": "veil500"}, "VEIL-500"), ({}, "pybullet")],
+)
+def test_why_the_robot_does_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, changes: dict[str, Any], reason: str
+) -> None:
+    config = replace(finished(tmp_path / "run", [line("kitchen1", 1)]), **changes)
+    if not changes:
+        monkeypatch.setitem(sys.modules, "pybullet", None)
+    trials = run_trials(config, "kinematic")
+    assert trials.found == ()
+    assert reason in trials.skipped
+    page = unescape(write_report(config.out).read_text(encoding="utf-8"))
+    assert f"The robot did nothing: {trials.skipped}" in page
+    assert [path.name for path in (config.out / "robot").iterdir()] == ["skipped.json"]
+
+
+def test_the_best_row_and_the_first_that_works(tmp_path: Path) -> None:
+    lines = [line("kitchen1", 1, "full"), line("kitchen1", 1, "paper", END=70.0, executable=False)]
+    lines += [line("kitchen1", 2, "paper", END=20.0), line("kitchen1", 3, "paper", END=100.0)]
+    lines += [line("kitchen1", 1, "empty", predicted=[], END=99.0)]
+    finished(tmp_path, lines, ("empty", "full", "paper"))
+    (choice,) = choices(read_run(tmp_path))
+    assert choice.model == "paper"
+    assert choice.line is not None and choice.line.id == "ramen-kitchen1-2"
+
+
+def test_orders_say_which_words_they_are_for() -> None:
+    clauses = [{"text": "Find\n it", "verb": "find", "latent": ["moveto(mug1)"], "said": SHORT}]
+    (first, second) = orders_of(Line.model_validate(line("k", 1, predicted=["moveto(mug1)", *SHORT], clauses=clauses)))
+    assert (first.latent, first.clause, first.text) == (True, 0, "Find it")
+    assert (second.latent, str(second.instruction)) == (False, "find(mug1)")
+    (other,) = orders_of(Line.model_validate(line("k", 1, clauses=clauses)))
+    assert (other.clause, other.text) == (None, ""), "the whole sequence was changed afterwards"
+
+
+def test_the_command_without_a_simulator(tmp_path: Path) -> None:
+    """It ends well, and says why nothing was carried out."""
+    options = ("experiment", "--task", "ramen", "--models", "empty,chance", "--test-environments", "1", "--out", "run")
+    hide = "import sys; sys.modules['pybullet'] = None"
+    ended = run_tmd((*options, "--jobs", "1", "--robot", "kinematic"), tmp_path, before=hide)
+    assert ended.code == ExitCode.OK, ended.err
+    assert "the robot did nothing: pybullet is not installed: pip install 'tmd[robot]'" in ended.err
+    assert "The robot did nothing: pybullet" in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        (["--step", "robot", "--robot", "off"], "--step robot and --robot off do not go together"),
+        (["--step", "robot", "--shard", "1/2"], "--step robot needs the whole run"),
+        (["--robot", "physics", "--shard", "1/2"], "give --robot without --shard"),
+    ],
+)
+def test_options_that_do_not_go_together(tmp_path: Path, arguments: list[str], told: str) -> None:
+    ended = run_tmd(("experiment", "--task", "ramen", "--out", "run", *arguments), tmp_path)
+    assert ended.code == ExitCode.USAGE
+    assert told in ended.err

@@ -1,0 +1,283 @@
+"""Checking what a lexicon says that verbs, adjectives and groups mean: every fault, each at its word."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from tmd.check.codes import SEVERITY, Severity
+from tmd.check.lint.reachable import Possible, Scope, possible, types_of
+from tmd.diagnostics import Location, TmdError
+from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
+from tmd.language.lexicon.lexicon import Declared, Lexicon
+from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
+from tmd.pddl.reading.checking import check_condition
+from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, read_text, split_lines
+from tmd.pddl.writer import format_formula
+
+_NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")
+"""The word of a pattern that a fault speaks of."""
+_ANY: tuple[str, ...] = (OBJECT,)
+
+
+@dataclass(frozen=True, slots=True)
+class _Sound:
+    """A row or an adjective without faults."""
+
+    entry: Declared
+    formula: Formula
+    variables: frozenset[str]
+    prepositions: tuple[str, ...] = ()
+    """Those that ``?rel`` may stand for; none where the condition does not speak of it."""
+
+
+def check_goals(
+    path: Path,
+    lexicon: Lexicon,
+    domain: Domain,
+    environments: Iterable[Problem],
+    kinds: Callable[[], Collection[str]],
+) -> list[TmdError]:
+    """Every fault of ``goals``, ``attributes`` and ``groups``.
+
+    Args:
+        path: The lexicon's file.
+        lexicon: What it says.
+        domain: The domain that the conditions speak of.
+        environments: What of them can hold is looked up there; no more are taken than needed.
+        kinds: The classes, types, constants and objects that a group may name; empty where that is not known.
+    """
+    if not (lexicon.goals or lexicon.attributes or lexicon.groups):
+        return []
+    written = Written(path)
+    reader = _Entries(written, domain)
+    for row in lexicon.goals:
+        reader.row(row)
+    for adjective in lexicon.attributes:
+        reader.adjective(adjective)
+    return [
+        *reader.faults,
+        *_never(reader.sound, environments, written),
+        *(_unknown_kinds(lexicon, kinds(), written) if lexicon.groups else ()),
+    ]
+
+
+class Written:
+    """The text of a lexicon, to point into its patterns and conditions.
+
+    Args:
+        path: The file.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.lines = split_lines(read_text(path))
+
+    def error(self, place: Location, message: str, hint: str | None, code: str) -> TmdError:
+        """A fault at ``place``, with its line."""
+        source = self.lines[place.line - 1] if place.line <= len(self.lines) else None
+        return TmdError(message, location=place, hint=hint, source=source, code=code)
+
+    def in_pattern(self, entry: Declared, word: str = "") -> Location:
+        """Where a word of an entry's pattern stands, the last time that it does."""
+        begin = entry.location or Location(str(self.path), 1, 1)
+        for number in range(begin.line, max(begin.line - 3, 0), -1):
+            column = self.lines[number - 1].find(entry.pattern)
+            if column >= 0:
+                within = [m.start() for m in re.finditer(rf"(?<!\w){re.escape(word)}(?!\w)", entry.pattern) if word]
+                return Location(str(self.path), number, column + 1 + (within[-1] if within else 0))
+        return begin
+
+    def in_condition(self, entry: Declared, place: Location | None) -> Location:
+        """Where a place of an entry's condition stands: YAML may have folded its lines, so blanks do not count."""
+        begin = entry.location or Location(str(self.path), 1, 1)
+        said = split_lines(entry.condition)
+        left = 0
+        if place is not None:
+            before = "".join(said[: place.line - 1]) + said[place.line - 1][: place.column - 1]
+            left = len("".join(before.split()))
+        for number, column in self._signs(begin):
+            if left == 0:
+                return Location(str(self.path), number, column)
+            left -= 1
+        return begin
+
+    def _signs(self, begin: Location) -> Iterator[tuple[int, int]]:
+        """The places of what is no blank, from ``begin`` on; the sign of a block (``>-``) is none of them."""
+        block = self.lines[begin.line - 1][begin.column - 1 :].startswith(("|", ">"))
+        for number in range(begin.line + block, len(self.lines) + 1):
+            line = self.lines[number - 1]
+            for column in range(begin.column if number == begin.line else 1, len(line) + 1):
+                if not line[column - 1].isspace():
+                    yield number, column
+
+    def in_section(self, section: str, key: str = "", word: str = "") -> Location:
+        """Where a section begins, or a key of it, or a word behind that key."""
+        inside = False
+        for number, line in enumerate(self.lines, start=1):
+            if re.match(rf"{section}\s*:", line):
+                inside = True
+                if not key:
+                    return Location(str(self.path), number, 1)
+            elif inside and re.match(rf"\s+{re.escape(key)}\s*:", line):
+                found = re.search(rf"(?<!\w){re.escape(word or key)}(?!\w)", line)
+                return Location(str(self.path), number, found.start() + 1 if found else 1)
+        return Location(str(self.path), 1, 1)
+
+
+class _Entries:
+    """The rows and adjectives of one lexicon, with their faults."""
+
+    def __init__(self, written: Written, domain: Domain) -> None:
+        self.written = written
+        self.domain = domain
+        self.faults: list[TmdError] = []
+        self.sound: list[_Sound] = []
+
+    def row(self, entry: Declared) -> None:
+        """Check a row: its pattern, and then its condition."""
+        try:
+            _, _, slots, _ = read_pattern(entry)
+        except TmdError as fault:
+            self.faults.append(self._of_pattern(entry, fault))
+            return
+        prepositions = tuple(p for slot in slots for p in slot.prepositions)
+        variables = {slot.variable for slot in slots} | ({RELATION} if prepositions else set())
+        if self._condition(entry, frozenset(variables), prepositions):
+            read_table([entry], (), {}, self.domain, self.faults)
+
+    def adjective(self, entry: Declared) -> None:
+        """Check the condition of an adjective, over ``?x``."""
+        if self._condition(entry, frozenset({"?x"}), ()):
+            read_table((), [entry], {}, self.domain, self.faults)
+
+    def _condition(self, entry: Declared, variables: frozenset[str], prepositions: tuple[str, ...]) -> bool:
+        """Check a condition over ``variables``; whether it has no faults."""
+        found: list[TmdError] = []
+        formula, source = _read(entry.condition, found.append)
+        if formula is not None:
+            found += check_condition(formula, variables, self.domain, source)
+        faulty = any(SEVERITY.get(fault.code) is not Severity.WARNING for fault in found)
+        self.faults += [self._of_condition(entry, fault) for fault in found]
+        if faulty or formula is None:
+            return False
+        names = prepositions if RELATION in entry.condition else ()
+        self.sound.append(_Sound(entry, formula, variables, names))
+        return True
+
+    def _of_pattern(self, entry: Declared, fault: TmdError) -> TmdError:
+        named = _NAMED.search(fault.message)
+        word = (named[1] or named[2]) if named else ""
+        place = self.written.in_pattern(entry, word)
+        return self.written.error(place, fault.message, _stands_for(word) or fault.hint, fault.code or "bad-goal")
+
+    def _of_condition(self, entry: Declared, fault: TmdError) -> TmdError:
+        place = self.written.in_condition(entry, fault.location)
+        message = f"{fault.message}, in '{entry.pattern}'"
+        return self.written.error(place, message, fault.hint, fault.code or "bad-goal")
+
+
+def _stands_for(word: str) -> str | None:
+    """For a preposition that is read for another one, that one."""
+    known = next((name for name, members in PREPOSITIONS.items() if word in members and word not in PREPOSITIONS), None)
+    return f'write "{known}", which is read for "{word}" as well' if known else None
+
+
+def _read(text: str, report: Report) -> tuple[Formula | None, Source]:
+    """A condition without the operators ``was`` and ``first``; ``None`` where it cannot be read, which is told."""
+    told: list[TmdError] = []
+    document = parse(text, "", told.append)
+    formula = None if told else document.source.recover(None, _one_condition, document)
+    for fault in told:
+        report(fault)
+    return formula, document.source
+
+
+def _one_condition(document: Document) -> Formula:
+    """The condition that a text consists of.
+
+    Raises:
+        TmdError: It is none, or several.
+    """
+    document.check_depth()
+    if len(document.groups) != 1:
+        place = document.groups[1].location if document.groups else None
+        hint = "write (and (…) (…)) for several"
+        raise TmdError("a goal is one condition", location=place, hint=hint, code="bad-goal")
+    return read_condition(_plain(document.groups[0]), document.source)
+
+
+def _plain(node: Node) -> Node:
+    """A group without ``was`` and ``first``: what they are said of must be a condition all the same."""
+    if not isinstance(node, Group):
+        return node
+    if node.head in (WAS, FIRST) and len(node.parts) == 2 and isinstance(node.parts[1], Group):
+        return _plain(node.parts[1])
+    return replace(node, parts=tuple(_plain(part) for part in node.parts))
+
+
+def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: Written) -> Iterator[TmdError]:
+    """Conditions that can hold of nothing in any environment; those with ``?rel`` for each preposition by itself."""
+    waiting = {(one, preposition): "" for one in sound for preposition in one.prepositions or ("",)}
+    looked = False
+    for problem in environments if waiting else ():
+        looked, world = True, possible(problem)
+        lacking = {key: _lacking(_related(key[0].formula, key[1]), _scope(key[0]), world) for key in waiting}
+        waiting = {key: atom for key, atom in lacking.items() if atom is not None}
+        if not waiting:
+            return
+    for (one, preposition), atom in waiting.items() if looked else ():
+        place = written.in_pattern(one.entry, preposition)
+        said = f"'{one.entry.pattern}'" + (f" with '{preposition}'" if preposition else "")
+        message = f"{said} can be fulfilled in no environment: {atom} can hold of nothing there"
+        hint = "mend the condition, or add an environment in which it can hold"
+        yield written.error(place, message, hint, "impossible-goal")
+
+
+def _scope(one: _Sound) -> Scope:
+    """Slots may be filled with anything: a part stands in where the thing itself does not fit."""
+    return dict.fromkeys(one.variables, _ANY)
+
+
+def _related(formula: Formula, preposition: str) -> Formula:
+    """A condition with a preposition for ``?rel``."""
+    match formula:
+        case Atom(predicate, terms):
+            return Atom(predicate, tuple(preposition if term == RELATION else term for term in terms))
+        case And(parts) | Or(parts):
+            return replace(formula, parts=tuple(_related(part, preposition) for part in parts))
+        case Exists(_, part) | Forall(_, part):
+            return replace(formula, part=_related(part, preposition))
+    return formula
+
+
+def _lacking(formula: Formula, scope: Scope, world: Possible) -> str | None:
+    """An atom without which a condition cannot hold and that never holds; ``None`` where there is none."""
+    match formula:
+        case Atom():
+            return None if world.may_hold(formula, scope) else " ".join(format_formula(formula).split())
+        case And(parts):
+            return next((found for part in parts if (found := _lacking(part, scope, world))), None)
+        case Or(parts):
+            ways = [_lacking(part, scope, world) for part in parts]
+            return None if None in ways or not ways else ways[0]
+        case Forall(parameters, part) if all(world.objects.of(p.types) for p in parameters):
+            return _lacking(part, {**scope, **types_of(parameters)}, world)
+        case Exists(parameters, part):
+            missing = next((p.types[0] for p in parameters if not world.objects.of(p.types)), None)
+            return f"a {missing}" if missing else _lacking(part, {**scope, **types_of(parameters)}, world)
+    return None
+
+
+def _unknown_kinds(lexicon: Lexicon, kinds: Collection[str], written: Written) -> Iterator[TmdError]:
+    """Names of groups that nothing has."""
+    for group, names in lexicon.groups.items():
+        for name in names if kinds else ():
+            if name not in kinds:
+                place = written.in_section("groups", group, name)
+                message = f"the group '{group}' names '{name}', which is no class, type, constant or object"
+                yield written.error(place, message, nearest(name, sorted(kinds)), "unknown-class")

@@ -1,0 +1,101 @@
+"""What is allowed in a domain and hardly ever meant. All of it is warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.formulas import conjuncts, free_variables, predicates_of
+from tmd.pddl.model import TRUE, ActionSchema, Atom, Domain, Equals, Formula, Not, Or
+from tmd.pddl.reading.syntax import Source
+
+
+def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
+    """The warnings for a domain that has no faults."""
+    found = list(_unused_predicates(domain, source))
+    for action in domain.actions:
+        found += _contradictory_effects(action, source)
+        found += _never_applies(action, source)
+        found += _unused_parameters(action, source)
+        if not action.effects and action.cost is None:
+            hint = "write its :effect, or remove it"
+            found.append(source.error(f'action "{action.name}" changes nothing', action.location, hint, "no-effect"))
+    return found
+
+
+def spoken_of(domain: Domain) -> frozenset[str]:
+    """The predicates that some action reads or changes."""
+    found: set[str] = set()
+    for action in domain.actions:
+        found |= predicates_of(action.precondition)
+        for effect in action.effects:
+            found |= {effect.atom.predicate} | predicates_of(effect.condition)
+    return frozenset(found)
+
+
+def _unused_predicates(domain: Domain, source: Source) -> Iterator[TmdError]:
+    used = spoken_of(domain)
+    for predicate in domain.predicates:
+        if predicate.name not in used and domain.actions and predicate.name != "=":
+            yield source.error(
+                f'no action speaks of the predicate "{predicate.name}"',
+                source.word(predicate.location, 0),
+                "use it, or remove it",
+                "unused-predicate",
+            )
+
+
+def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """The same atom added and deleted under the same condition: adding wins."""
+    added = {(e.atom, e.condition, e.parameters) for e in action.effects if e.positive}
+    for effect in action.effects:
+        if not effect.positive and (effect.atom, effect.condition, effect.parameters) in added:
+            atom = " ".join((effect.atom.predicate, *effect.atom.terms))
+            yield source.error(
+                f'action "{action.name}" adds and deletes ({atom}); adding wins',
+                effect.location,
+                "remove one of the two",
+                "contradictory-effects",
+            )
+
+
+def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    """A precondition that no state satisfies, as far as one can tell by looking at it."""
+    parts = conjuncts(action.precondition)
+    stated = set(parts)
+    for part in parts:
+        if _is_false(part) or (isinstance(part, Not) and part.part in stated):
+            yield source.error(
+                f'action "{action.name}" can never apply: its precondition contradicts itself here',
+                part.location or action.location,
+                "remove one of the conditions",
+                "never-applies",
+            )
+
+
+def _is_false(formula: Formula) -> bool:
+    if isinstance(formula, Or):
+        return not formula.parts
+    if isinstance(formula, Not):
+        inner = formula.part
+        return inner == TRUE or (isinstance(inner, Equals) and inner.left == inner.right)
+    return (
+        isinstance(formula, Equals) and formula.left != formula.right and "?" not in formula.left[0] + formula.right[0]
+    )
+
+
+def _unused_parameters(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    used = set(free_variables(action.precondition))
+    for effect in action.effects:
+        used.update(effect.atom.terms)
+        used |= free_variables(effect.condition)
+    if isinstance(action.cost, Atom):
+        used.update(action.cost.terms)
+    for parameter in action.parameters:
+        if parameter.name not in used:
+            yield source.error(
+                f'action "{action.name}" does not speak of its parameter "{parameter.name}"',
+                parameter.location,
+                "use it, or remove it",
+                "unused-parameter",
+            )

@@ -1,0 +1,66 @@
+"""``tmd compile``: object graphs to PDDL."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit
+from tmd.diagnostics import ExitCode
+
+
+@click.command("compile", short_help="Compile object graphs to PDDL.")
+@click.argument("what", metavar="DOMAIN|ENVIRONMENT.yaml")
+@click.option("--check", is_flag=True, help="Write nothing; end with 13 if the domain.pddl there has drifted.")
+@click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the PDDL problem to this file.")
+@click.option("--goal", metavar="CONDITION", help='The goal of the PDDL problem, such as "(hot pot1)".')
+@click.pass_obj
+def command(roots: Roots, what: str, check: bool, output: Path | None, goal: str | None) -> ExitCode:
+    """Compile a domain folder to its domain.pddl, or an environment to a PDDL problem.
+
+    The domain.pddl is written into the folder, the problem to standard output.
+    """
+    if Path(what).suffix not in (".yaml", ".yml"):
+        if output or goal:
+            raise click.UsageError("--output and --goal are for environments")
+        return _domain(roots, what, check)
+    if check:
+        raise click.UsageError("--check is for domains")
+    return _environment(roots, Path(what), output, goal)
+
+
+def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
+    from tmd.files import write_text
+    from tmd.pddl.reading.syntax import read_text
+    from tmd.world.compile import compile_domain
+
+    folder = roots.sources(name)
+    target = folder.path / "domain.pddl"
+    compiled = compile_domain(folder)
+    same = target.is_file() and read_text(target) == compiled
+    if check:
+        emit(f"{target} {'is up to date' if same else 'has drifted: run `tmd compile`'}\n")
+        return ExitCode.OK if same else ExitCode.FAULTS_FOUND
+    if not same:
+        write_text(target, compiled)
+    emit(f"{target} {'was up to date' if same else 'written'}\n")
+    return ExitCode.OK
+
+
+def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> ExitCode:
+    from tmd.files import write_text
+    from tmd.pddl.reading.goal import with_goal
+    from tmd.pddl.writer import format_problem
+    from tmd.world.compile import compile_problem
+    from tmd.world.environment import load_environment
+
+    environment = load_environment(path)
+    problem = compile_problem(environment, roots.folder(environment.domain))
+    text = format_problem(with_goal(problem, goal) if goal else problem)
+    if output:
+        write_text(output, text)
+    else:
+        emit(text)
+    return ExitCode.OK

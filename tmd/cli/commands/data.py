@@ -1,0 +1,28 @@
+"""``tmd data``: what is in a copy of a data set."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from tmd.cli.output import emit
+
+
+@click.group("data")
+def command() -> None:
+    """Look into data sets."""
+
+
+@command.command("check")
+@click.argument("directory", metavar="DIR", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+def check(directory: Path, as_json: bool) -> None:
+    """Read a copy of VEIL-500 and count what was found, repaired and dropped.
+
+    Ends with 33 where the copy is missing or damaged.
+    """
+    from tmd.datasets.veil500.report import check as check_copy
+
+    report = check_copy(directory)
+    emit(report.json() if as_json else report.text())

@@ -1,0 +1,217 @@
+"""``tmd experiment``: train, predict, score, and print the table."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.inputs.ranges import numbers
+from tmd.cli.output import emit
+
+if TYPE_CHECKING:
+    from tmd.evaluation.runs.config import ExperimentConfig, Shard
+
+
+def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
+    """What an option of names says: each name once, in the order given (a callback of :mod:`click`).
+
+    Raises:
+        click.BadParameter: It names nothing.
+    """
+    if value is None:
+        return None
+    found = tuple(dict.fromkeys(name.strip() for name in value.split(",") if name.strip()))
+    if not found:
+        raise click.BadParameter("it names nothing", ctx, param)
+    return found
+
+
+def share(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """``2/8``, the second of eight shares (a callback of :mod:`click`).
+
+    Raises:
+        click.BadParameter: It is no share.
+    """
+    if value is None:
+        return None
+    match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", value.strip())
+    if match is None or not 1 <= int(match[1]) <= int(match[2]):
+        raise click.BadParameter(f"'{value}' is no share such as 1/8, 2/8 … 8/8", ctx, param)
+    return int(match[1]), int(match[2])
+
+
+def probability(ctx: click.Context, param: click.Parameter, value: float) -> float:
+    """A number from 0 to below 1 (a callback of :mod:`click`).
+
+    Raises:
+        click.BadParameter: It is none; ``nan`` is none either.
+    """
+    if not 0 <= value < 1:
+        raise click.BadParameter(f"{value} is not in the range 0 to below 1", ctx, param)
+    return value
+
+
+@click.command("experiment", short_help="Train, predict, score, print the table.")
+@click.option("--task", required=True, metavar="NAME|all", help="The task, such as ramen.")
+@click.option(
+    "--data", type=click.Choice(["bundled", "veil500"]), default="bundled", show_default=True, help="The data set."
+)
+@click.option(
+    "--veil500",
+    type=click.Path(path_type=Path),
+    envvar="VEIL500_DIR",
+    metavar="DIR",
+    help="Where VEIL-500 is; $VEIL500_DIR by default.",
+)
+@click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data.")
+@click.option("--train-tasks", callback=names, metavar="A,B", help="Train on these tasks; as the protocol says if not.")
+@click.option("--train-environments", callback=numbers, metavar="1-8", help="Train in these environments only.")
+@click.option("--test-environments", callback=numbers, metavar="9,10", help="Test in these environments only.")
+@click.option(
+    "--drop-sentences",
+    type=float,
+    callback=probability,
+    default=0.0,
+    metavar="P",
+    help="Leave each sentence of a test text out with this probability.",
+)
+@click.option("--models", callback=names, metavar="A,B", help="The rows of the table; the usual ones by default.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option("--jobs", type=click.IntRange(1), help="Processes; one for each processor by default.")
+@click.option(
+    "--backend",
+    type=click.Choice(["joblib", "dask"]),
+    default="joblib",
+    show_default=True,
+    help="Processes on this machine, or a cluster.",
+)
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="The cluster's scheduler.")
+@click.option("--shard", callback=share, metavar="I/N", help="Do only this share of the work, without a report.")
+@click.option(
+    "--step",
+    type=click.Choice(["all", "robot", "report"]),
+    default="all",
+    show_default=True,
+    help="The whole run; or only what the robot does, or only the report, from what is done.",
+)
+@click.option(
+    "--robot",
+    type=click.Choice(["physics", "kinematic", "off"]),
+    help="Let a simulated PR2 carry out one prediction for each environment in the end, and film it; off by default.",
+)
+@click.option("--out", required=True, type=click.Path(path_type=Path), metavar="DIR", help="The run's directory.")
+@click.pass_obj
+def command(
+    roots: Roots,
+    task: str,
+    data: str,
+    veil500: Path | None,
+    domain: str,
+    train_tasks: tuple[str, ...] | None,
+    train_environments: tuple[int, ...] | None,
+    test_environments: tuple[int, ...] | None,
+    drop_sentences: float,
+    models: tuple[str, ...] | None,
+    seed: int,
+    jobs: int | None,
+    backend: str,
+    scheduler: str | None,
+    shard: tuple[int, int] | None,
+    step: str,
+    robot: str | None,
+    out: Path,
+) -> None:
+    """Compare models on a task by cross-validation, or on environments that were held out.
+
+    A run that was stopped goes on where it was when the same command is given again.
+    """
+    if (backend == "dask") != (scheduler is not None):
+        raise click.UsageError("--backend dask and --scheduler tcp://HOST:PORT go together")
+    if shard and step != "all":
+        raise click.UsageError(f"--step {step} needs the whole run: give it without --shard")
+    if shard and robot not in (None, "off"):
+        raise click.UsageError("the robot acts when the whole run is done: give --robot without --shard")
+    if step == "robot" and robot == "off":
+        raise click.UsageError("--step robot and --robot off do not go together")
+
+    from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig, Shard, usual_models
+
+    usual = DEFAULT_MODELS if data == "veil500" else usual_models(roots.folder(domain).path)
+    config = ExperimentConfig(
+        task=task,
+        out=out,
+        data=data,
+        veil500=veil500 if data == "veil500" else None,
+        train_tasks=train_tasks,
+        train_environments=train_environments,
+        test_environments=test_environments,
+        drop_sentences=drop_sentences,
+        models=models or usual,
+        seed=seed,
+        domain=domain,
+        domains=roots.domains,
+        problems=roots.problems,
+        backend=backend,
+        scheduler=scheduler,
+        jobs=jobs or _processors(),
+        shard=Shard(*shard) if shard else None,
+    )
+    if config.shard:
+        _share(config, config.shard)
+    else:
+        _whole(config, step, robot or ("kinematic" if step == "robot" else "off"))
+
+
+def _share(config: ExperimentConfig, shard: Shard) -> None:
+    from tmd.cli.progress import progress_bar
+    from tmd.evaluation.runs.experiment import work
+
+    with progress_bar(f"{config.task}, {config.data} data, {shard.number}/{shard.of}") as progress:
+        parts = work(config, progress)
+    emit(f"done: share {shard.number} of {shard.of}, {parts} parts in {config.out}\n")
+
+
+def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
+    from tmd.cli.progress import progress_bar
+    from tmd.evaluation.report.report import print_table, write_report
+    from tmd.evaluation.runs.experiment import collect, run
+    from tmd.robot_trials.pages import write_pages
+
+    if step == "all":
+        with progress_bar(f"{config.task}, {config.data} data") as progress:
+            metrics = run(config, progress)
+    else:
+        metrics = collect(config)
+    write_pages(config)
+    report = write_report(config.out)  # now: what the robot does may take minutes, and adds to it
+    print_table(metrics)
+    if robot != "off" and step != "report":
+        _trials(config, robot)
+        write_pages(config, carried_out=True)
+        report = write_report(config.out)
+    emit(f"report: {report}\n")
+
+
+def _trials(config: ExperimentConfig, mode: str) -> None:
+    from tmd.cli.progress import progress_bar
+    from tmd.cli.signals import stoppable
+    from tmd.robot_trials.run import run_trials
+
+    with stoppable(), progress_bar(f"the robot, {mode}") as progress:
+        trials = run_trials(config, "physics" if mode == "physics" else "kinematic", progress)
+    if trials.skipped:
+        emit(f"the robot did nothing: {trials.skipped}\n", error=True)
+    for trial in trials.found:
+        why = f": {trial.reason}" if trial.reason else ""
+        emit(f"robot in {trial.asked.environment}: {trial.status.replace('_', ' ')}{why}\n")
+
+
+def _processors() -> int:
+    """The processors that this process may use: on a cluster, fewer than the machine has."""
+    from joblib import cpu_count
+
+    return max(1, int(cpu_count()))

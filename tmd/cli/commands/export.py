@@ -1,0 +1,106 @@
+"""``tmd export``: a problem and its plan in the forms that other tools read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit, emit_json
+from tmd.diagnostics import ExitCode
+
+_ALL = "all"
+
+
+@click.command("export", short_help="Write a problem and its plan for other tools.")
+@click.argument("source", metavar="PROBLEM|ENVIRONMENT|PLAN.json|RUN")
+@click.argument("directory", type=click.Path(path_type=Path), metavar="DIR")
+@click.option(
+    "--format",
+    "formats",
+    multiple=True,
+    metavar="A,B|all",
+    help="adl (default), ipc, strips, durative, anml, protobuf, plansys2, bt, sas, json.",
+)
+@click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
+@click.option("--plan", type=click.Path(path_type=Path), metavar="FILE", help="Take this plan; otherwise one is found.")
+@click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
+@click.option("--text", metavar="TEXT", help="What was said, for an environment.")
+@click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
+@click.option(
+    "--goal",
+    metavar="CONDITION|asked|changed",
+    help="Another goal; of a text what it asks for (the default), or all that its plan changes.",
+)
+@click.option("--example", metavar="ID", help="Of a run: which example.")
+@click.option("--model", metavar="NAME", help="Of a run: whose prediction.")
+@click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.pass_obj
+def command(
+    roots: Roots,
+    source: str,
+    directory: Path,
+    formats: Sequence[str],
+    domain: str | None,
+    plan: Path | None,
+    planner: str | None,
+    text: str | None,
+    text_file: str | None,
+    goal: str | None,
+    example: str | None,
+    model: str | None,
+    overwrite: bool,
+    as_json: bool,
+) -> ExitCode:
+    """Write a problem and a plan for it into DIR.
+
+    The source is a PDDL problem, an environment (with a text, a plan or a goal), a plan of "tmd ground --json", or the
+    directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
+    12 or 20 where none is found. One format fills DIR, several a directory each.
+    """
+    from tmd.cli.inputs.export import Asked, NoPlan, planned_source
+    from tmd.cli.inputs.text import said
+    from tmd.export.directory import check_directory, write_directory
+    from tmd.export.formats import chosen_files
+    from tmd.language.tagging.length import short_enough
+
+    names = _chosen(formats)
+    check_directory(directory, overwrite=overwrite)
+    spoken = None if text is None and text_file is None else short_enough(said(text, text_file))
+    found = planned_source(roots, Asked(source, domain, plan, planner, spoken, goal, example, model))
+    if isinstance(found, NoPlan):
+        emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
+        if as_json:
+            emit_json({"directory": str(directory), "written": {}, "cost": None, "reason": found.reason})
+        return found.code
+    written = chosen_files(found, names)
+    flat = {path: data for files in written.values() for path, data in files.items()}
+    write_directory(directory, flat, overwrite=overwrite)
+    if as_json:
+        listed = {name: list(files) for name, files in written.items()}
+        emit_json({"directory": str(directory), "written": listed, "cost": found.cost, "reason": None})
+    else:
+        emit("".join(f"{directory / path}\n" for path in flat))
+    return ExitCode.OK
+
+
+def _chosen(given: Sequence[str]) -> list[str]:
+    """The names of the formats that were asked for, each once.
+
+    Raises:
+        click.UsageError: There is no such format.
+    """
+    from tmd.export.formats import DEFAULT, FORMATS
+    from tmd.pddl.reading.syntax import nearest
+
+    names = [name.strip() for text in given or (DEFAULT,) for name in text.split(",")]
+    if names == [_ALL]:
+        return list(FORMATS)
+    for name in names:
+        if name not in FORMATS:
+            hint = nearest(name, list(FORMATS)) or f"there are {', '.join(FORMATS)}, all"
+            raise click.UsageError(f"there is no format '{name}': {hint}")
+    return list(dict.fromkeys(names))

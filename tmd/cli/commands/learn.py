@@ -1,0 +1,143 @@
+"""``tmd learn``: library, policy and weights from a domain's demonstrations, kept where ``tmd ground`` finds them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.inputs.learned import learned_option
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit, emit_json, rounded
+from tmd.diagnostics import ExitCode, TmdError
+
+if TYPE_CHECKING:
+    from tmd.inference.learned.knowledge import Knowledge
+    from tmd.inference.learning.weight_learning import Learned
+    from tmd.veil.corpus import Corpus
+
+
+@click.command("learn", short_help="Learn a domain's library, policy and weights from its demonstrations.")
+@click.argument("domain", metavar="DOMAIN")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path),
+    metavar="DIR",
+    help="Save in DIR/DOMAIN, for `tmd ground --learned DIR`; learned/ beside the demonstrations by default.",
+)
+@learned_option
+@click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.pass_obj
+def command(
+    roots: Roots, domain: str, out: Path | None, learned: Path | None, no_weights: bool, seed: int, as_json: bool
+) -> ExitCode:
+    """Learn from the demonstrations of DOMAIN, and save it.
+
+    `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
+    what it was learned from; otherwise it learns anew each time. The weights are used when asked for:
+    `tmd ground --weights learned`.
+    """
+    from tmd.inference.learned.digest import digest
+    from tmd.inference.learned.store import place, save
+
+    corpus = roots.corpus(roots.folder(domain))
+    directory = place(corpus, out or learned)
+    made_from = digest(corpus)
+    knowledge, tuned = _learn(corpus, seed, weigh=not no_weights)
+    save(knowledge, corpus, directory, made_from)
+    report = _report(corpus, knowledge, tuned, directory)
+    if as_json:
+        emit_json(report)
+    else:
+        emit(_text(report))
+    return ExitCode.OK
+
+
+def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learned | None]:
+    """Both parts; progress goes to standard error where somebody is looking."""
+    from dataclasses import replace
+
+    import numpy as np
+
+    from tmd.inference.learned.knowledge import study
+    from tmd.inference.learned.progress import Progress
+
+    demonstrations = corpus.demonstrations()
+    if not demonstrations:
+        raise TmdError(
+            f"there are no demonstrations of '{corpus.folder.name}' in {corpus.directory}",
+            hint="they are in TASK/demonstrations.jsonl",
+        )
+    _check_goals(corpus)
+    with Progress(f"learning from {len(demonstrations)} demonstrations") as progress:
+        knowledge = study(corpus, progress.tell)
+    if not weigh:
+        return knowledge, None
+    _tell("learning weights; this takes a while …")
+    from tmd.evaluation.models.paper_models import weights_of
+
+    tuned = weights_of(corpus, np.random.default_rng(seed))
+    return replace(knowledge, weights=tuned.weights), tuned
+
+
+def _check_goals(corpus: Corpus) -> None:
+    """Who shows something else than the text asks for teaches something wrong.
+
+    Raises:
+        TmdError: A goal cannot be read or does not hold at the end; with its place.
+    """
+    from tmd.veil.goal import check_goal
+    from tmd.veil.replay import final_state
+
+    for demonstration in corpus.demonstrations():
+        if demonstration.goal is not None:
+            world = corpus.world(demonstration.environment)
+            check_goal(demonstration, world.task.problem, final_state(demonstration, world))
+
+
+def _tell(line: str) -> None:
+    import sys
+
+    if sys.stderr.isatty():
+        emit(f"{line}\n", error=True)
+
+
+def _report(corpus: Corpus, knowledge: Knowledge, tuned: Learned | None, directory: Path) -> dict[str, object]:
+    library, reward = knowledge.library, knowledge.reward
+    verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
+    curve = tuned.curve if tuned else ()
+    return {
+        "domain": corpus.folder.name,
+        "demonstrations": len(corpus.demonstrations()),
+        "goals": sum(d.goal is not None for d in corpus.demonstrations()),
+        "environments": sorted({d.environment for d in corpus.demonstrations()}),
+        "templates": {verb: len(library.templates(verb)) for verb in verbs},
+        "unaligned": len(library.unaligned),
+        "policy": {"before": rounded(reward.before), "after": rounded(reward.after)} if reward else None,
+        "weights": {"before": rounded(curve[0]["loss"]), "after": rounded(min(p["loss"] for p in curve))}
+        if curve
+        else None,
+        "saved": str(directory),
+    }
+
+
+def _text(report: dict[str, object]) -> str:
+    templates, places = report["templates"], report["environments"]
+    assert isinstance(templates, dict)
+    assert isinstance(places, list)
+    width = max(map(len, templates), default=0)
+    lines = [
+        f"{report['domain']}: {report['demonstrations']} demonstrations in {', '.join(places)}",
+        f"{sum(templates.values())} templates",
+        *(f"  {verb:<{width}}  {count:>4}" for verb, count in templates.items()),
+    ]
+    if report["unaligned"]:
+        lines.append(f"{report['unaligned']} pieces of text with instructions, but without a verb, taught nothing")
+    for name, what in (("policy", "mean ln P of what was shown"), ("weights", "mean loss of the plans chosen")):
+        part = report[name]
+        if isinstance(part, dict):
+            lines.append(f"{name}: {what} {part['before']:.4f} before, {part['after']:.4f} after")
+    return "\n".join([*lines, f"saved in {report['saved']}"]) + "\n"

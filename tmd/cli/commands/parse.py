@@ -1,0 +1,26 @@
+"""``tmd parse``: text to clauses."""
+
+from __future__ import annotations
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.inputs.text import said, text_options
+from tmd.cli.output import emit, emit_json
+
+
+@click.command("parse", short_help="Split a text into verb clauses.")
+@text_options
+@click.option("--domain", "domain_name", metavar="NAME", help="Use the words of this domain as well.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.pass_obj
+def command(roots: Roots, text: str | None, text_file: str | None, domain_name: str | None, as_json: bool) -> None:
+    """Split a text into verb clauses, and show what no clause accounts for."""
+    from tmd.cli.show.clauses import parsed_json, parsed_text
+    from tmd.language import parse
+
+    parsed = parse(said(text, text_file), roots.lexicon(domain_name) if domain_name else None)
+    if as_json:
+        emit_json(parsed_json(parsed))
+    else:
+        emit(parsed_text(parsed))

@@ -1,0 +1,187 @@
+"""``tmd run``: a text, or a plan, that a simulated PR2 carries out, with every step checked."""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack
+from pathlib import Path
+
+import click
+
+from tmd import __version__
+from tmd.cli.inputs.grounding import environment_file
+from tmd.cli.inputs.learned import learned_option
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit, emit_json
+from tmd.diagnostics import ExitCode, OutputError, TmdError
+
+
+class _File(click.Path):
+    """A file to be written, of a kind that its suffix tells."""
+
+    def __init__(self, *suffixes: str) -> None:
+        super().__init__(path_type=Path)
+        self._suffixes = suffixes
+
+    def convert(self, value: str | os.PathLike[str], param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        path = Path(value)
+        if path.suffix not in self._suffixes:
+            self.fail(f"'{path}' does not end in {' or '.join(self._suffixes)}", param, ctx)
+        return path
+
+
+@click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
+@click.option(
+    "--environment", required=True, metavar="FILE|NAME", help="An environment (YAML), or the name of a bundled one."
+)
+@click.option("--text", metavar="TEXT", help="What was said.")
+@click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
+@click.option(
+    "--plan", "plan_file", type=click.Path(path_type=Path), metavar="FILE", help="Carry out this plan, not a text."
+)
+@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@learned_option
+@click.option("--planner", metavar="NAME", help="Fills gaps and mends plans; in-process by default.")
+@click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="How often a plan is mended.")
+@click.option("--kinematic", is_flag=True, help="Move without physics: faster, and less is shown by it.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option(
+    "--fault",
+    type=click.Choice(["slip", "stuck", "moved", "missed"]),
+    help="Let this go wrong once, to see what the robot makes of it.",
+)
+@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--gui", is_flag=True, help="Show the run in a window.")
+@click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
+@click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
+@click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
+@click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
+@click.pass_obj
+def command(
+    roots: Roots,
+    environment: str,
+    text: str | None,
+    text_file: str | None,
+    plan_file: Path | None,
+    domain_name: str | None,
+    learned: Path | None,
+    planner: str | None,
+    repairs: int,
+    kinematic: bool,
+    seed: int,
+    fault: str | None,
+    urdf: Path | None,
+    gui: bool,
+    video: Path | None,
+    strip: Path | None,
+    log: Path | None,
+    as_json: bool,
+) -> ExitCode:
+    """Carry out what was said, in simulation.
+
+    A text is grounded as by "tmd ground". A PR2 does one instruction after the other; after each, the state is read
+    back from the simulation and compared with what PDDL predicts. Where the two differ, the plan is mended.
+
+    Ends with 12 where no plan was found, and with 14 where the robot stopped before everything was done.
+    """
+    if plan_file is not None and (text, text_file) != (None, None):
+        raise click.UsageError("give one of --text, --text-file and --plan")
+
+    from tmd.cli.inputs.environment import load_scene
+    from tmd.cli.inputs.plan import orders_of_file, orders_of_text
+    from tmd.cli.inputs.text import said
+    from tmd.cli.show.run import RunLog, Telling, plan_json, refusal_json
+    from tmd.cli.signals import stoppable
+    from tmd.language.tagging.length import short_enough
+    from tmd.planning.backends import IN_PROCESS
+    from tmd.robot.monitor.faults import Fault
+    from tmd.robot.session import Stage
+    from tmd.robot.skills.results import Status
+    from tmd.robot.video.captions import pillow
+    from tmd.robot.video.film import Film, open_movie
+    from tmd.world.environment import load_environment
+
+    spoken = None if plan_file is not None else short_enough(said(text, text_file))
+    path = roots.environment(environment, domain_name)
+    if path.suffix == ".pddl":
+        raise TmdError(
+            f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
+            hint="give an environment (YAML)",
+        )
+    if path.suffix == ".xml":
+        raise TmdError(
+            f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
+            hint="tmd scene shows the room",
+        )
+    for output in (video, strip, log):
+        _check_writable(output)
+    corpus, world = load_scene(roots, environment, domain_name)
+    chosen = planner or IN_PROCESS
+    orders = orders_of_file(plan_file, world) if plan_file is not None else None
+    with ExitStack() as stack:
+        stack.enter_context(stoppable())
+        movie = stack.enter_context(open_movie(video)) if video else None
+        if strip:
+            pillow()
+        stage = stack.enter_context(
+            Stage(
+                load_environment(path), corpus.folder, world.task.problem,
+                kinematic=kinematic, seed=seed, urdf=urdf, gui=gui, pictures=bool(video or strip),
+            )
+        )  # fmt: skip
+        if orders is None:
+            orders = orders_of_text(spoken or "", corpus, world, chosen, learned)
+        for line in orders.remarks:
+            emit(line, error=True)
+        asked: dict[str, object] = {
+            "text": spoken,
+            "domain": corpus.folder.name,
+            "environment": world.name,
+            "mode": "kinematic" if kinematic else "physics",
+            "seed": seed,
+            "fault": fault,
+            "planner": chosen,
+            "plan": plan_json(orders.orders),
+            "version": __version__,
+            "environment_file": environment_file(environment),
+            "strip": strip.name if strip else None,
+            "grounding": orders.grounding,
+        }
+        if orders.status:
+            if as_json:
+                emit_json({**asked, "steps": [], "faults": [], **refusal_json(orders.status, orders.remarks[-1])})
+            return orders.code
+        journal = stack.enter_context(RunLog(log)) if log else None
+        film = Film(stage.cell, stage.skills, movie=movie, strip=bool(strip)) if movie or strip else None
+        if film and strip:
+            stack.callback(film.write_strip, strip)
+        told = Telling(asked, orders.orders, journal, lambda: stage.happenings, as_json=as_json)
+        if film:
+            film.open(told.heading, spoken or "")
+        execution = stage.execute(
+            orders.orders,
+            [told, film] if film else [told],
+            planner=chosen,
+            repairs=repairs,
+            fault=Fault(fault) if fault else None,
+        )
+        if film:
+            film.close(execution)
+        told.log_ending(execution, stage.sim.steps)
+    told.print_ending(execution, stage.sim.steps)
+    return ExitCode.NOT_EXECUTED if execution.status is Status.STOPPED else ExitCode.OK
+
+
+def _check_writable(path: Path | None) -> None:
+    """Refuse what cannot be written before minutes have been spent."""
+    if path is None:
+        return
+    reason = ""
+    if not path.parent.is_dir():
+        reason = "No such directory"
+    elif path.is_dir():
+        reason = "Is a directory"
+    elif not os.access(path if path.exists() else path.parent, os.W_OK):
+        reason = "Permission denied"
+    if reason:
+        raise OutputError(f"{path} cannot be written: {reason}", hint="name a file that you may write")

@@ -1,0 +1,136 @@
+"""``tmd scene``: an environment as the robot's room, to be looked at."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit, emit_json
+from tmd.diagnostics import TmdError
+
+if TYPE_CHECKING:
+    from tmd.robot.skills.reachability_report import Entry, Stance
+    from tmd.robot.video.captions import Pixels
+    from tmd.world.environment import Environment
+    from tmd.world.folder import DomainFolder
+
+PICTURE = (960, 640)
+
+
+@click.command("scene", short_help="Show an environment as the robot's room.")
+@click.option(
+    "--environment",
+    required=True,
+    metavar="FILE|NAME",
+    help="An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).",
+)
+@click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
+@click.option("--reach", is_flag=True, help="Say for everything where the robot would stand to take it.")
+@click.option(
+    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Moves things by millimetres; 0: not."
+)
+@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")
+@click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.pass_obj
+def command(
+    roots: Roots,
+    environment: str,
+    domain_name: str | None,
+    reach: bool,
+    seed: int,
+    urdf: Path | None,
+    picture: Path | None,
+    as_json: bool,
+) -> None:
+    """Build the room of an environment, put a PR2 into it, and say what stands where."""
+    if picture is not None and picture.suffix != ".png":
+        raise click.UsageError(f"--picture: '{picture}' does not end in .png")
+
+    import numpy as np
+
+    from tmd.robot.scene.scene import Scene
+    from tmd.robot.setup import make_cell
+    from tmd.robot.sim.simulator import Simulator
+    from tmd.robot.skills.reachability_report import stance, survey
+    from tmd.robot.video.captions import pillow
+
+    if picture is not None:
+        pillow()
+    room, folder, remarks = _read(roots, environment, domain_name)
+    for remark in remarks:
+        emit(f"note: {remark}\n", error=True)
+    with Simulator(pictures=picture is not None) as sim:
+        scene = Scene(sim, room, folder, rng=np.random.default_rng(seed) if seed else None)
+        cell = make_cell(sim, scene, seed=seed, kinematic=True, urdf=urdf)
+        entries = survey(cell)
+        stances = {entry.name: stance(cell, entry.name) for entry in entries} if reach else None
+        if picture is not None:
+            _draw(picture, sim.picture(*scene.viewpoint(), *PICTURE))
+    if as_json:
+        emit_json({"environment": room.name, "objects": [_json(entry, stances) for entry in entries]})
+    else:
+        emit(_text(room.name, entries, stances))
+
+
+def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:
+    path = roots.environment(name, domain)
+    if path.suffix == ".xml":
+        from tmd.datasets.veil500.scene import read_room, scene_of
+
+        veil = scene_of(read_room(path))
+        return veil.environment, veil.folder, veil.remarks
+    if path.suffix == ".pddl":
+        raise TmdError(
+            f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
+            hint="give an environment (YAML)",
+        )
+    from tmd.world.environment import load_environment
+
+    read = load_environment(path)
+    return read, roots.folder(domain or read.domain), ()
+
+
+def _draw(path: Path, pixels: Pixels) -> None:
+    import io
+
+    from PIL import Image
+
+    from tmd.files import write_bytes
+
+    data = io.BytesIO()
+    Image.fromarray(pixels).save(data, "PNG")
+    write_bytes(path, data.getvalue())
+
+
+def _text(name: str, entries: list[Entry], stances: dict[str, Stance | None] | None) -> str:
+    items = sum(entry.item for entry in entries)
+    lines = [f"{name}: {len(entries) - items} pieces of furniture, {items} things to carry"]
+    width = max((len(entry.name) for entry in entries), default=0)
+    wide = max((len(entry.kind) for entry in entries), default=0)
+    for entry in entries:
+        place = f"{entry.place[1]} {entry.place[0]}" if entry.place else ""
+        x, y, z = entry.position
+        line = f"  {entry.name:<{width}}  {entry.kind:<{wide}}  at {x:5.2f} {y:5.2f} {z:5.2f}  {place}"
+        if stances is not None:
+            found = stances[entry.name]
+            line += f"{', ' if place else ''}{found or 'out of reach as it stands now'}"
+        lines.append(line.rstrip())
+    return "\n".join(lines) + "\n"
+
+
+def _json(entry: Entry, stances: dict[str, Stance | None] | None) -> dict[str, object]:
+    found: dict[str, object] = {
+        "name": entry.name,
+        "kind": entry.kind,
+        "item": entry.item,
+        "position": [round(value, 3) for value in entry.position],
+        "at": {"thing": entry.place[0], "relation": entry.place[1]} if entry.place else None,
+    }
+    if stances is not None:
+        where = stances[entry.name]
+        found["stance"] = where and {"base": [round(value, 3) for value in where.base], "hand": where.side or None}
+    return found

@@ -1,0 +1,87 @@
+"""``tmd studio``: watch, correct and demonstrate in the browser."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from tmd.cli.inputs.learned import learned_option
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.output import emit
+from tmd.diagnostics import ExitCode
+
+if TYPE_CHECKING:
+    from tmd.studio.studio import Studio
+
+LOCAL = "127.0.0.1"
+USUAL = "kitchen"
+
+
+@click.command("studio", short_help="Watch plans, correct them and demonstrate, in the browser.")
+@click.option(
+    "--domain", "domain_name", metavar="NAME", help="The domain; that of the environment, or kitchen, by default."
+)
+@click.option("--environment", metavar="FILE|NAME", help="Where visitors come to first; the first one by default.")
+@click.option("--host", default=LOCAL, show_default=True, metavar="ADDRESS", help="Where to listen.")
+@click.option("--port", type=click.IntRange(0, 65535), default=8080, show_default=True, help="0 takes a free one.")
+@learned_option
+@click.pass_obj
+def command(
+    roots: Roots, domain_name: str | None, environment: str | None, host: str, port: int, learned: Path | None
+) -> ExitCode:
+    """Open a studio: a page with the environment in 3D.
+
+    Type a text and see how it is understood, which plans there are and why the others lost; step through them; point at
+    objects; show how a thing is done, and save it beside the domain's demonstrations. Ctrl-C ends it.
+    """
+    from tmd.cli.signals import stoppable
+    from tmd.studio.server import Server, free_port, need_viser
+
+    need_viser()
+    free_port(host, port)  # before anything that takes time
+    studio = open_studio(roots, domain_name, environment, learned)
+    server = Server(studio, host, port)
+    try:
+        emit(f"The studio of {studio.corpus.folder.name} is open: {server.url}\n")
+        emit(f"Demonstrations are saved below {studio.corpus.directory}.\n")
+        if host == LOCAL:
+            emit(
+                "Only this machine can see it. To share it safely: ssh -L 8080:127.0.0.1:8080 THIS-MACHINE\n",
+                error=True,
+            )
+        else:
+            emit(f"Whoever reaches {host} can see it, and save demonstrations: it asks for no password.\n", error=True)
+        with stoppable():
+            server.serve()
+    finally:
+        server.close()
+    return ExitCode.OK
+
+
+def open_studio(roots: Roots, domain: str | None, environment: str | None, learned: Path | None) -> Studio:
+    """The studio of a domain.
+
+    Args:
+        roots: Where domains and problems are.
+        domain: Its name.
+        environment: Where visitors come to first: a name, or a file.
+        learned: Where ``tmd learn --out`` saved.
+
+    Raises:
+        TmdError: There is no such domain or environment, or it is wrong.
+    """
+    from tmd.studio.learning.teaching import Teacher
+    from tmd.studio.studio import Studio
+    from tmd.world.environment import load_environment
+
+    path = roots.environment(environment, domain) if environment else None
+    if path is not None and domain is None:
+        bundled = path.suffix == ".pddl" and path.parent.name == "environments"
+        domain = path.parent.parent.name if bundled else load_environment(path).domain
+    corpus = roots.corpus(roots.folder(domain or USUAL))
+    inside = path is not None and path.parent == corpus.directory / "environments"
+    emit(f"Looking at what the demonstrations of {corpus.folder.name} teach …\n", error=True)
+    teacher = Teacher(corpus, learned)
+    return Studio(corpus, teacher, path.stem if path and inside else None, None if inside else path)

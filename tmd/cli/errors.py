@@ -1,0 +1,112 @@
+"""The one place where whatever went wrong becomes a line for people and an exit code."""
+
+from __future__ import annotations
+
+import errno
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import click
+
+from tmd.diagnostics import ExitCode, Location, TmdError
+
+_CANNOT_WRITE = {errno.ENOSPC, errno.EROFS, errno.EDQUOT, errno.EFBIG, errno.EIO}
+_WIDTH = 100
+"""Longer source lines are shown around the fault only."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is told to the user.
+
+    Attributes:
+        code: What the program ends with.
+        message: What is wrong, in one line.
+        location: Where, if it stands in a text.
+        hint: What to do about it.
+        source: The source line.
+    """
+
+    code: ExitCode
+    message: str
+    location: Location | None = None
+    hint: str | None = None
+    source: str | None = None
+
+    def text(self) -> str:
+        """The fault for people: one line, the source line with a caret where there is one, and the hint."""
+        place = f"{self.location}: " if self.location else ""
+        lines = [f"error: {place}{one_line(self.message)}"]
+        if self.location and self.source is not None:
+            lines += pointed(self.source, self.location.column)
+        if self.hint:
+            lines.append(f"hint: {one_line(self.hint)}")
+        return "\n".join(lines) + "\n"
+
+    def json(self) -> Mapping[str, object]:
+        """The fault for programs."""
+        place = self.location
+        where = {"file": place.file, "line": place.line, "column": place.column} if place else None
+        return {
+            "error": {
+                "code": int(self.code),
+                "name": self.code.name,
+                "message": one_line(self.message),
+                "location": where,
+                "hint": one_line(self.hint) if self.hint else None,
+            }
+        }
+
+
+def fault_of(error: BaseException) -> Fault:
+    """What ``error`` means to the user; everything that nobody foresaw is a fault of the program."""
+    if isinstance(error, TmdError):
+        return Fault(error.exit_code, error.message, error.location, error.hint, error.source)
+    if isinstance(error, click.UsageError):
+        command = error.ctx.command_path if error.ctx else "tmd"
+        return Fault(ExitCode.USAGE, error.format_message(), hint=f"see {command} --help")
+    if isinstance(error, click.ClickException):
+        return Fault(ExitCode.USAGE, error.format_message())
+    if isinstance(error, KeyboardInterrupt | click.Abort):
+        return Fault(ExitCode.INTERRUPTED, "interrupted")
+    if isinstance(error, RecursionError):
+        return Fault(ExitCode.BAD_INPUT, "the input is nested too deeply", hint="write it with fewer levels")
+    if isinstance(error, MemoryError):
+        return Fault(ExitCode.GAVE_UP, "out of memory", hint="use a smaller problem, or a smaller --beam")
+    if isinstance(error, UnicodeError):
+        return Fault(ExitCode.BAD_INPUT, f"text that is not UTF-8: {error}", hint="save it as UTF-8")
+    if isinstance(error, OSError):
+        return _system_fault(error)
+    return _internal(error)
+
+
+def _system_fault(error: OSError) -> Fault:
+    message = f"{error.filename or 'output'}: {error.strerror or error}"
+    if error.errno in _CANNOT_WRITE:
+        return Fault(ExitCode.CANNOT_WRITE, message, hint="make room, or write elsewhere")
+    if error.filename:
+        return Fault(ExitCode.BAD_INPUT, message)
+    return _internal(error)
+
+
+def _internal(error: BaseException) -> Fault:
+    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return Fault(
+        ExitCode.INTERNAL, f"internal error: {what}; please report", hint="tmd --debug … shows where it happened"
+    )
+
+
+def one_line(text: str) -> str:
+    """The text without anything that could move the cursor of a terminal."""
+    return " ".join("".join(c if c.isprintable() else " " for c in text).split())
+
+
+def pointed(source: str, column: int) -> list[str]:
+    """The source line, and under it a caret at ``column``; a long line is cut to what is around it."""
+    line = "".join(c if c.isprintable() else " " for c in source.rstrip("\r\n"))
+    start = max(0, column - 1 - _WIDTH // 2) if len(line) > _WIDTH else 0
+    shown = line[start : start + _WIDTH]
+    before = shown[: max(0, column - 1 - start)]
+    width = sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in before)
+    return [f"  {shown}", f"  {' ' * width}^"]

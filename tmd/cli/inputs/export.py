@@ -1,0 +1,231 @@
+"""What is to be exported: a problem with a plan that a planner finds, a text's plan, or a plan that is in a file."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import click
+
+from tmd.cli.inputs.paths import Roots
+from tmd.diagnostics import ExitCode, Location, TmdError
+from tmd.export.planned_problem import Planned, planned, with_outcome
+from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.plan_file import Plan, read_plan
+from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.syntax import read_text
+
+ASKED, CHANGED = "asked", "changed"
+"""Goals by name, for a text: what it asks for, and everything that its plan changes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """The options that say what is to be exported."""
+
+    source: str
+    domain: str | None = None
+    plan: Path | None = None
+    planner: str | None = None
+    text: str | None = None
+    goal: str | None = None
+    example: str | None = None
+    model: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class NoPlan:
+    """There is no plan: why, and what the program ends with because of that."""
+
+    reason: str
+    code: ExitCode
+
+
+def planned_source(roots: Roots, asked: Asked) -> Planned | NoPlan:
+    """The problem and the plan that were asked for.
+
+    Raises:
+        TmdError: Something is missing or wrong.
+        click.UsageError: An option has no meaning for this source.
+    """
+    path = Path(asked.source)
+    of_text = asked.text is not None or path.suffix == ".json"
+    if asked.goal in (ASKED, CHANGED) and not of_text:
+        raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
+    if path.is_dir():
+        from tmd.cli.inputs.prediction import prediction
+
+        return _checked(*prediction(roots, path, asked.example, asked.model), asked.goal)
+    if asked.example or asked.model:
+        raise click.UsageError(f"--example and --model are for the directory of a run, and {path} is none")
+    if path.suffix == ".json":
+        return _of_json(roots, path, asked)
+    if path.suffix == ".pddl":
+        return _of_problem(roots, path, asked)
+    return _of_environment(roots, asked)
+
+
+def _of_problem(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
+    if asked.text is not None:
+        raise click.UsageError("a text is for an environment; a PDDL problem has a goal")
+    problem = load_problem(roots, path, asked.domain)
+    if asked.goal:
+        problem = with_goal(problem, asked.goal)
+    return _of_file(problem, asked.plan) if asked.plan else _solved(problem, asked.planner)
+
+
+def load_problem(roots: Roots, path: Path, domain: str | None) -> Problem:
+    """A PDDL problem with its domain.
+
+    That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has the
+    name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem names.
+
+    Raises:
+        TmdError: One of them is missing or wrong.
+    """
+    from tmd.pddl.reading.reader import read_domain, read_problem
+
+    if domain is not None:
+        return read_problem(path, roots.domain(domain))
+    text = read_text(path)
+    beside = path.parent / "domain.pddl"
+    if beside.is_file():
+        return read_problem(path, read_domain(beside))
+    named = _domain_name(text, path)
+    domain_read = None
+    with suppress(TmdError):
+        domain_read = roots.folder(path.resolve().parent.name).domain
+    if domain_read is None or domain_read.name != named:
+        domain_read = roots.folder(named).domain
+    return read_problem(path, domain_read)
+
+
+def _domain_name(text: str, path: Path) -> str:
+    from tmd.pddl.reading.parentheses import parse
+    from tmd.pddl.reading.syntax import Group, Word
+
+    for group in parse(text, str(path)).groups:
+        for part in group.parts:
+            if isinstance(part, Group) and part.head == ":domain" and len(part.parts) == 2:
+                name = part.parts[1]
+                if isinstance(name, Word):
+                    return name.text
+    raise TmdError(
+        "this problem does not say of which domain it is",
+        location=Location(str(path), 1, 1),
+        hint="give --domain NAME, or write (:domain NAME)",
+    )
+
+
+def _of_environment(roots: Roots, asked: Asked) -> Planned | NoPlan:
+    from tmd.cli.inputs.environment import load_scene
+    from tmd.cli.inputs.plan import orders_of_text
+    from tmd.planning.backends import IN_PROCESS
+
+    if not (asked.text or asked.plan or asked.goal) or (asked.text and asked.plan):
+        raise click.UsageError(f"for the environment {asked.source} give one of --text, --text-file, --plan and --goal")
+    corpus, world = load_scene(roots, asked.source, asked.domain)
+    problem = world.task.problem
+    if asked.text is not None:
+        orders = orders_of_text(asked.text, corpus, world, asked.planner or IN_PROCESS)
+        if orders.status:
+            return NoPlan(orders.remarks[-1].strip().removeprefix("no plan: "), orders.code)
+        goal = _goal(asked, orders.grounding or {})
+        return _checked(problem, tuple(order.instruction for order in orders.orders), goal)
+    if asked.plan is None:
+        return _solved(with_goal(problem, asked.goal or ""), asked.planner)
+    if asked.goal:
+        return _of_file(with_goal(problem, asked.goal), asked.plan)
+    plan = read_plan(asked.plan)
+    refused = _refusal(problem, plan)
+    return refused or _checked(problem, plan.instructions, None)
+
+
+def _of_json(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
+    """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
+    from tmd.cli.inputs.environment import load_scene
+    from tmd.export.record import FORMAT, parse_record
+
+    text = read_text(path)
+    value = _json(text, path)
+    if value.get("format") == FORMAT:
+        return parse_record(text, str(path))
+    plans, environment = value.get("plans"), value.get("environment")
+    if not isinstance(plans, list) or not isinstance(environment, str):
+        raise TmdError(f"{path} is no plan", hint="give what tmd ground --json or tmd export --format json wrote")
+    if not plans:
+        return NoPlan(f"{path} has no plan", ExitCode.NOT_GROUNDED)
+    _, world = load_scene(roots, environment, asked.domain or value.get("domain"))
+    try:
+        steps = tuple(Instruction(step["action"], tuple(step["args"])) for step in plans[0]["steps"])
+    except (KeyError, TypeError) as error:
+        raise TmdError(f"{path}: the first plan has no steps with action and args") from error
+    return _checked(world.task.problem, steps, _goal(asked, value))
+
+
+def _goal(asked: Asked, grounding: Mapping[str, Any]) -> str | None:
+    """The goal for the plan of a text; ``None`` for everything that the plan changes.
+
+    Raises:
+        TmdError: What the text asks for is wanted, and not known.
+    """
+    stated = grounding["plans"][0].get("goal")
+    if asked.goal == ASKED and not isinstance(stated, str):
+        raise TmdError(
+            "what the text asks for is not known: it was grounded by a model without goals, or by an older tmd",
+            hint=f"ground it again, or take --goal {CHANGED}",
+        )
+    if asked.goal in (None, ASKED):
+        return stated if isinstance(stated, str) else None
+    return None if asked.goal == CHANGED else asked.goal
+
+
+def _json(text: str, path: Path) -> Mapping[str, Any]:
+    try:
+        value = json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise TmdError(f"{path} is no JSON: {error}") from error
+    if not isinstance(value, dict):
+        raise TmdError(f"{path} is no plan: it is no JSON object")
+    return value
+
+
+def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) -> Planned | NoPlan:
+    """A plan that reaches ``goal``; where none is stated, what the plan brings about is its goal."""
+    refused = _refusal(with_goal(problem, goal) if goal else problem, Plan(plan))
+    if refused:
+        return refused
+    return planned(with_goal(problem, goal) if goal else with_outcome(problem, plan), plan)
+
+
+def _of_file(problem: Problem, path: Path) -> Planned | NoPlan:
+    from tmd.export.strips import restored
+
+    read = read_plan(path)
+    plan = Plan(restored(problem, read.instructions), read.cost, read.locations)
+    return _refusal(problem, plan) or planned(problem, plan.instructions)
+
+
+def _refusal(problem: Problem, plan: Plan) -> NoPlan | None:
+    from tmd.pddl.validator import validate
+
+    verdict = validate(problem, plan.instructions)
+    if verdict.valid:
+        return None
+    place = f"{plan.locations[verdict.step - 1]}: " if verdict.step and plan.locations else ""
+    return NoPlan(f"{place}{verdict.reason}", ExitCode.INVALID_PLAN)
+
+
+def _solved(problem: Problem, planner: str | None) -> Planned | NoPlan:
+    from tmd.cli.show.answer import exit_code, why_none
+    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.result import Filled
+
+    answer = solve(problem, planner or AUTO)
+    if isinstance(answer, Filled):
+        return planned(problem, answer.plan)
+    return NoPlan(why_none(answer), exit_code(answer))

@@ -1,0 +1,151 @@
+"""Where the command line looks for domains, problems and environments, and what a name on it means."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, NoReturn
+
+from tmd.diagnostics import TmdError
+
+if TYPE_CHECKING:
+    from tmd.language.lexicon.lexicon import Lexicon
+    from tmd.pddl.model import Domain
+    from tmd.veil.corpus import Corpus
+    from tmd.world.folder import DomainFolder
+
+
+@dataclass(frozen=True, slots=True)
+class Roots:
+    """The global options ``--domains`` and ``--problems``; ``None`` is the usual place."""
+
+    domains: Path | None = None
+    problems: Path | None = None
+
+    def folder(self, name: str) -> DomainFolder:
+        """The domain ``name``, or the domain in the directory of that name where it is written as a path.
+
+        Raises:
+            TmdError: There is none.
+        """
+        from tmd.world.folder import find_domain
+
+        path = Path(name)
+        if _is_path(name) and path.is_dir():
+            return find_domain(path.resolve().name, path.resolve().parent)
+        return find_domain(name, self.domains)
+
+    def sources(self, name: str) -> DomainFolder:
+        """As :meth:`folder`, for a domain whose ``domain.pddl`` may be still to be compiled.
+
+        Raises:
+            TmdError: There is none, or it has no object graphs.
+        """
+        from tmd.world.folder import DomainFolder, find_roots
+
+        roots = [] if _is_path(name) else find_roots("domains", self.domains)
+        path = next((root / name for root in roots if (root / name).is_dir()), Path(name))
+        folder = DomainFolder(path.resolve() if name in (".", "..") else path)
+        if not folder.instructions_path.is_file():
+            self._nothing_to_compile(name)
+        return folder
+
+    def _nothing_to_compile(self, name: str) -> NoReturn:
+        folder = self.folder(name)
+        raise TmdError(
+            f"there is nothing to compile in {folder.path}",
+            hint="a domain with object graphs has instructions.pddl and objects.yaml",
+        )
+
+    def corpus(self, folder: DomainFolder) -> Corpus:
+        """The bundled environments and demonstrations of a domain.
+
+        Raises:
+            TmdError: There is no directory of problems.
+        """
+        from tmd.veil.corpus import Corpus
+        from tmd.world.folder import find_problems
+
+        return Corpus(folder, find_problems(folder.name, self.problems))
+
+    def lexicon(self, name: str) -> Lexicon:
+        """The words of a domain.
+
+        Raises:
+            TmdError: There is no such domain, or its file of words is wrong.
+        """
+        from tmd.language.lexicon.lexicon import Lexicon
+
+        folder = self.folder(name)
+        return Lexicon.load(folder.lexicon_path, folder.kinds)
+
+    def domain(self, name: str) -> Domain:
+        """The PDDL domain in a file, in a directory, or of a bundled name.
+
+        Raises:
+            TmdError: There is none, or it is wrong.
+        """
+        from tmd.pddl.reading.reader import read_domain
+
+        path = Path(name)
+        if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
+            return read_domain(path)
+        return self.folder(name).domain
+
+    def path(self, name: str) -> Path:
+        """The file or directory of that name; where there is none, the folder of the domain of that name.
+
+        Raises:
+            TmdError: There is neither.
+        """
+        path = Path(name)
+        if path.exists() or path.suffix or _is_path(name):
+            return path
+        return self.folder(name).path
+
+    def pddl_file(self, name: str) -> Path:
+        """The PDDL file of a domain: that file, or the one of a bundled domain or of a domain folder.
+
+        Raises:
+            TmdError: There is none.
+        """
+        path = Path(name)
+        if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
+            return path
+        return self.folder(name).path / "domain.pddl"
+
+    def environment(self, name: str, domain: str | None) -> Path:
+        """The file of an environment: the one at that path, or the bundled one of that name.
+
+        Raises:
+            TmdError: There is none, or several domains have one.
+        """
+        path = Path(name)
+        if path.is_file() or path.suffix or _is_path(name):
+            return path
+        return self._bundled(name, domain)
+
+    def _bundled(self, name: str, domain: str | None) -> Path:
+        from tmd.pddl.reading.syntax import nearest
+        from tmd.world.folder import find_roots
+
+        places: dict[str, Path] = {}
+        for root in find_roots("problems", self.problems):
+            for directory in sorted(root.glob(f"{domain or '*'}/environments")):
+                places.setdefault(directory.parent.name, directory)
+        files = [f for _, d in sorted(places.items()) for f in sorted(d.iterdir()) if f.suffix in (".yaml", ".pddl")]
+        found = [file for file in files if file.stem == name]
+        if len(found) == 1:
+            return found[0]
+        if found:
+            domains = ", ".join(file.parent.parent.name for file in found)
+            raise TmdError(f"several domains have an environment '{name}'", hint=f"give --domain: {domains}")
+        known = sorted({file.stem for file in files})
+        raise TmdError(
+            f"there is no environment '{name}'",
+            hint=nearest(name, known, what="environments") or "give the file of one",
+        )
+
+
+def _is_path(name: str) -> bool:
+    return "/" in name or "\\" in name or name in (".", "..")

@@ -1,0 +1,81 @@
+"""What the robot is to do: the best plan of a text, or the plan of a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.robot.monitor.listeners import Order
+
+if TYPE_CHECKING:
+    from tmd.veil.corpus import Corpus
+    from tmd.veil.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Orders:
+    """A plan, or why there is none.
+
+    Attributes:
+        orders: The plan.
+        code: ``OK``, or what the program ends with because there is none.
+        status: ``not_grounded`` or ``invalid_plan``; empty for a plan.
+        remarks: Lines for standard error.
+        grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
+    """
+
+    orders: tuple[Order, ...]
+    code: ExitCode = ExitCode.OK
+    status: str = ""
+    remarks: tuple[str, ...] = ()
+    grounding: Mapping[str, object] | None = None
+
+
+def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learned: Path | None = None) -> Orders:
+    """Ground a text, as ``tmd ground`` does with its usual options.
+
+    Raises:
+        TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
+    """
+    from tmd.cli.inputs.environment import frequent_verbs, unknown_nouns
+    from tmd.cli.inputs.grounding import made_with
+    from tmd.cli.show.plans import grounded_json
+    from tmd.cli.show.warnings import remarks, warnings
+    from tmd.ground import ground
+    from tmd.inference.learned.store import known
+
+    knowledge = known(corpus, learned)
+    grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
+    unknown = unknown_nouns(grounded.parsed.clauses, world)
+    warned = warnings(grounded, unknown, frequent_verbs(knowledge.library), {})
+    told = tuple(remarks(grounded, warned))
+    record = grounded_json(grounded, corpus.folder.name, world.name, unknown, warned)
+    record["made_with"] = made_with(planner)
+    if not any(verdict.valid for verdict in grounded.verdicts):
+        return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
+    clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
+    steps = grounded.plans[0].steps
+    orders = tuple(Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in steps)
+    return Orders(orders, remarks=told, grounding=record)
+
+
+def orders_of_file(path: Path, world: World) -> Orders:
+    """Read a plan file; a plan that does not work is not begun.
+
+    Raises:
+        TmdError: The file cannot be read, or has no instructions.
+    """
+    from tmd.pddl.plan_file import read_plan
+    from tmd.pddl.validator import validate
+
+    plan = read_plan(path)
+    if not plan.instructions:
+        raise TmdError(f"{path}: the plan has no instructions", hint="write one (name argument ...) a line")
+    verdict = validate(world.task.problem, plan.instructions)
+    if not verdict.valid:
+        place = f"{plan.locations[verdict.step - 1]}: " if verdict.step else ""
+        return Orders((), ExitCode.INVALID_PLAN, "invalid_plan", (f"invalid: {place}{verdict.reason}\n",))
+    return Orders(tuple(map(Order, plan.instructions)))

@@ -1,0 +1,163 @@
+"""What is to be shown: a text that is grounded now, or what a file holds."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from tmd.cli.inputs.environment import load_scene
+from tmd.cli.inputs.export import load_problem
+from tmd.cli.inputs.grounding import GroundingOptions, answer
+from tmd.cli.inputs.paths import Roots
+from tmd.cli.inputs.view import STANDARD, Asked, Found, title_of
+from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
+from tmd.cli.show.warnings import refusal, remarks
+from tmd.diagnostics import Location, TmdError
+from tmd.export.record import FORMAT, parse_record
+from tmd.export.strips import restored
+from tmd.pddl.model import Problem
+from tmd.pddl.plan_file import Plan, parse_plan
+from tmd.pddl.reading.syntax import read_text
+from tmd.view.subject import PlannedStep, Subject, grounded_subject
+
+MAX_STEPS = 10_000
+"""Plans with more steps are refused: nobody reads such a page."""
+_KINDS = "what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
+
+
+def subject_of_text(roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions) -> Found:
+    """Ground a text now.
+
+    Raises:
+        TmdError: The environment, or how it is to be grounded, is wrong.
+    """
+    found = answer(roots, text, environment, domain, options)
+    grounded = found.grounded
+    rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
+    subject = grounded_subject(
+        title_of(text, found.world.name),
+        found.world,
+        grounded.parsed,
+        grounded.plans,
+        grounded.refusals,
+        unseen=grounded.unseen,
+        unknown=found.unknown,
+        made=rows,
+        refused=refusal(grounded),
+    )
+    told = tuple(remarks(grounded, found.warnings))
+    return Found(subject, Path(f"{found.world.name}.html"), told, of_text=True)
+
+
+def subject_of_file(roots: Roots, asked: Asked) -> Found:
+    """What a file holds: its content says what kind of file it is.
+
+    Raises:
+        TmdError: It is of no kind that is known, or something in it or around it is wrong.
+        click.UsageError: An option has no meaning for this kind.
+    """
+    if asked.source != STANDARD and asked.path.is_dir():
+        raise TmdError(f"{asked.source} is a directory", hint=f"give a file: {_KINDS}")
+    text = _read(asked)
+    found = _of_text(roots, asked, text)
+    if len(found.subject.steps) > MAX_STEPS:
+        raise TmdError(
+            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown"
+        )
+    return found
+
+
+def _read(asked: Asked) -> str:
+    if asked.source != STANDARD:
+        return read_text(asked.path)
+    try:
+        return sys.stdin.buffer.read().decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
+
+
+def _of_text(roots: Roots, asked: Asked, text: str) -> Found:
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
+    if not lines:
+        raise TmdError(f"{asked.name} is empty", hint=f"give {_KINDS}")
+    if not lines[0][1].lstrip().startswith(("{", "[")):
+        _only(asked, "problem", "environment", "domain")
+        return _plan_found(roots, asked, text)
+    first = _object(text) or _object(lines[0][1])
+    if first is None:
+        raise _not_json(asked, text)
+    return _of_json(roots, asked, first, lines)
+
+
+def _of_json(roots: Roots, asked: Asked, first: dict[str, Any], lines: list[tuple[int, str]]) -> Found:
+    if "segments" in first:
+        _only(asked, "demonstration", "environment", "domain")
+        return demonstration_found(roots, asked, lines)
+    if first.get("format") == FORMAT:
+        _only(asked)
+        planned = parse_record("\n".join(line for _, line in lines), asked.name)
+        return _plan_of(asked, planned.problem, Plan(planned.plan))
+    if "event" in first or ("mode" in first and "steps" in first):
+        _only(asked, "environment", "domain", "strip")
+        return run_found(roots, asked, first, lines)
+    if "plans" in first:
+        _only(asked, "environment", "domain")
+        return grounding_found(roots, asked, first)
+    if isinstance(first.get("error"), dict):
+        raise TmdError(f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}")
+    raise TmdError(f"{asked.name} is JSON of no kind that can be shown", hint=f"give {_KINDS}")
+
+
+def _only(asked: Asked, *meant: str) -> None:
+    """Refuse options that this kind of file has no use for."""
+    names = {"problem": "--problem", "environment": "--environment", "domain": "--domain"}
+    names |= {"demonstration": "--id", "strip": "--strip"}
+    for field, option in names.items():
+        if field not in meant and getattr(asked, field) is not None:
+            raise click.UsageError(f"{option} has no meaning for {asked.name}")
+
+
+def _object(text: str) -> dict[str, Any] | None:
+    try:
+        value = json.loads(text)
+    except (ValueError, RecursionError):
+        return None
+    return value if isinstance(value, dict) else None
+
+
+def _not_json(asked: Asked, text: str) -> TmdError:
+    """What is wrong with a text that begins as JSON does."""
+    try:
+        json.loads(text)
+    except json.JSONDecodeError as error:
+        place = Location(asked.name, error.lineno, error.colno)
+        return TmdError(f"this is no JSON: {error.msg}", location=place, hint=f"give {_KINDS}")
+    except (ValueError, RecursionError) as error:
+        return TmdError(f"{asked.name} is no JSON that can be read: {error}")
+    return TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
+
+
+def _plan_found(roots: Roots, asked: Asked, text: str) -> Found:
+    """A plan file, in a problem or an environment."""
+    if (asked.problem is None) == (asked.environment is None):
+        raise click.UsageError(f"for the plan {asked.name} give one of --problem and --environment")
+    plan = parse_plan(text, asked.name)
+    if not plan.instructions:
+        raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")
+    if asked.problem is not None:
+        problem = load_problem(roots, asked.problem, asked.domain)
+    else:
+        problem = load_scene(roots, asked.environment or "", asked.domain)[1].task.problem
+    return _plan_of(asked, problem, plan)
+
+
+def _plan_of(asked: Asked, problem: Problem, plan: Plan) -> Found:
+    where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
+    steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
+    subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
+    told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
+    return Found(subject, asked.path.with_suffix(".html"), (told,) if plan.overlap else (), plan.locations)

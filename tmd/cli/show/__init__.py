@@ -1,0 +1,1 @@
+"""What commands print: clauses, goals, plans, runs and warnings, as JSON and as lines for people."""

@@ -1,0 +1,229 @@
+"""A run as lines for people, as JSON, and as a log that grows."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Self
+
+from tmd.cli.output import emit, emit_json
+from tmd.diagnostics import OutputError
+from tmd.pddl.model import GroundAtom
+from tmd.robot.monitor.faults import Happening
+from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.skills.results import Execution, Status, Step
+
+_FACTS = 2
+"""So many confirmed facts are told on a line."""
+
+
+def plan_json(orders: Sequence[Order]) -> list[dict[str, object]]:
+    """The plan, one entry for each instruction."""
+    return [_order_json(order) for order in orders]
+
+
+def _order_json(order: Order) -> dict[str, object]:
+    action, args = order.instruction
+    return {"action": action, "args": list(args), "clause": order.clause, "latent": order.latent}
+
+
+def step_json(title: Title, step: Step) -> dict[str, object]:
+    """One step: what was done, and what was seen."""
+    action, args = step.instruction
+    return {
+        "number": title.number,
+        "action": action,
+        "args": list(args),
+        "repair": title.repair,
+        "outcome": outcome(step),
+        "failure": step.failure or None,
+        "evidence": step.evidence or None,
+        "confirmed": [str(atom) for atom in step.confirmed],
+        "mismatches": [{"fact": str(m.atom), "expected": m.expected, "measured": m.measured} for m in step.mismatches],
+        "begin": step.begin,
+        "end": step.end,
+    }
+
+
+def outcome(step: Step) -> str:
+    """``ok``, ``failed`` or ``mismatch``."""
+    return "failed" if step.failure else "mismatch" if step.mismatches else "ok"
+
+
+def execution_json(execution: Execution, steps: int) -> dict[str, object]:
+    """How a run ended."""
+    return {
+        "status": str(execution.status),
+        "reason": execution.reason or None,
+        "repairs": execution.repairs,
+        "seconds": round(steps / STEPS_PER_SECOND, 2),
+    }
+
+
+def refusal_json(status: str, reason: str) -> dict[str, object]:
+    """How a run ended that did not begin."""
+    return {"status": status, "reason": reason.strip(), "repairs": 0, "seconds": 0.0}
+
+
+class Telling:
+    """Tells a run as it goes: a line for each instruction, or one JSON value in the end; and the log.
+
+    Args:
+        asked: What was asked, as the beginning of the record.
+        orders: The plan.
+        journal: The log.
+        happenings: The faults that came about so far.
+        as_json: Print JSON, and nothing before the end.
+
+    Attributes:
+        heading: What is done, where and how, in a few words.
+    """
+
+    def __init__(
+        self,
+        asked: dict[str, object],
+        orders: Sequence[Order],
+        journal: RunLog | None,
+        happenings: Callable[[], Sequence[Happening]],
+        *,
+        as_json: bool,
+    ) -> None:
+        self._asked = asked
+        self._journal = journal
+        self._happenings = happenings
+        self._told = 0
+        self._as_json = as_json
+        self._steps: list[dict[str, object]] = []
+        self._width = max((len(str(order.instruction)) for order in orders), default=0)
+        self._origin = max((len(_origin(order)) for order in orders), default=0)
+        how = "under physics" if asked["mode"] == "physics" else "without physics"
+        self.heading = f"{_count(len(orders), 'instruction')} in {asked['environment']}, {how}"
+        self._print(f"plan: {self.heading}\n")
+        self._log({"event": "plan", **asked})
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins: the log of a run that was killed says what it was doing."""
+        self._log({"event": "begin", "number": title.number, "instruction": str(title.instruction)})
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over."""
+        for happening in self._happenings()[self._told :]:
+            self._told += 1
+            self._log({"event": "fault", "what": happening.text, "tick": happening.tick})
+            self._print(f"    !  fault: {happening.text}\n")
+        told = step_json(title, step)
+        self._steps.append(told)
+        self._log({"event": "step", **told})
+        origin = "repair" if title.order is None else _origin(title.order)
+        number = "+" if title.repair else str(title.number)
+        self._print(f"  {number:>3}. {step.instruction!s:<{self._width}}  {origin:<{self._origin}}  {_found(step)}\n")
+
+    def log_ending(self, execution: Execution, steps: int) -> None:
+        """The last line of the log: how it ended, after so many steps of physics."""
+        self._log({"event": "end", **execution_json(execution, steps)})
+
+    def print_ending(self, execution: Execution, steps: int) -> None:
+        """What is printed last, when all files are written: how it ended, or the whole record."""
+        if self._as_json:
+            faults = [{"what": happening.text, "tick": happening.tick} for happening in self._happenings()]
+            emit_json({**self._asked, "steps": self._steps, "faults": faults, **execution_json(execution, steps)})
+        else:
+            emit(_ending(execution, steps))
+
+    def _print(self, text: str) -> None:
+        if not self._as_json:
+            emit(text)
+
+    def _log(self, entry: dict[str, object]) -> None:
+        if self._journal is not None:
+            self._journal.write(entry)
+
+
+def _found(step: Step) -> str:
+    """What was seen, in one line; all of it is in the JSON record."""
+    if step.failure:
+        return f"failed: {step.failure}"
+    if step.mismatches:
+        first = min(step.mismatches, key=lambda m: not m.expected)
+        return f"not as predicted: {_first([str(first), *step.mismatches[1:]], 1)}"
+    facts = f"; confirmed {_first(step.confirmed, _FACTS)}" if step.confirmed else ""
+    return f"ok: {step.evidence}{facts}"
+
+
+def _first(things: Sequence[object], most: int) -> str:
+    """The first of some things, and how many more there are."""
+    more = f" and {len(things) - most} more" if len(things) > most else ""
+    return " ".join(str(thing) for thing in things[:most]) + more
+
+
+def _origin(order: Order) -> str:
+    if order.clause is None:
+        return ""
+    return f"clause {order.clause + 1}{', left unsaid' if order.latent else ''}"
+
+
+def _ending(execution: Execution, steps: int) -> str:
+    how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
+    told = {
+        Status.DONE: "every effect of every instruction is confirmed" if execution.steps else "there was nothing to do",
+        Status.RECOVERED: f"everything that the plan is for is confirmed, {how}",
+        Status.STOPPED: execution.reason,
+    }[execution.status]
+    count = _count(len(execution.steps), "instruction")
+    return f"{execution.status}: {told}; {count}, {steps / STEPS_PER_SECOND:.1f} s simulated\n"
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'' if number == 1 else 's'}"
+
+
+class RunLog:
+    """A JSON Lines file: the plan, then each step when it is over, then how the run ended.
+
+    Every line is written at once, so that the log of a run that was killed can be read.
+
+    Args:
+        path: Where it goes; it is not touched before the first line.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._file: IO[str] | None = None
+        self._ended = False
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._file is None:
+            return
+        try:
+            if kind is not None and not self._ended and not isinstance(error, OutputError):
+                interrupted = issubclass(kind, KeyboardInterrupt)
+                self.write(
+                    {"event": "end", "status": "interrupted" if interrupted else "error", "reason": str(error) or None}
+                )
+        finally:
+            self._file.close()
+
+    def write(self, entry: dict[str, object]) -> None:
+        """Write one line.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        try:
+            if self._file is None:
+                self._file = self._path.open("w", encoding="utf-8", buffering=1)
+            self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
+            self._ended = entry.get("event") == "end"
+        except OSError as error:
+            raise OutputError(
+                f"{self._path} cannot be written: {error.strerror or error}",
+                hint="check that the directory exists, that you may write there and that the disk has room",
+            ) from error

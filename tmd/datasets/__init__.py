@@ -1,0 +1,1 @@
+"""Data sets of others: reading them, and what they say as PDDL."""

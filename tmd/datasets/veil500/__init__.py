@@ -1,0 +1,36 @@
+"""VEIL-500, the data set behind the paper's follow-up: reading, simulating, repairing and checking it.
+
+The data are not part of this project; give the directory of your copy to :func:`load`. All about it is in
+``docs/veil500.md``.
+"""
+
+from tmd.datasets.veil500.compile import absent_types, compile_environment, veil_domain
+from tmd.datasets.veil500.data import Group, Point, VeilData, load
+from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
+from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil
+from tmd.datasets.veil500.repair import executability, repair, repaired
+from tmd.datasets.veil500.report import DataReport, check
+from tmd.pddl.forced_execution import Rollout, Simulator, rollout
+
+__all__ = [
+    "DataReport",
+    "Group",
+    "Point",
+    "Rollout",
+    "Simulator",
+    "VeilData",
+    "VeilEnvironment",
+    "VeilObject",
+    "absent_types",
+    "check",
+    "compile_environment",
+    "executability",
+    "from_veil",
+    "load",
+    "mentioned",
+    "repair",
+    "repaired",
+    "rollout",
+    "to_veil",
+    "veil_domain",
+]

@@ -1,0 +1,126 @@
+"""The action forms of VEIL-500 and the instructions of Table I: one to one, both ways.
+
+VEIL writes ``keep Mug_1 On Sink``; the paper's Table I writes ``keep(obj1, obj2, R)``, and so do the PDDL
+domains: ``keep(mug_1, sink, on)``. Names in PDDL are lower case, so the way back needs the table of names of
+an environment. Two VEIL verbs hide several instructions each: ``add IceCreamScoop y`` is Table I's
+``scoopTo``, done with the only spoon, and ``pour`` with one argument empties a vessel.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from tmd.diagnostics import DataError, Location
+from tmd.pddl.model import Instruction
+
+SCOOP = "icecreamscoop"
+"""The scoop of ice cream on the spoon. No action moves it, it only names what is added."""
+
+SPOON = "spoon_1"
+"""The spoon that VEIL's rule for adding a scoop means, whatever else is held."""
+
+RELATIONS = {"on": "On", "in": "In", "inside": "Inside", "next_to": "Near"}
+"""PDDL constant to VEIL word. ``Near`` between things is ``next_to``: ``near`` is said of the robot."""
+
+RESERVED = frozenset(
+    (
+        *("object", "thing", "item", "button", "knob", "openable", "door", "additive", "cutlery"),
+        *("scooper", "robot", "relation", "state", "content", "fluid", "switch", "channel", "doorstate"),
+        *("pr2", "on", "in", "inside", "next_to", "water", "coffee", "coke", "energydrink", "icecream"),
+        *("chocolate", "canadadry", "vanilla", "salt", "ramen", "egg", "spoon", "fork", "percentfilled"),
+        *("scoopsleft", "haschips", "isopen", "ison", "volume", "cd", "tapison", "microwaveison"),
+        *("waterdispenserisopen", "doorisopen", "leftdoorisopen", "rightdoorisopen"),
+        *("add", "at", "boiling", "both_hands_used", "close", "closed_off", "declares", "dispenses"),
+        *("encloses", "feeds", "gated", "goes_whole", "grasp", "graspable", "hand_fed", "holding", "hot"),
+        *("insert", "is", "keep", "lights", "lit", "lowers", "moveto", "near", "needs_shut"),
+        *("one_hand_used", "only_door", "open", "opened_in_hand", "place", "pour", "pour_out", "press"),
+        *("raises", "reached_anywhere", "reached_at", "release", "scoopfrom", "scoopto", "shut_away"),
+        *("squeezable", "squeeze", "steps", "stops", "supports", "swings", "turn", "twin_door", "wait"),
+        *("worked_by", "worked_freely", "works", "yields"),
+        *(f"stovefire{k}" for k in range(1, 5)),
+        *(f"channel{k}" for k in range(1, 7)),
+    )
+)
+"""Names that the two domains use (tools want each name once); a thing of that name gets another one."""
+
+_TOKEN = re.compile(r"[A-Za-z0-9][A-Za-z0-9_]*\Z")
+_FROM_RELATION = {word.lower(): constant for constant, word in RELATIONS.items()}
+
+
+def pddl_name(name: str) -> str:
+    """The PDDL name of an object or state of VEIL: ``Mug_1`` is ``mug_1``."""
+    lower = name.lower()
+    return f"{lower}_thing" if lower in RESERVED else lower
+
+
+def from_veil(text: str, location: Location | None = None) -> Instruction:
+    """The instruction that a VEIL action is.
+
+    A verb without a rule or a wrong number of arguments is kept as it stands: it names no action schema, so
+    it is not executable and does nothing.
+
+    Raises:
+        DataError: The text is empty or holds something that is not a word.
+    """
+    tokens = text.split()
+    if not tokens:
+        raise DataError("an action without words", location=location, hint="delete it, or write: verb argument…")
+    for token in tokens:
+        if not _TOKEN.match(token):
+            raise DataError(
+                f"'{token}' in the action '{' '.join(tokens)}' is not a name",
+                location=location,
+                hint="names are letters, digits and underscores",
+            )
+    verb, *rest = (token.lower() for token in tokens)
+    args = tuple(pddl_name(token) for token in rest)
+    match verb, len(args):
+        case "keep", 3:
+            return Instruction("keep", (args[0], args[2], _FROM_RELATION.get(rest[1], args[1])))
+        case "pour", 1:
+            return Instruction("pour_out", args)
+        case "scoop", 2:
+            return Instruction("scoopfrom", args)
+        case "add", 2 if args[0] == SCOOP:
+            return Instruction("scoopto", (SPOON, args[1]))
+    return Instruction(verb, args)
+
+
+def to_veil(instruction: Instruction, names: Mapping[str, str]) -> str:
+    """The VEIL action of an instruction.
+
+    Args:
+        instruction: An instruction of the VEIL domains.
+        names: PDDL name to VEIL name, such as :attr:`VeilEnvironment.names`; others stay as they are.
+
+    Raises:
+        DataError: VEIL cannot say it: scooping with something other than the one spoon.
+    """
+    verb, args = instruction
+    spelled = [names.get(arg, arg) for arg in args]
+    match verb, len(args):
+        case "keep", 3:
+            return f"keep {spelled[0]} {RELATIONS.get(args[2], args[2])} {spelled[1]}"
+        case "pour_out", 1:
+            return f"pour {spelled[0]}"
+        case "scoopfrom", 2:
+            return f"scoop {spelled[0]} {spelled[1]}"
+        case "scoopto", 2:
+            if args[0] != SPOON:
+                raise DataError(
+                    f"VEIL-500 has no action for {instruction}",
+                    hint=f"only {SPOON} can scoop; name it instead",
+                )
+            return f"add {names.get(SCOOP, 'IceCreamScoop')} {spelled[1]}"
+    return " ".join((verb, *spelled))
+
+
+def mentioned(instruction: Instruction) -> tuple[str, ...]:
+    """The objects that the VEIL action names, relation words left out (what the metrics call the cover)."""
+    match instruction.name, len(instruction.args):
+        case "keep", 3:
+            return instruction.args[:2]
+        case "scoopto", 2:
+            return (SCOOP, instruction.args[1])
+    return instruction.args

@@ -1,0 +1,215 @@
+"""What is in a copy of VEIL-500: what was found, repaired and dropped (``tmd data check``)."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections import Counter
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from tmd.datasets.veil500.compile import veil_domain
+from tmd.datasets.veil500.data import Point, VeilData, load
+from tmd.datasets.veil500.forms import mentioned
+from tmd.datasets.veil500.relations import initial_relations, unsupported
+from tmd.datasets.veil500.repair import Repaired, Repairer
+
+_WORD = re.compile(r"[a-z0-9']+")
+
+
+@dataclass(frozen=True, slots=True)
+class DataReport:
+    """Counts, by section, and remarks that a reader should know.
+
+    Attributes:
+        directory: What was checked.
+        counts: Section to name to number.
+        remarks: One line each; empty for a copy without surprises.
+    """
+
+    directory: str
+    counts: Mapping[str, Mapping[str, int]]
+    remarks: tuple[str, ...] = field(default=())
+
+    def text(self) -> str:
+        """The report for people."""
+        lines = [f"VEIL-500 in {self.directory}"]
+        for section, numbers in self.counts.items():
+            lines += ["", section]
+            width = max((len(name) for name in numbers), default=0)
+            lines += [f"  {name:<{width}}  {number:>6}" for name, number in numbers.items()]
+        if self.remarks:
+            lines += ["", "remarks", *(f"  {remark}" for remark in self.remarks)]
+        return "\n".join(lines) + "\n"
+
+    def json(self) -> str:
+        """The report for programs."""
+        return json.dumps(asdict(self), indent=2) + "\n"
+
+
+def check(directory: str | Path) -> DataReport:
+    """Read a copy of the data set and report everything found, repaired and dropped.
+
+    Raises:
+        DataError: It cannot be read; see :func:`tmd.datasets.veil500.data.load`.
+    """
+    data = load(directory)
+    repairer = Repairer(data)
+    repairs = [repairer.repair(point) for point in data.points]
+    counts = {
+        "demonstrations": _demonstrations(data),
+        "by environment": _by(data, lambda p: f"{p.world} {p.environment}"),
+        "by objective": _by(data, lambda p: p.objective),
+        "texts": _texts(data),
+        "actions": _actions(data),
+        "verbs": _verbs(data),
+        "execution under the literal rules": _execution(data, repairer, repairs),
+        "repair": _repairs(repairs),
+        "environments": _environments(data),
+        "objects at the start": _placement(data),
+    }
+    return DataReport(str(directory), counts, _remarks(data))
+
+
+def words(text: str) -> tuple[str, ...]:
+    """The words of a text in lower case: what texts are compared by."""
+    return tuple(_WORD.findall(text.lower()))
+
+
+def unknown_objects(data: VeilData) -> list[tuple[Point, str]]:
+    """Every mention of an object that the environment of its demonstration does not have."""
+    names = {key: frozenset(environment.names) for key, environment in data.environments.items()}
+    return [
+        (point, name)
+        for point in data.points
+        for instruction in point.instructions
+        for name in mentioned(instruction)
+        if name not in names[point.key]
+    ]
+
+
+def unknown_forms(data: VeilData) -> list[tuple[Point, str]]:
+    """Every action whose verb and number of arguments no rule has."""
+    arity = {action.name: len(action.parameters) for action in veil_domain("literal").actions}
+    return [
+        (point, str(instruction))
+        for point in data.points
+        for instruction in point.instructions
+        if arity.get(instruction.name) != len(instruction.args)
+    ]
+
+
+def _demonstrations(data: VeilData) -> dict[str, int]:
+    worlds = Counter(point.world for point in data.points)
+    return {"points": len(data.points), **dict(sorted(worlds.items()))}
+
+
+def _by(data: VeilData, name: Callable[[Point], str]) -> dict[str, int]:
+    return dict(sorted(Counter(name(point) for point in data.points).items()))
+
+
+def _texts(data: VeilData) -> dict[str, int]:
+    texts = Counter(words(point.text) for point in data.points)
+    places = Counter((point.key, words(point.text)) for point in data.points)
+    segments = [segment for point in data.points for segment in point.segments]
+    return {
+        "distinct": len(texts),
+        "occurring once": sum(n == 1 for n in texts.values()),
+        "same text in the same environment, groups": sum(n > 1 for n in places.values()),
+        "same text in the same environment, points": sum(n for n in places.values() if n > 1),
+        "distinct words": len({word for text in texts for word in text}),
+        "texts with line breaks": sum("\n" in point.raw or "\r" in point.raw for point in data.points),
+        "texts with repeated runs removed": sum(point.repeats_removed > 0 for point in data.points),
+        "repeated runs removed": sum(point.repeats_removed for point in data.points),
+        "texts without separators": sum("|" not in point.raw for point in data.points),
+        "segments": len(segments),
+        "segments with words, as written": sum(bool(words(part)) for p in data.points for part in p.raw.split("|")),
+        "segments with words, cleaned": sum(segment.has_words for segment in segments),
+    }
+
+
+def _actions(data: VeilData) -> dict[str, int]:
+    lengths = [len(point.instructions) for point in data.points]
+    groups = [group for point in data.points for group in point.groups]
+    actions = Counter(i for point in data.points for i in point.instructions)
+    return {
+        "actions": sum(lengths),
+        "distinct": len(actions),
+        "occurring once": sum(n == 1 for n in actions.values()),
+        "objects named": len({name for instruction in actions for name in mentioned(instruction)}),
+        "longest sequence": max(lengths),
+        "points without actions": sum(n == 0 for n in lengths),
+        "points with one action": sum(n == 1 for n in lengths),
+        "groups": len(groups),
+        "empty groups": sum(not group.instructions for group in groups),
+        "points with one group": sum(len(point.groups) == 1 for point in data.points),
+        "last groups with several segments": sum(len(p.groups[-1].segments) > 1 for p in data.points),
+        "mentions of unknown objects": len(unknown_objects(data)),
+        "actions of unknown form": len(unknown_forms(data)),
+    }
+
+
+def _verbs(data: VeilData) -> dict[str, int]:
+    verbs = Counter(i.name for point in data.points for i in point.instructions)
+    return dict(sorted(verbs.items(), key=lambda item: (-item[1], item[0])))
+
+
+def _execution(data: VeilData, repairer: Repairer, repairs: Sequence[Repaired]) -> dict[str, int]:
+    found: dict[str, int] = {}
+    for title, points in (("as released", data.points), ("repaired", [r.point for r in repairs])):
+        for hands in (False, True):
+            result = repairer.executability(points, two_hands=hands)
+            label = f"{title}, two hands" if hands else title
+            found[f"points executable, {label}"] = result.executable
+            found[f"steps not executable, {label}"] = result.failing
+    return found
+
+
+def _repairs(repairs: Sequence[Repaired]) -> dict[str, int]:
+    verbs = Counter(repair.inserted.name for repair in repairs if repair.inserted)
+    return {
+        "points repaired": sum(verbs.values()),
+        **{f"{verb} put back": number for verb, number in sorted(verbs.items())},
+    }
+
+
+def _environments(data: VeilData) -> dict[str, int]:
+    environments = data.environments.values()
+    dropped = Counter(state for environment in environments for _, state in environment.dropped)
+    things = [thing for environment in environments for thing in environment.objects]
+    return {
+        "environments": len(data.environments),
+        "classes": len(data.classes),
+        "objects": len(things),
+        "objects of a class that is not declared": sum(t.kind not in data.classes for t in things),
+        "objects described twice, the first kept": sum(len(e.repeated) for e in environments),
+        "placeholder positions, taken from the whole": sum(bool(t.placeholder and t.parent) for t in things),
+        "placeholder positions left": sum(t.placeholder and not t.parent for t in things),
+        "states dropped, not declared by the class": sum(dropped.values()),
+        **{f"dropped {state}": number for state, number in sorted(dropped.items())},
+    }
+
+
+def _placement(data: VeilData) -> dict[str, int]:
+    environments = data.environments.values()
+    leftovers = [unsupported(environment) for environment in environments]
+    return {
+        "relations, literal rule": sum(len(initial_relations(e, "literal")) for e in environments),
+        "relations, honest rule": sum(len(initial_relations(e, "honest")) for e in environments),
+        "on the floor": sum(len(floor) for floor, _ in leftovers),
+        "place unknown": sum(len(unknown) for _, unknown in leftovers),
+    }
+
+
+def _remarks(data: VeilData) -> tuple[str, ...]:
+    """One line for each thing that could not be used as it stands."""
+    remarks = [
+        f"point {point.index} (line {point.line}): no object '{name}' in {point.world} {point.environment}"
+        for point, name in unknown_objects(data)
+    ]
+    remarks += [
+        f"point {point.index} (line {point.line}): no rule for {form}; it will do nothing"
+        for point, form in unknown_forms(data)
+    ]
+    return tuple(remarks)

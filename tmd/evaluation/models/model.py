@@ -1,0 +1,138 @@
+"""What is compared. A model learns from examples and predicts an instruction sequence for another one."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from statistics import median
+from typing import Protocol, Self
+
+import numpy as np
+
+from tmd.diagnostics import TmdError
+from tmd.evaluation.models.instruction_tree import InstructionTree
+from tmd.evaluation.models.paper_models import ROWS, libraries
+from tmd.evaluation.models.predefined_templates import PredefinedTemplates
+from tmd.evaluation.models.prediction import Prediction, by_clause
+from tmd.evaluation.runs.dataset import Dataset, Example
+from tmd.inference.factors import delta_env, delta_nl
+from tmd.language import parse
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.reading.syntax import nearest
+from tmd.veil.instantiate import Instantiation, instantiate
+from tmd.veil.library import Library, run
+from tmd.veil.world import World
+
+
+class Model(Protocol):
+    """One row of the table."""
+
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+        """Learn from ``examples``."""
+        ...
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+        """The instructions for the example's text in its environment; its own sequence is not looked at."""
+        ...
+
+
+class Empty:
+    """Predicts nothing: the floor that every metric has."""
+
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+        """Nothing is learned."""
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+        """Nothing."""
+        return Prediction()
+
+
+class Chance:
+    """Random instructions of a predefined length (section VII): how large the output space is.
+
+    The length is the median of the training sequences of the same world; each instruction is drawn evenly from
+    all those that may ever apply in the environment.
+    """
+
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+        """Learn the length."""
+        worlds = sorted({example.world for example in examples})
+        self.lengths_ = {world: int(median(len(e.gold) for e in examples if e.world == world)) for world in worlds}
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+        """A random sequence."""
+        operators = data.world(example.environment).task.operators
+        draws = random.integers(len(operators), size=self.lengths_.get(example.world, 0))
+        return Prediction(tuple(operators[int(draw)].instruction for draw in draws))
+
+
+class NearestEnvironment:
+    """Nearest Environment Instantiation (section VII).
+
+    For each clause the template of its verb whose environment is nearest (Δ_env), instantiated by section V-A
+    and taken as it is: nothing checks whether it can be executed. Among equally near templates the one whose
+    clause is most alike (Δ_nl) is taken, then the first of the corpus.
+    """
+
+    def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
+        """Build the library of each world."""
+        self.libraries_ = libraries(examples, data)
+        return self
+
+    def predict(self, example: Example, data: Dataset, random: np.random.Generator) -> Prediction:
+        """The nearest template of each clause, one after the other."""
+        world = data.world(example.environment)
+        library = self.libraries_.get(example.world) or Library(data.lexicon)
+        state = world.task.init
+        done: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
+        for clause in parse(example.demonstration.text, data.lexicon).clauses:
+            chosen = self._nearest(clause, library, world, state)
+            if chosen is None:
+                done.append((clause, (), None))
+            else:
+                done.append((clause, chosen.instructions, chosen.template.source))
+                state = run(world, state, chosen.instructions)
+        return by_clause(done)
+
+    def _nearest(self, clause: Clause, library: Library, world: World, state: int) -> Instantiation | None:
+        candidates = (instantiate(t, clause, world, state) for t in library.propose(clause))
+        return min(
+            (c for c in candidates if c is not None),
+            key=lambda c: (delta_env(c), delta_nl(c.template.clause, clause, akin=0.0)),
+            default=None,
+        )
+
+
+MODELS: Mapping[str, Callable[[], Model]] = {
+    "empty": Empty,
+    "chance": Chance,
+    "templates": PredefinedTemplates,
+    "tree": InstructionTree,
+    "no_nl": ROWS["no_nl"],
+    "nearest": NearestEnvironment,
+    **{name: row for name, row in ROWS.items() if name != "no_nl"},
+}
+"""The rows by name, in the order of the table."""
+_RENAMED = {
+    "hand_set": "paper",
+    "extended": "paper_extended_learned",
+    "extended_hand_set": "paper_extended",
+    "generating": "policy",
+    "stating": "goals",
+    "stating_learned": "goals_learned",
+}
+
+
+def make_model(name: str) -> Model:
+    """A new model.
+
+    Raises:
+        TmdError: There is none of that name.
+    """
+    if name in _RENAMED:
+        raise TmdError(f"the model '{name}' is now called '{_RENAMED[name]}'")
+    if name not in MODELS:
+        raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(MODELS), what="models"))
+    return MODELS[name]()

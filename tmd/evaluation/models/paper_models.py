@@ -1,0 +1,349 @@
+"""The model of the paper as rows of the table: full, its ablations, and the presets of :mod:`tmd.inference.config`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from statistics import median
+from typing import Any, Self
+from weakref import WeakKeyDictionary
+
+import numpy as np
+
+from tmd.diagnostics import TmdError
+from tmd.evaluation.metrics import EPSILON, ied
+from tmd.evaluation.models.instruction_tree import InstructionTree
+from tmd.evaluation.models.prediction import Prediction, Served
+from tmd.evaluation.runs.dataset import Example, Worlds
+from tmd.goals.sources.demonstrations import learn_goals
+from tmd.goals.sources.table import GoalTable
+from tmd.ground import TaskPlanners
+from tmd.ground import infer as ground_clauses
+from tmd.inference.config import GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
+from tmd.inference.energy import Energy
+from tmd.inference.learning.journal import Journal
+from tmd.inference.learning.statistics import Statistics, count
+from tmd.inference.learning.weight_learning import Learned, learn_weights
+from tmd.inference.ranking import RankedPlan
+from tmd.inference.weights import NAMES, OURS, Weights, named_weights
+from tmd.language import Clause, parse
+from tmd.language.clause import Parsed
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Planner
+from tmd.veil.corpus import Corpus
+from tmd.veil.library import Library, learn, run, whole
+from tmd.veil.world import World
+
+_SPOKEN = ("nl", "pcc", "cons", "cover")
+"""The factors that read the clause."""
+_LATENT = ("latent_dscpl", "latent_inpr", "latent_para", "latent_cons")
+"""The factors of what was left unsaid."""
+_BLIND = ("cons", *_LATENT)
+"""The factors that need to know what instructions do."""
+
+
+_PLANNERS: WeakKeyDictionary[Worlds, dict[tuple[str, int], Planner]] = WeakKeyDictionary()
+"""One planner for each environment of a data set: what one model has asked, no other has to ask again."""
+
+
+def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
+    """The planner of an environment, which gives up after ``cap`` generated states."""
+    known = _PLANNERS.setdefault(data, {})
+    if (environment, cap) not in known:
+        known[environment, cap] = make(IN_PROCESS, data.world(environment).task, cap=cap)
+    return known[environment, cap]
+
+
+@dataclass(frozen=True, slots=True)
+class _Taught:
+    """What examples teach, but for the weights."""
+
+    library: Library
+    statistics: Statistics
+    tree: InstructionTree | None
+    goals: GoalTable | None = None
+
+
+class Crf:
+    """The energy and its inference.
+
+    Args:
+        config: The model.
+        learned: Whether the weights are learned; otherwise they are those of the model.
+        proposals: How many plans are looked at for each training example.
+        most_examples: At most so many training examples of each world are learned from, drawn at random.
+        rounds: How often plans are proposed anew.
+        journal: Where ``fit`` writes down how far it is, and goes on from; may be set later.
+    """
+
+    def __init__(
+        self,
+        config: InferenceConfig = PAPER,
+        *,
+        learned: bool = True,
+        proposals: int = 10,
+        most_examples: int = 20,
+        rounds: int = 2,
+        journal: Path | None = None,
+    ) -> None:
+        self.config = config
+        self.learned = learned
+        self.proposals = proposals
+        self.most_examples = most_examples
+        self.rounds = rounds
+        self.journal = journal
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """The factors that this model weighs."""
+        config = self.config
+        absent = (
+            *(() if config.extended else OURS),
+            *(() if config.policy else ("words", "generated")),
+            *(() if config.language else _SPOKEN),
+            *(() if config.knowledge else _BLIND),
+            *(() if config.latent else _LATENT),
+        )
+        return tuple(name for name in NAMES if name not in absent)
+
+    def fit(self, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Self:
+        """Build a library for each kind of world, and learn its weights."""
+        self._prepare(examples, data)
+        for world in self.libraries_ if self.learned else ():
+            own = [e for e in examples if e.world == world]
+            self.learned_[world] = self._learn(world, own, data, random)
+            self.weights_[world] = self.learned_[world].weights
+        return self
+
+    def restore(self, examples: Sequence[Example], data: Worlds, saved: dict[str, Any]) -> Self:
+        """The model as :meth:`fit` left it: the library is built again, the weights are those ``saved``.
+
+        Raises:
+            TmdError: What was saved is not what this model learns.
+        """
+        self._prepare(examples, data)
+        for world in self.libraries_ if self.learned else ():
+            self.learned_[world] = self._kept(world, saved)
+            self.weights_[world] = self.learned_[world].weights
+        return self
+
+    def _kept(self, world: str, saved: dict[str, Any]) -> Learned:
+        try:
+            kept = saved["worlds"][world]
+            weights = {str(name): float(value) for name, value in kept["weights"].items()}
+            curve = tuple(dict(point) for point in kept["curve"])
+        except (KeyError, TypeError, ValueError, AttributeError):
+            raise TmdError(
+                f"what was learned for the world '{world}' is damaged", hint="remove fits/ of the run and run again"
+            ) from None
+        strange = sorted(name for name, value in weights.items() if value and name not in self.factors)
+        if strange:
+            raise TmdError(
+                f"weights of another model: {', '.join(strange)}", hint="remove fits/ of the run and run again"
+            )
+        return Learned(Weights(weights), curve)
+
+    def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
+        """The plan of least energy."""
+        plans = self.plans(example, data, top=1)
+        return as_prediction(plans[0], self._said(example, data).clauses) if plans else Prediction()
+
+    def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
+        """The best plans, cheapest first; none in a world that was not learned."""
+        if example.world not in self.libraries_:
+            return ()
+        world = example.world
+        taught = _Taught(self.libraries_[world], self.statistics_[world], self.tree_, self.goals_.get(world))
+        return self._plans(example, data, taught, self.weights_[example.world], top=top)
+
+    def _prepare(self, examples: Sequence[Example], data: Worlds) -> None:
+        self.libraries_ = libraries(examples, data)
+        if not self.config.language:
+            self.libraries_ = {world: whole(library) for world, library in self.libraries_.items()}
+            self.steps_ = {world: _usual_steps(examples, world) for world in self.libraries_}
+            self._told_nothing: dict[tuple[object, ...], tuple[RankedPlan, ...]] = {}
+        self.statistics_ = {world: count(library) for world, library in self.libraries_.items()}
+        self.learned_: dict[str, Learned] = {}
+        self.goals_ = {world: self._goals(world, examples, data) for world in self.libraries_ if self.config.goals}
+        self.tree_ = self._policy(examples, data)
+        start = named_weights(self.config.weights)
+        mine = Weights({name: start[name] for name in self.factors})
+        self.weights_ = dict.fromkeys(self.libraries_, mine)
+
+    def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
+        """Weights for one kind of world. A training example never sees what its own environment taught.
+
+        What corrects a plan is learned from in any case. It sees what was known when that plan was proposed: all but
+        itself, so that the plan is among the proposals again. (The policy is that of all examples.)
+        """
+        order = sorted(random.permutation(len(examples)).tolist(), key=lambda i: not _corrects(examples[i]))
+        chosen = [examples[i] for i in sorted(order[: self.most_examples])]
+        left_out = _groups(examples)
+        held_out = {
+            group: self._without(name, group, examples, data)
+            for group in dict.fromkeys(left_out[e.id] for e in chosen if not _corrects(e))
+        }
+
+        def propose(number: int, weights: Weights) -> list[tuple[RankedPlan, float]]:
+            example = chosen[number]
+            taught = self._before(name, example) if _corrects(example) else held_out[left_out[example.id]]
+            plans = self._plans(example, data, taught, weights, top=self.proposals)
+            return [(plan, loss(plan, example, data.world(example.environment))) for plan in plans]
+
+        journal = Journal(self.journal, name) if self.journal else None
+        start = named_weights(self.config.weights)
+        return learn_weights(
+            propose, len(chosen), start, random, factors=self.factors, rounds=self.rounds, journal=journal
+        )
+
+    def _without(self, name: str, group: frozenset[str], examples: Sequence[Example], data: Worlds) -> _Taught:
+        """What the other examples teach."""
+        others = [e for e in examples if e.demonstration.id not in group]
+        library = self.libraries_[name].filtered(lambda template: template.source not in group)
+        if not self.config.language:
+            library = whole(library)
+        goals = self._goals(name, others, data) if self.config.goals else None
+        return _Taught(library, count(library), self._policy(others, data), goals)
+
+    def _before(self, name: str, example: Example) -> _Taught:
+        """What all but ``example`` teach."""
+        own = example.demonstration.id
+        library = self.libraries_[name].filtered(lambda template: template.source != own)
+        return _Taught(library, count(library), self.tree_, self.goals_.get(name))
+
+    def _goals(self, name: str, examples: Sequence[Example], data: Worlds) -> GoalTable:
+        """What the examples of one kind of world teach about what verbs mean."""
+        own = (e.demonstration for e in examples if e.world == name)
+        return learn_goals(own, data.world, data.lexicon)
+
+    def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
+        # its own seed: a model that is restored has the same policy
+        random = np.random.default_rng(0)
+        return InstructionTree(grounded=True).fit(examples, data, random) if self.config.policy else None
+
+    def _plans(
+        self,
+        example: Example,
+        data: Worlds,
+        taught: _Taught,
+        weights: Weights,
+        *,
+        top: int,
+    ) -> tuple[RankedPlan, ...]:
+        """What inference finds. Told nothing it finds the same for every example in an environment."""
+        infer = partial(self._infer, example, data, taught, weights, top=top)
+        if self.config.language:
+            return infer()
+        key = example.environment, len(taught.library), tuple(weights.values.items()), top
+        if key not in self._told_nothing:
+            self._told_nothing[key] = infer()
+        return self._told_nothing[key]
+
+    def _infer(
+        self,
+        example: Example,
+        data: Worlds,
+        taught: _Taught,
+        weights: Weights,
+        *,
+        top: int,
+    ) -> tuple[RankedPlan, ...]:
+        config, world = self.config, data.world(example.environment)
+        energy = Energy(weights, taught.statistics, world, akin=config.akin)
+        policy = taught.tree.policy(example.environment, example.world, data) if taught.tree else None
+        planner = planner_for(data, example.environment, config.cap)
+        planners = TaskPlanners(world.task, planner, IN_PROCESS, config)
+        said = self._said(example, data)
+        if config.goals:
+            # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
+            config = replace(config, guess=True)
+        ground = partial(ground_clauses, said, world, taught.library, energy, planners, policy=policy, top=top)
+        return ground(config, goals=taught.goals).plans
+
+    def _said(self, example: Example, data: Worlds) -> Parsed:
+        if not self.config.language:
+            return Parsed("", (Clause(""),) * self.steps_[example.world])
+        return parse(example.demonstration.text, data.lexicon)
+
+
+def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:
+    """For each example those that must teach it nothing: all of its environment, or it alone where there is but one."""
+    places = {e.environment for e in examples}
+    if len(places) == 1:
+        return {e.id: frozenset({e.demonstration.id}) for e in examples}
+    by_place = {p: frozenset(e.demonstration.id for e in examples if e.environment == p) for p in places}
+    return {e.id: by_place[e.environment] for e in examples}
+
+
+def _corrects(example: Example) -> bool:
+    """Whether it is a correction of a plan that was proposed."""
+    return example.demonstration.proposed is not None
+
+
+def as_prediction(plan: RankedPlan, clauses: Sequence[Clause]) -> Prediction:
+    """A plan with what it does for each clause, or for each step of it where the model has goals, and why."""
+    numbers = [goal.clause for goal in plan.goals] if plan.goals else range(len(clauses))
+    served = tuple(
+        Served(
+            clause.text,
+            clause.verb,
+            tuple(step.instruction for step in choice.steps if step.latent),
+            tuple(step.instruction for step in choice.steps if not step.latent),
+            choice.source,
+            choice.factors,
+        )
+        for clause, choice in zip((clauses[number] for number in numbers), plan.choices, strict=True)
+    )
+    return Prediction(plan.instructions, served)
+
+
+def loss(plan: RankedPlan, example: Example, world: World) -> float:
+    """How far a plan is from what the person did, from 0 to 1: half IED, half END under the planning rules.
+
+    The one who judges knows those rules, whatever the robot knows. A plan that a person corrected is as far as can be.
+    """
+    if plan.instructions == example.demonstration.proposed:
+        return 1.0
+    first = world.task.init
+    mine, gold = (first ^ run(world, first, done) for done in (plan.instructions, example.gold))
+    same = (mine & gold).bit_count() / ((mine | gold).bit_count() + EPSILON) if mine or gold else 1.0
+    return 1 - (ied(plan.instructions, example.gold) / 100 + same) / 2
+
+
+def libraries(examples: Sequence[Example], data: Worlds) -> dict[str, Library]:
+    """A library for each kind of world."""
+    return {
+        world: learn((e.demonstration for e in examples if e.world == world), data.world, data.lexicon)
+        for world in sorted({example.world for example in examples})
+    }
+
+
+def _usual_steps(examples: Sequence[Example], world: str) -> int:
+    """The median number of segments with instructions in the demonstrations of a world."""
+    done = [sum(bool(s.instructions) for s in e.demonstration.segments) for e in examples if e.world == world]
+    return int(median(done)) if done else 0
+
+
+ROWS: dict[str, Callable[[], Crf]] = {
+    "no_nl": partial(Crf, replace(PAPER, language=False)),
+    "no_domain": partial(Crf, replace(PAPER, knowledge=False)),
+    "no_latent": partial(Crf, replace(PAPER, latent=False)),
+    "full": Crf,
+    "paper_extended_learned": partial(Crf, PAPER_EXTENDED),
+    "goals_learned": partial(Crf, GOALS),
+    **{name: partial(Crf, PRESETS[name], learned=False) for name in reversed(list(PRESETS))},
+}
+"""The model of the paper with learned weights, its ablations, and the presets as they ship."""
+
+
+def weights_of(corpus: Corpus, random: np.random.Generator) -> Learned:
+    """Weights for the model ``goals``, learned on all demonstrations of a domain.
+
+    Raises:
+        TmdError: A demonstration is wrong.
+    """
+    name = corpus.folder.name
+    examples = [Example(d.id, d.task, name, d.environment, 0, d) for d in corpus.demonstrations()]
+    return ROWS["goals_learned"]().fit(examples, corpus, random).learned_[name]

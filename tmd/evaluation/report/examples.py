@@ -1,0 +1,127 @@
+"""Which predictions a report shows, and what it shows of each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from tmd.evaluation.report.alignment import Mark, align
+from tmd.evaluation.runs.records import Clause, Line
+
+SHOWN = 10
+"""How many of the best, and how many of the worst."""
+SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark.SUPERFLUOUS: "+"}
+"""Each mark has a sign, so that nothing hangs on colour."""
+
+
+@dataclass(frozen=True, slots=True)
+class ShownStep:
+    """A line of the alignment as it is shown.
+
+    Attributes:
+        mark: What became of the step.
+        symbol: Its sign.
+        predicted: The predicted instruction, empty if one is missing.
+        gold: What the person did, empty if the predicted one is superfluous.
+        clause: The number of the clause it was predicted for, from 1; ``None`` where it is not known.
+        latent: Whether it was left unsaid.
+    """
+
+    mark: Mark
+    symbol: str
+    predicted: str
+    gold: str
+    clause: int | None
+    latent: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Bar:
+    """A weighed factor: ``width`` in percent of the longest bar of the prediction."""
+
+    name: str
+    value: float
+    width: float
+
+
+@dataclass(frozen=True, slots=True)
+class ShownClause:
+    """A clause with its energy.
+
+    Attributes:
+        number: Its number, from 1.
+        text: Its words.
+        verb: Its verb.
+        source: What was instantiated for it.
+        total: Its energy; ``None`` for models without one.
+        bars: The factors that are not 0.
+        zeros: How many are.
+    """
+
+    number: int
+    text: str
+    verb: str
+    source: str | None
+    total: float | None
+    bars: tuple[Bar, ...]
+    zeros: int
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A prediction as it is shown.
+
+    Attributes:
+        line: The prediction.
+        steps: It, aligned with what the person did.
+        clauses: What was done for each clause and at what energy.
+        whole: Whether the clauses' instructions are the prediction; if not, the model changed it afterwards.
+    """
+
+    line: Line
+    steps: tuple[ShownStep, ...]
+    clauses: tuple[ShownClause, ...]
+    whole: bool
+
+
+def best_and_worst(lines: Sequence[Line], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
+    """The best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
+
+    What has no goal stands between what reached its goal and what did not.
+    """
+    order = sorted(lines, key=_rank)
+    best, rest = order[:count], order[count:]
+    return [shown(line) for line in best], [shown(line) for line in reversed(rest[-count:])]
+
+
+def _rank(line: Line) -> tuple[int, float, float, float, str, str]:
+    success = {True: 0, None: 1, False: 2}[line.success]
+    return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
+
+
+def shown(line: Line) -> Shown:
+    """What is shown of a prediction."""
+    origins = [
+        (number, latent)
+        for number, clause in enumerate(line.clauses, 1)
+        for steps, latent in ((clause.latent, True), (clause.said, False))
+        for _ in steps
+    ]
+    whole = [step for clause in line.clauses for step in (*clause.latent, *clause.said)] == line.predicted
+    steps = []
+    for step in align(line.predicted, line.gold):
+        origin = origins[step.predicted] if whole and step.predicted is not None else (None, False)
+        predicted = "" if step.predicted is None else line.predicted[step.predicted]
+        gold = "" if step.gold is None else line.gold[step.gold]
+        steps.append(ShownStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
+    longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
+    clauses = tuple(_clause(number, clause, longest) for number, clause in enumerate(line.clauses, 1))
+    return Shown(line, tuple(steps), clauses, whole)
+
+
+def _clause(number: int, clause: Clause, longest: float) -> ShownClause:
+    bars = tuple(
+        Bar(name, value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
+    )
+    total = sum(clause.factors.values()) if clause.factors else None
+    return ShownClause(number, clause.text, clause.verb, clause.source, total, bars, len(clause.factors) - len(bars))

@@ -1,0 +1,190 @@
+"""The charts of a report, as SVG that takes ink and typeface from the page it stands in.
+
+The colours are those of Okabe and Ito, which colour-blind people can tell apart; nothing is said by colour alone. The
+same numbers give the same bytes.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from tmd.evaluation.runs.records import CurvePoint, Fit, Means, Metrics
+from tmd.evaluation.runs.summary import EXECUTABLE, SUCCESS
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+LABELS = {
+    SUCCESS: "success %",
+    "IED": "IED",
+    "EED": "EED",
+    "EED_trim": "EED-trim",
+    "END": "END",
+    EXECUTABLE: "executable %",
+}
+"""What the columns are called."""
+_INK = "#010203"
+_FAINT = "#040506"
+_COLOURS_OF_THE_PAGE = {_INK: "currentColor", _FAINT: "var(--rule)"}
+"""Written by the charts, and replaced: the page knows whether it is light or dark."""
+_BAR = "#0072b2"
+_SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
+_SIDES = {"loss": "loss (0 to 1)", "objective": "objective"}
+_WIDTH = 9.0
+_STYLE: dict[Any, Any] = {
+    "axes.edgecolor": _FAINT,
+    "axes.labelcolor": _INK,
+    "axes.spines.right": False,
+    "axes.spines.top": False,
+    "axes.titlelocation": "left",
+    "axes.titlesize": 10,
+    "font.family": "sans-serif",
+    "font.size": 9,
+    "grid.color": _FAINT,
+    "grid.linewidth": 0.5,
+    "svg.fonttype": "none",
+    "text.color": _INK,
+    "text.parse_math": False,
+    "xtick.color": _INK,
+    "ytick.color": _INK,
+    "xtick.major.size": 0,
+    "ytick.major.size": 0,
+}
+
+
+def overall_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
+    """A panel for each column, a bar with its standard error for each row: averages over tasks."""
+    rows = [metrics.models[model].average for model in models]
+    floor = metrics.floor.average if metrics.floor else None
+    with _figure("overall", 1, len(columns), 0.9 + 0.28 * len(models)) as (figure, axes):
+        for axis, column in zip(axes, columns, strict=True):
+            _bars(axis, rows, column, None if column == EXECUTABLE else floor)
+            axis.set_title(LABELS[column])
+        _name_rows(axes[0], models)
+        return _svg(figure, "overall")
+
+
+def task_bars(metrics: Metrics, models: Sequence[str], columns: Sequence[str]) -> str:
+    """The same for each task: a line of panels for each."""
+    tasks = tasks_of(metrics)
+    height = (0.5 + 0.2 * len(models)) * len(tasks) + 0.5
+    with _figure("tasks", len(tasks), len(columns), height) as (figure, axes):
+        for number, task in enumerate(tasks):
+            line = axes[number * len(columns) : (number + 1) * len(columns)]
+            present = [model for model in models if task in metrics.models[model].tasks]
+            rows = [metrics.models[model].tasks[task] for model in present]
+            floor = metrics.floor.tasks.get(task) if metrics.floor else None
+            for axis, column in zip(line, columns, strict=True):
+                _bars(axis, rows, column, floor)
+                axis.set_title(f"{task.replace('_', ' ')}: {LABELS[column]}")
+            _name_rows(line[0], present)
+        return _svg(figure, "tasks")
+
+
+def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
+    """Loss and objective over the epochs, a line for each training set; ``None`` where no curve was kept."""
+    own = [fit for fit in fits if fit.model == model]
+    worlds = sorted({world for fit in own for world in fit.worlds})
+    curves = {world: [fit.worlds[world].curve for fit in own if world in fit.worlds] for world in worlds}
+    points = [point for found in curves.values() for curve in found for point in curve]
+    sides = [side for side in _SIDES if any(getattr(point, side) is not None for point in points)]
+    if not sides:
+        return None
+    with _figure(f"curve-{model}", 1, len(sides), 2.6) as (figure, axes):
+        for axis, side in zip(axes, sides, strict=True):
+            for number, (world, found) in enumerate(curves.items()):
+                _lines(axis, found, side, _SERIES[number % len(_SERIES)], world)
+            axis.set_title(_SIDES[side])
+            axis.set_xlabel("epoch, over all rounds")
+            axis.locator_params(axis="x", integer=True)
+            axis.grid(axis="y")
+        if len(worlds) > 1:
+            axes[-1].legend(frameon=False)
+        return _svg(figure, f"curve-{model}")
+
+
+def _lines(axis: Axes, curves: Sequence[Sequence[CurvePoint]], side: str, colour: str, label: str) -> None:
+    """The curves of one kind of world, and where its rounds begin."""
+    for number, curve in enumerate(curves):
+        told = [(n, value) for n, point in enumerate(curve) if (value := getattr(point, side)) is not None]
+        x, y = [n for n, _ in told], [value for _, value in told]
+        once = "_nolegend_" if number else label
+        axis.plot(x, y, color=colour, linewidth=1.1, alpha=0.75, marker=".", markersize=4, label=once)
+    for edge in _round_edges(curves):
+        axis.axvline(edge, color=_FAINT, linewidth=0.8, linestyle=":")
+
+
+def tasks_of(metrics: Metrics) -> list[str]:
+    """The tasks of a run, by name."""
+    return sorted({task for row in metrics.models.values() for task in row.tasks})
+
+
+def _bars(axis: Axes, rows: Sequence[Means], column: str, floor: Means | None) -> None:
+    """Horizontal bars from 0 to 100, the first row at the top; none for a mean of nothing."""
+    told = [(place, row.mean(column), row.se(column)) for place, row in enumerate(rows)]
+    bars = [(place, mean, error or 0.0) for place, mean, error in told if mean is not None]
+    places, means, errors = [list(part) for part in zip(*bars, strict=True)] or ([], [], [])
+    axis.barh(places, means, height=0.62, color=_BAR, xerr=errors, error_kw={"ecolor": _INK, "elinewidth": 1.0})
+    for place, mean, error in bars:
+        axis.text(mean + error + 2, place, f"{mean:.1f}", va="center", fontsize=8)
+    lowest = None if floor is None else floor.mean(column)
+    if lowest is not None:
+        axis.axvline(lowest, color=_SERIES[1], linewidth=1.0, linestyle="--")
+    axis.set_xlim(0, 130)
+    axis.set_xticks([0, 50, 100])
+    axis.set_ylim(len(rows) - 0.4, -0.6)
+    axis.set_yticks([])
+    axis.grid(axis="x")
+    axis.set_axisbelow(True)
+
+
+def _name_rows(axis: Axes, models: Sequence[str]) -> None:
+    axis.set_yticks(range(len(models)), models)
+
+
+def _round_edges(curves: Sequence[Sequence[CurvePoint]]) -> list[float]:
+    """Between which epochs a new round begins, if that is the same everywhere and rounds have several epochs."""
+    edges = [[n - 0.5 for n in range(1, len(curve)) if curve[n].round != curve[n - 1].round] for curve in curves]
+    if not edges or any(edge != edges[0] for edge in edges) or len(edges[0]) >= len(curves[0]) - 1:
+        return []
+    return edges[0]
+
+
+@contextmanager
+def _figure(name: str, rows: int, columns: int, height: float) -> Iterator[tuple[Figure, list[Axes]]]:
+    """A figure with its panels line by line, under the page's style and no other."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    # what a user's own matplotlibrc says must not change the page
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_STYLE | {"svg.hashsalt": name})
+        figure = Figure(figsize=(_WIDTH, height), layout="constrained")
+        yield figure, list(figure.subplots(rows, columns, squeeze=False).flat)
+
+
+def _svg(figure: Figure, name: str) -> str:
+    """The figure as an element of a page: no size of its own, names that no other figure has."""
+    drawn = io.StringIO()
+    figure.savefig(drawn, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
+    text = drawn.getvalue()
+    text = text[text.index("<svg") :]
+    # a style inside the element would hold for the whole page
+    text = re.sub(r"<(metadata|style).*?</\1>", "", text, flags=re.DOTALL)
+    width = re.search(r'width="([\d.]+)pt"', text)
+    assert width is not None
+    text = re.sub(r' (width|height)="[\d.]+pt"', "", text, count=2)
+    text = text.replace("<svg ", f'<svg style="width: {float(width[1]) * 4 / 3:.0f}px" ', 1)
+    text = re.sub(r' xmlns(:xlink)?="[^"]*"', "", text).replace("xlink:href", "href")
+    prefix = re.sub(r"\W", "-", name)
+    text = re.sub(r'\bid="', f'id="{prefix}-', text)
+    text = re.sub(r'(href="|url\()#', rf"\1#{prefix}-", text)
+    for written, meant in _COLOURS_OF_THE_PAGE.items():
+        text = text.replace(written, meant)
+    return re.sub(r"font: ([\d.]+)px [^;\"]*", r"font-size: \1px", text)

@@ -1,0 +1,117 @@
+"""The table on the screen, and the page of a run."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from tmd.evaluation.report.reference_row import ALPHA, differing, reference
+from tmd.evaluation.runs.summary import EMPTY, SUCCESS, TESTED
+from tmd.files import write_text
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+REPORT = "report.html"
+"""The page's name in the run's directory."""
+_WIDEST = 1000
+"""More columns than any screen has."""
+
+
+def write_report(directory: Path) -> Path:
+    """Write ``report.html`` from what lies in a run's directory, and return its path.
+
+    Raises:
+        TmdError: The directory holds no finished run, a file of it is damaged, or it cannot be written to.
+    """
+    from tmd.evaluation.report.linked_pages import linked_pages
+    from tmd.evaluation.report.page import render
+    from tmd.evaluation.runs.records import read_run
+    from tmd.evaluation.runs.trial_records import read_trials
+
+    page = render(read_run(directory), read_trials(directory), linked_pages(directory))
+    path = directory / REPORT
+    write_text(path, page)
+    return path
+
+
+def print_table(metrics: dict[str, Any], console: Console | None = None) -> None:
+    """Print the table: means over examples. All metrics run from 0 to 100, larger is better."""
+    from rich.console import Console
+    from rich.measure import Measurement
+
+    shown, found = console or Console(), table(metrics)
+    if Measurement.get(shown, shown.options.update(max_width=_WIDEST), found).maximum > shown.width:
+        found = table(metrics, narrow=True)
+    shown.print(found)
+
+
+def table(metrics: dict[str, Any], *, narrow: bool = False) -> Table:
+    """The models as rows, the metrics as columns, each mean with its standard error; the floor is marked.
+
+    Success is the first metric, where any example has a goal. All rows together fit 80 columns in a ``narrow`` table.
+    """
+    from rich.markup import escape
+
+    against = reference(metrics["models"])
+    marked = differing(metrics["significance"]["pairs"], against) if against else frozenset()
+    found = _frame(metrics, _caption(metrics, against, marked), narrow=narrow)
+    scored = [metric for metric in TESTED if metric != SUCCESS or _has_goals(metrics)]
+    for column in ("n", *(metric.replace("_", "-") for metric in scored), "exec." if narrow else "exec. %"):
+        found.add_column(column, justify="right", no_wrap=True)
+    between = "" if narrow else " "
+    for name, row in metrics["models"].items():
+        cells = [_cell(row, m, between) + _star((name, m) in marked, bool(marked)) for m in scored]
+        found.add_row(escape(name), str(row["n"]), *cells, f"{row['executable']:.1f}")
+    return found
+
+
+def _frame(metrics: dict[str, Any], caption: str, *, narrow: bool) -> Table:
+    """The table without its numbers."""
+    from rich import box
+    from rich.markup import escape
+    from rich.table import Table
+
+    config = metrics["config"]
+    title = f"{config['task']}, {config['data']} data, {len(metrics['folds'])} folds, seed {config['seed']}"
+    found = Table(
+        title=escape(title),
+        caption=escape(caption),
+        box=box.SIMPLE_HEAD,
+        title_justify="left",
+        caption_justify="left",
+        pad_edge=False,
+        show_edge=not narrow,
+        padding=0 if narrow else (0, 1),
+        collapse_padding=True,
+    )
+    found.add_column("model", no_wrap=True)
+    return found
+
+
+def _has_goals(metrics: dict[str, Any]) -> bool:
+    """Whether anything was measured by a goal: VEIL-500 has none, and neither have runs of earlier versions."""
+    return any(row.get(SUCCESS) is not None for row in metrics["models"].values())
+
+
+def _cell(row: dict[str, Any], metric: str, between: str) -> str:
+    """A mean with its standard error; a dash where there is none."""
+    return "–" if row.get(metric) is None else f"{row[metric]:.1f}{between}±{row[f'{metric}_se']:.1f}"
+
+
+def _star(here: bool, anywhere: bool) -> str:
+    """A mark, or its place where there are marks at all: the numbers stay below each other."""
+    return ("*" if here else " ") if anywhere else ""
+
+
+def _caption(metrics: dict[str, Any], against: str | None, marked: frozenset[tuple[str, str]]) -> str:
+    said = []
+    rows = metrics["models"].values()
+    if _has_goals(metrics) and any(row["goals"] < row["n"] for row in rows):
+        said.append(f"Success is over the {max(row['goals'] for row in rows)} examples that have a goal.")
+    if metrics["floor"] is not None:
+        said.append(f"The row {EMPTY} predicts nothing: it is the floor.")
+    if marked:
+        said.append(f"* differs from {against}: paired test by text, Holm, p < {ALPHA}.")
+    return " ".join(said)

@@ -1,0 +1,90 @@
+"""Who does the units: this process, processes on this machine, or a cluster."""
+
+from __future__ import annotations
+
+import signal
+import warnings
+from collections.abc import Callable, Generator, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, TypeVar
+
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.evaluation.runs.config import DASK, ExperimentConfig
+from tmd.evaluation.runs.jobs import Outcome, Unit, do
+
+_Made = TypeVar("_Made")
+GO_ON = "what is done is kept: the same command goes on from there"
+
+
+class WorkerLostError(TmdError):
+    """A process that did a unit is gone, mostly because memory ran out."""
+
+    exit_code = ExitCode.GAVE_UP
+
+
+def outcomes(config: ExperimentConfig, units: Sequence[Unit], fits: Path, fingerprint: str) -> Generator[Outcome]:
+    """Do the units, and yield what came out of each as soon as it is there, in any order.
+
+    Args:
+        config: The run.
+        units: What is to be done.
+        fits: Where what is learned is kept on this machine.
+        fingerprint: Of the data, which must be the same wherever a unit is done.
+
+    Raises:
+        WorkerLostError: A process was killed.
+        TmdError: A unit cannot be done, or the cluster cannot be used.
+    """
+    if config.backend == DASK:
+        from tmd.evaluation.runs.cluster import on_cluster
+
+        yield from on_cluster(config, units, fingerprint)
+    else:
+        yield from in_processes(do, [(config, unit, fits) for unit in units], config.jobs)
+
+
+def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], jobs: int) -> Generator[_Made]:
+    """Call ``work`` with each of ``tasks``, at most so many at once, and yield what comes back in any order.
+
+    Args:
+        work: A function of a module: other processes must find it.
+        tasks: The arguments of each call.
+        jobs: How many processes; with one, this process does it all.
+
+    Raises:
+        WorkerLostError: A process was killed.
+    """
+    if jobs == 1 or not tasks:
+        for task in tasks:
+            yield work(*task)
+        return
+    from joblib import Parallel, delayed, parallel_config
+
+    with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
+        # a worker that has grown is replaced between two units: nothing is lost by it
+        warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")
+        workers = Parallel(n_jobs=min(jobs, len(tasks)), return_as="generator_unordered", batch_size=1)
+        try:
+            with _deaf_to_interruptions():
+                found = workers(delayed(work)(*task) for task in tasks)
+            yield from found
+        except BrokenProcessPool:
+            raise WorkerLostError(
+                "a worker process was killed, most likely because memory ran out",
+                hint=f"take fewer --jobs; {GO_ON}",
+            ) from None
+
+
+@contextmanager
+def _deaf_to_interruptions() -> Iterator[None]:
+    """Processes and threads started here never hear of Ctrl-C: this process does, afterwards, and ends them."""
+    if not hasattr(signal, "pthread_sigmask"):
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

@@ -1,0 +1,119 @@
+"""A run: every model on every fold, into a directory that holds all that is needed to do it again.
+
+A run that was stopped goes on where it was; what is finished is never done again. Same configuration, data and
+version: the same bytes (but for the log), however the work was shared out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import closing
+from dataclasses import dataclass
+from typing import Any
+
+from tmd.diagnostics import TmdError
+from tmd.evaluation.runs.backends import outcomes
+from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig
+from tmd.evaluation.runs.dataset import Dataset, open_dataset
+from tmd.evaluation.runs.folds import Fold, folds_of
+from tmd.evaluation.models.model import make_model
+from tmd.evaluation.runs.run_directory import RunDirectory
+from tmd.evaluation.runs.summary import summarise
+from tmd.evaluation.runs.jobs import jsonl, units_of
+
+__all__ = ["DEFAULT_MODELS", "ExperimentConfig", "Progress", "collect", "run", "work"]
+
+Progress = Callable[[int, int], None]
+"""Called with the number of parts done and of all parts."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Plan:
+    """What a configuration means."""
+
+    config: ExperimentConfig
+    data: Dataset
+    folds: list[Fold]
+    directory: RunDirectory
+
+
+def run(config: ExperimentConfig, progress: Progress | None = None) -> dict[str, Any]:
+    """Do the run, or what is left of it, and return its metrics.
+
+    Raises:
+        TmdError: The configuration, the data, the directory or the cluster cannot be used.
+    """
+    plan = _plan(config)
+    with plan.directory.entered():
+        _work(plan, progress)
+        return _collect(plan)
+
+
+def work(config: ExperimentConfig, progress: Progress | None = None) -> int:
+    """Do the share of the run that ``config.shard`` says, and return how many parts it has; metrics are not computed.
+
+    Raises:
+        TmdError: As :func:`run`.
+    """
+    plan = _plan(config)
+    with plan.directory.entered(config.shard):
+        return _work(plan, progress)
+
+
+def collect(config: ExperimentConfig) -> dict[str, Any]:
+    """Compute the metrics of a run from its parts, train nothing, and return them.
+
+    Raises:
+        TmdError: As :func:`run`, or parts are missing.
+    """
+    plan = _plan(config)
+    with plan.directory.entered():
+        return _collect(plan)
+
+
+def _plan(config: ExperimentConfig) -> _Plan:
+    for model in config.models:
+        make_model(model)
+    data = open_dataset(config)
+    directory = RunDirectory(config.out, config.identity(data.fingerprint()))
+    return _Plan(config, data, folds_of(config, data), directory)
+
+
+def _work(plan: _Plan, progress: Progress | None) -> int:
+    """Do the units that are not done; return the number of parts, old and new."""
+    config, directory = plan.config, plan.directory
+    folds = {fold.name: fold for fold in plan.folds}
+    units = units_of(config.models, plan.folds)
+    mine = [unit for i, unit in enumerate(units, 1) if config.shard is None or config.shard.has(i)]
+    left = [unit for unit in (directory.left_of(unit, folds) for unit in mine) if unit is not None]
+    parts = sum(len(unit.folds) for unit in mine)
+    done = parts - sum(len(unit.folds) for unit in left)
+    directory.log.info("parts: %d, to do: %d", parts, parts - done)
+    if progress:
+        progress(done, parts)
+    if left:
+        with closing(outcomes(config, left, directory.fits, plan.data.fingerprint())) as ended:
+            for outcome in ended:
+                directory.keep(outcome)
+                done += len(outcome.parts)
+                if progress:
+                    progress(done, parts)
+    return parts
+
+
+def _collect(plan: _Plan) -> dict[str, Any]:
+    config, folds = plan.config, plan.folds
+    found = [plan.directory.part(model, fold) for model in config.models for fold in folds]
+    missing = sum(lines is None for lines in found)
+    if missing:
+        raise TmdError(
+            f"{config.out}: {missing} of {len(found)} parts are not done",
+            hint="give the same command without --step and --shard to do them",
+        )
+    predictions = [line for lines in found for line in lines or ()]
+    metrics = summarise(predictions, config.models) | {
+        "config": plan.directory.identity,
+        "folds": {f.name: {"train": len(f.train), "test": len(f.test), "training_set": f.training_set} for f in folds},
+    }
+    plan.directory.finish(jsonl(predictions), metrics)
+    return metrics

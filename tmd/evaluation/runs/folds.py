@@ -1,0 +1,180 @@
+"""Who is tested on what, trained on what. A model is never tested in an environment it was trained in."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.diagnostics import TmdError
+from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
+from tmd.evaluation.runs.dataset import ALL, Dataset, Example
+from tmd.evaluation.runs.protocol import training_groups
+
+VEIL_PAIRS = ((1, 2), (3, 4), (5, 6), (7, 8))
+"""The folds over environments 1-8 of VEIL-500; 9 and 10 are the authors' test set."""
+HALVES = 2
+"""The bundled environments are tested half of the examples at a time: five kitchens make ten folds."""
+_LONGEST = 60
+"""The longest name of a training set, in characters."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fold:
+    """One split.
+
+    Attributes:
+        name: Unique in a run.
+        train: What is trained on.
+        test: What is tested.
+        training_set: The name of ``train``; folds with the same training examples have the same one.
+    """
+
+    name: str
+    train: tuple[Example, ...]
+    test: tuple[Example, ...]
+    training_set: str = ""
+
+
+def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
+    """The folds of a run: for each group of tasks that are trained together its own.
+
+    Raises:
+        TmdError: They cannot be made.
+    """
+    if not data.examples:
+        raise TmdError(f"there are no demonstrations of '{config.task}'")
+    tasks = {example.task for example in data.pool}
+    tested = [example.task for example in data.examples]
+    groups = training_groups(tested, data.trained_with, config.train_tasks, tasks)
+    found = []
+    for group in groups:
+        test = [e for e in data.examples if e.task in group.tested]
+        pool = [e for e in data.pool if e.task in group.trained]
+        label = _label(group.trained, data.pool)
+        prefix = f"{_label(group.tested, data.pool)}-" if len(groups) > 1 else ""
+        for fold in _split(config, test, pool):
+            numbers = {example.number for example in fold.train}
+            found.append(Fold(prefix + fold.name, fold.train, fold.test, f"{label}_{ranges(numbers)}"))
+    return found
+
+
+def _split(config: ExperimentConfig, test: Sequence[Example], pool: Sequence[Example]) -> list[Fold]:
+    if config.train_environments is not None or config.test_environments is not None:
+        return given_fold(test, config.train_environments, config.test_environments, pool)
+    return pairs(test, pool) if config.data == VEIL500 else halves(test, pool)
+
+
+def given_fold(
+    examples: Sequence[Example],
+    train: Collection[int] | None,
+    test: Collection[int] | None,
+    pool: Sequence[Example] | None = None,
+) -> list[Fold]:
+    """The one fold that environment numbers say; what is not said is all the others.
+
+    Args:
+        examples: What may be tested.
+        train: Where to train.
+        test: Where to test.
+        pool: What may be trained on, if not the same.
+
+    Raises:
+        TmdError: An environment is in both, or nothing is left to train or test on.
+    """
+    pool = examples if pool is None else pool
+    numbers = {example.number for example in (*examples, *pool)}
+    testing = set(test) if test is not None else numbers - set(train or ())
+    training = set(train) if train is not None else numbers - testing
+    if training & testing:
+        both = ", ".join(map(str, sorted(training & testing)))
+        raise TmdError(
+            f"environment {both} is in both --train-environments and --test-environments",
+            hint="a model is tested in environments it has not seen",
+        )
+    fold = _fold("given", examples, pool, training, testing)
+    for side, chosen, asked in (("train", fold.train, training), ("test", fold.test, testing)):
+        if not chosen:
+            wanted = ", ".join(map(str, sorted(asked))) or "none"
+            there = ", ".join(map(str, sorted(numbers)))
+            raise TmdError(f"there is nothing to {side} on in environments {wanted}", hint=f"there are {there}")
+    return [fold]
+
+
+def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
+    """Each environment in turn, its examples in two halves: ten folds for five environments.
+
+    Args:
+        examples: What is tested.
+        pool: What may be trained on, if not the same.
+
+    Raises:
+        TmdError: There is only one environment.
+    """
+    pool = examples if pool is None else pool
+    folds = []
+    for environment in sorted({example.environment for example in examples}):
+        train = tuple(e for e in pool if e.environment != environment)
+        if not train:
+            raise TmdError(f"there is no environment but {environment} that the training tasks were done in")
+        test = [e for e in examples if e.environment == environment]
+        for half in range(min(HALVES, len(test))):
+            folds.append(Fold(f"{environment}{'ab'[half]}", train, tuple(test[half::HALVES])))
+    return folds
+
+
+def pairs(examples: Sequence[Example], pool: Sequence[Example] | None = None) -> list[Fold]:
+    """The four folds over environments 1-8 of VEIL-500.
+
+    Args:
+        examples: What is tested.
+        pool: What may be trained on, if not the same.
+
+    Raises:
+        TmdError: There is nothing to test or to train on.
+    """
+    within = {number for pair in VEIL_PAIRS for number in pair}
+    folds = []
+    for pair in VEIL_PAIRS:
+        name = "-".join(map(str, pair))
+        fold = _fold(name, examples, examples if pool is None else pool, within - set(pair), set(pair))
+        if fold.test and fold.train:
+            folds.append(fold)
+    if not folds:
+        raise TmdError("there are no examples in environments 1-8", hint="say --test-environments")
+    return folds
+
+
+def _fold(
+    name: str, examples: Sequence[Example], pool: Sequence[Example], train: Collection[int], test: Collection[int]
+) -> Fold:
+    return Fold(
+        name,
+        tuple(e for e in pool if e.number in train),
+        tuple(e for e in examples if e.number in test),
+    )
+
+
+def ranges(numbers: Iterable[int]) -> str:
+    """Numbers as people write them: ``1,3-5``."""
+    runs: list[list[int]] = []
+    for number in sorted(set(numbers)):
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1][1:] = [number]
+        else:
+            runs.append([number])
+    return ",".join("-".join(map(str, run)) for run in runs)
+
+
+def _label(tasks: Sequence[str], pool: Sequence[Example]) -> str:
+    """A name for some tasks: ``all``, the kind of world that has just these, or all of their names.
+
+    Names become names of files, so very many tasks are counted instead, with a digest that tells them apart.
+    """
+    if set(tasks) == {example.task for example in pool}:
+        return ALL
+    for world in sorted({example.world for example in pool}):
+        if set(tasks) == {example.task for example in pool if example.world == world}:
+            return world
+    name = "+".join(tasks)
+    return name if len(name) <= _LONGEST else f"{len(tasks)}_tasks_{zlib.crc32(name.encode()):08x}"

@@ -1,0 +1,260 @@
+"""The unit of work: one model trained on one training set, and tested on all folds that share it.
+
+Random numbers are drawn for (seed, model, training set) when a model is fitted and for (seed, model, example) when it
+predicts, so the outcome does not depend on which process does what, nor on what else it does.
+"""
+
+from __future__ import annotations
+
+import json
+import zlib
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
+
+import numpy as np
+
+from tmd.files import make_directory, write_text
+from tmd.inference.weights import Weights
+from tmd.evaluation.runs.config import ExperimentConfig
+from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
+from tmd.evaluation.runs.folds import Fold, folds_of
+from tmd.evaluation.runs.incomplete import leave_out
+from tmd.evaluation.models.model import Model, make_model
+from tmd.evaluation.models.prediction import Prediction
+from tmd.pddl.model import Instruction
+
+DIGITS = 6
+"""Scores are rounded for the files, so that the last bit of a float shows nowhere."""
+_PREDICT = zlib.crc32(b"predict")
+
+
+class LearnedWorld(Protocol):
+    """What was learned for one kind of world."""
+
+    @property
+    def weights(self) -> Weights:
+        """The weights."""
+        ...
+
+    @property
+    def curve(self) -> Iterable[Any]:
+        """How learning went: numbers, or objects that JSON can hold."""
+        ...
+
+
+@runtime_checkable
+class Learner(Protocol):
+    """A model that tells what it has learned."""
+
+    learned_: Mapping[str, LearnedWorld]
+
+
+@runtime_checkable
+class Journaled(Protocol):
+    """A model that writes down what it has done so far, and goes on from there when it is fitted again."""
+
+    journal: Path | None
+
+
+@runtime_checkable
+class Restorable(Protocol):
+    """A model that can be made from what was learned before."""
+
+    def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Model:
+        """The model as it was after ``fit`` on the same examples; ``saved`` is what :func:`fit_text` wrote."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Unit:
+    """What is done in one go.
+
+    Attributes:
+        model: The model's name.
+        training_set: The training set's name.
+        folds: The names of the folds to test.
+        saved: What was learned when the unit was done before, if it was.
+    """
+
+    model: str
+    training_set: str
+    folds: tuple[str, ...]
+    saved: dict[str, Any] | None = None
+
+    @property
+    def name(self) -> str:
+        """Unique in a run."""
+        return f"{self.model}-{self.training_set}"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came out of a unit.
+
+    Attributes:
+        unit: The unit.
+        parts: For each fold the text of its file: a line for each prediction.
+        fit: The text of the file on what was learned, if the model tells.
+    """
+
+    unit: Unit
+    parts: dict[str, str]
+    fit: str | None
+
+
+def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[Unit]:
+    """All units of a run, always in the same order."""
+    sets: dict[str, list[str]] = {}
+    for fold in folds:
+        sets.setdefault(fold.training_set, []).append(fold.name)
+    return [Unit(model, training_set, tuple(names)) for model in models for training_set, names in sets.items()]
+
+
+def do(config: ExperimentConfig, unit: Unit, fits: Path | None) -> Outcome:
+    """Train, predict, score.
+
+    Args:
+        config: The run.
+        unit: What to do.
+        fits: The directory for what is learned, written as soon as it is; ``None`` where there is none at hand.
+    """
+    data = open_dataset(config)
+    folds = {fold.name: fold for fold in folds_of(config, data)}
+    model, fit = _fitted(config, unit, folds[unit.folds[0]], data, fits)
+    return Outcome(unit, {name: _tested(config, unit, model, folds[name], data) for name in unit.folds}, fit)
+
+
+def _fitted(
+    config: ExperimentConfig, unit: Unit, fold: Fold, data: Dataset, fits: Path | None
+) -> tuple[Model, str | None]:
+    """The model, learned or restored, and the text that tells what it learned."""
+    model = make_model(unit.model)
+    if unit.saved is not None and isinstance(model, Restorable):
+        return model.restore(fold.train, data, unit.saved), None
+    random = np.random.default_rng([config.seed, _key(unit.model), _key(unit.training_set)])
+    with _journal(model, unit, fits):
+        model = model.fit(fold.train, data, random)
+    text = fit_text(unit.model, fold, model)
+    if text is not None and fits is not None:
+        write_text(make_directory(fits) / f"{unit.name}.json", text)
+    return model, text
+
+
+@contextmanager
+def _journal(model: Model, unit: Unit, fits: Path | None) -> Iterator[None]:
+    """Give the model its journal. Where another process is at the same unit, that one has it, and this one has none."""
+    if fits is None or not isinstance(model, Journaled):
+        yield
+        return
+    path = make_directory(fits) / f"{unit.name}.journal.jsonl"
+    with _alone(path.with_suffix(".lock")) as alone:
+        model.journal = path if alone else None
+        yield
+
+
+@contextmanager
+def _alone(lock: Path) -> Iterator[bool]:
+    """Whether this process alone holds the lock; a lock ends with its process, however that ends."""
+    try:
+        import fcntl
+    except ImportError:  # not a system that has such locks
+        yield True
+        return
+    with lock.open("a") as file:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            yield False
+            return
+        yield True
+
+
+def journal_files(fits: Path, unit: Unit) -> tuple[Path, ...]:
+    """What a finished unit needs no more."""
+    journal = fits / f"{unit.name}.journal.jsonl"
+    return journal, journal.with_suffix(".lock")
+
+
+def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
+    """What a model has learned, as JSON; ``None`` for a model that does not tell, or learned nothing."""
+    if not isinstance(model, Learner) or not model.learned_:
+        return None
+    worlds = {
+        world: {
+            "weights": {name: learned.weights[name] for name in learned.weights},
+            "curve": list(learned.curve),
+        }
+        for world, learned in sorted(model.learned_.items())
+    }
+    places = sorted({(e.world, e.number, e.environment) for e in fold.train})
+    said = {"model": model_name, "trained_in": [name for _, _, name in places], "worlds": worlds}
+    return json.dumps(said, ensure_ascii=False, indent=2) + "\n"
+
+
+def _tested(config: ExperimentConfig, unit: Unit, model: Model, fold: Fold, data: Dataset) -> str:
+    """The lines on one fold."""
+    done = []
+    for example in fold.test:
+        read = leave_out(example, config.drop_sentences, config.seed)
+        random = np.random.default_rng([config.seed, _PREDICT, _key(unit.model), _key(str(example.id))])
+        done.append((example, read.demonstration.text, model.predict(read, data, random)))
+    for environment in sorted({example.environment for example in fold.test}):
+        own = [prediction.instructions for example, _, prediction in done if example.environment == environment]
+        data.scorer(environment).prepare(own)
+    lines = [_line(data, example, read, prediction, unit.model, fold.name) for example, read, prediction in done]
+    return jsonl(lines)
+
+
+def jsonl(lines: Iterable[dict[str, Any]]) -> str:
+    """JSON Lines."""
+    return "".join(json.dumps(line, ensure_ascii=False) + "\n" for line in lines)
+
+
+def _key(name: str) -> int:
+    """A number for a name, the same on every machine."""
+    return zlib.crc32(name.encode())
+
+
+def _line(data: Dataset, example: Example, read: str, prediction: Prediction, model: str, fold: str) -> dict[str, Any]:
+    """What is kept of one prediction: a line of ``predictions.jsonl``. ``text`` is what the model read."""
+
+    def written(instructions: Iterable[Instruction]) -> list[str]:
+        return data.written(example.environment, instructions)
+
+    scorer = data.scorer(example.environment)
+    scores = scorer.score(prediction.instructions, example.gold)
+    whole = example.demonstration.text
+    return {
+        "id": example.id,
+        "task": example.task,
+        "environment": example.environment,
+        "model": model,
+        "fold": fold,
+        "text": read,
+        "predicted": written(prediction.instructions),
+        "gold": written(example.gold),
+        "executable": scores.executable == 100.0,
+        "success": None if example.goal is None else scorer.reaches(prediction.instructions, example.goal),
+        "IED": round(scores.ied, DIGITS),
+        "END": round(scores.end, DIGITS),
+        "EED": round(scores.eed, DIGITS),
+        "EED_trim": round(scores.eed_trim, DIGITS),
+        "clauses": [
+            {
+                "text": served.text,
+                "verb": served.verb,
+                "latent": written(served.latent),
+                "said": written(served.said),
+                "source": served.source,
+                "factors": {name: round(value, DIGITS) for name, value in served.factors.items()},
+            }
+            for served in prediction.served
+        ],
+        "segments": [
+            {"text": whole[segment.start : segment.end], "instructions": written(segment.instructions)}
+            for segment in example.demonstration.segments
+        ],
+    }

@@ -1,0 +1,202 @@
+"""A run's directory: what was asked for, what is done, what came out.
+
+``config.json`` what was asked for, ``fits/`` what was learned on each training set, ``parts/`` one file for each model
+and fold as soon as it is done, ``predictions.jsonl`` and ``metrics.json`` what came out, ``report.html`` the page,
+``log.txt`` what happened. Files appear whole or not at all, so several processes may work in one directory at once.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import subprocess
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+from tmd.files import make_directory, write_text
+from tmd.diagnostics import OutputError
+from tmd.evaluation.runs.config import Shard
+from tmd.evaluation.runs.dataset import Example
+from tmd.evaluation.runs.folds import Fold
+from tmd.evaluation.runs.summary import METRICS, SUCCESS
+from tmd.evaluation.runs.jobs import Outcome, Unit, journal_files
+
+PREDICTIONS = "predictions.jsonl"
+METRICS_FILE = "metrics.json"
+
+
+class _Log(logging.FileHandler):
+    """A log that cannot be written stops nothing: what matters is written elsewhere, and complains there."""
+
+    def handleError(self, record: logging.LogRecord) -> None:  # noqa: N802
+        """Say nothing."""
+
+
+class RunDirectory:
+    """A run's directory.
+
+    Args:
+        path: Where it is.
+        identity: What decides the outcome of the run.
+    """
+
+    def __init__(self, path: Path, identity: dict[str, Any]) -> None:
+        self.path = path
+        self.identity = identity
+        self.log = logging.getLogger(f"tmd.experiment.{path}")
+
+    @property
+    def fits(self) -> Path:
+        """Where what was learned is kept."""
+        return self.path / "fits"
+
+    @contextmanager
+    def entered(self, shard: Shard | None = None) -> Iterator[None]:
+        """Make the directory, or go on in it, and keep a log meanwhile.
+
+        Raises:
+            OutputError: It cannot be written, or holds another run.
+        """
+        make_directory(self.path / "parts")
+        # First the parts, then the configuration: another process writes it before its first part.
+        started = any((self.path / "parts").iterdir())
+        self._claim(started)
+        handler = self._handler(shard)
+        self.log.setLevel(logging.INFO)
+        self.log.propagate = False
+        self.log.addHandler(handler)
+        try:
+            self.log.info("revision: %s", _revision())
+            yield
+        except BaseException as error:
+            self.log.info("stopped: %s", error if isinstance(error, Exception) else type(error).__name__)
+            raise
+        finally:
+            self.log.removeHandler(handler)
+            with suppress(OSError):
+                handler.close()
+
+    def _claim(self, started: bool) -> None:
+        path = self.path / "config.json"
+        try:
+            found = path.read_text(encoding="utf-8") if path.exists() else None
+        except (OSError, UnicodeDecodeError):
+            found = ""
+        mend = "give another --out, or remove that directory"
+        if found is None and started:
+            raise OutputError(f"{self.path} holds parts of a run, but {path.name} is missing", hint=mend)
+        text = json.dumps(self.identity, indent=2, ensure_ascii=False) + "\n"
+        if found is None:
+            write_text(path, text)
+        elif found != text:
+            raise OutputError(f"{self.path} holds another run{_difference(found, self.identity)}", hint=mend)
+
+    def _handler(self, shard: Shard | None) -> logging.Handler:
+        path = self.path / (f"log-{shard.number}-of-{shard.of}.txt" if shard else "log.txt")
+        try:
+            handler = _Log(path, encoding="utf-8")
+        except OSError as error:
+            raise OutputError(f"{path} cannot be written: {error.strerror}") from None
+        handler.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
+        return handler
+
+    def left_of(self, unit: Unit, folds: dict[str, Fold]) -> Unit | None:
+        """The unit with the folds that are not done, and with what it learned before; ``None`` if all are done."""
+        waiting = tuple(name for name in unit.folds if self.part(unit.model, folds[name]) is None)
+        if not waiting:
+            self._tidy(unit)
+            return None
+        return Unit(unit.model, unit.training_set, waiting, self._saved(unit))
+
+    def part(self, model: str, fold: Fold) -> list[dict[str, Any]] | None:
+        """The lines on one model and fold; ``None`` if there are none, or they are damaged."""
+        path = self._part_path(model, fold.name)
+        if not path.exists():
+            return None
+        try:
+            lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+            about = [(line["id"], line["model"], line["fold"]) for line in lines]
+            numbers = [float(line[metric]) for line in lines for metric in (*METRICS, "executable")]
+        except (OSError, ValueError, TypeError, KeyError):
+            about, numbers = [], []
+        wanted = [(example.id, model, fold.name) for example in fold.test]
+        if about != wanted or not numbers or any(map(_lacks_success, lines, fold.test)):
+            self.log.info("damaged, so to be done again: %s", path.name)
+            return None
+        return lines
+
+    def _part_path(self, model: str, fold: str) -> Path:
+        return self.path / "parts" / f"{model}-{fold}.jsonl"
+
+    def _saved(self, unit: Unit) -> dict[str, Any] | None:
+        path = self.fits / f"{unit.name}.json"
+        if not path.exists():
+            return None
+        try:
+            saved = json.loads(path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            saved = None
+        if isinstance(saved, dict) and saved.get("model") == unit.model and isinstance(saved.get("worlds"), dict):
+            return saved
+        self.log.info("damaged, so to be learned again: %s", path.name)
+        return None
+
+    def keep(self, outcome: Outcome) -> None:
+        """Write what came out of a unit.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        if outcome.fit is not None:
+            write_text(make_directory(self.fits) / f"{outcome.unit.name}.json", outcome.fit)
+        for fold, text in outcome.parts.items():
+            write_text(self._part_path(outcome.unit.model, fold), text)
+            self.log.info("done: %s fold %s", outcome.unit.model, fold)
+        self._tidy(outcome.unit)
+
+    def _tidy(self, unit: Unit) -> None:
+        for path in journal_files(self.fits, unit):
+            with suppress(OSError):
+                path.unlink(missing_ok=True)
+
+    def finish(self, predictions: str, metrics: dict[str, Any]) -> None:
+        """Write what came out of the run.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        write_text(self.path / PREDICTIONS, predictions)
+        write_text(self.path / METRICS_FILE, json.dumps(metrics, indent=2) + "\n")
+        self.log.info("finished")
+
+
+def _lacks_success(line: dict[str, Any], example: Example) -> bool:
+    """Whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
+    return (example.goal is not None) != isinstance(line.get(SUCCESS), bool)
+
+
+def _difference(found: str, identity: dict[str, Any]) -> str:
+    """In what the run that was found differs: the first thing."""
+    try:
+        other = json.loads(found)
+    except ValueError:
+        return ", or config.json is damaged"
+    if isinstance(other, dict):
+        for name, value in identity.items():
+            if other.get(name) != value:
+                return f": its {name} is {json.dumps(other.get(name))}, not {json.dumps(value)}"
+    return ""
+
+
+def _revision() -> str:
+    """The revision of the checkout, if this is one."""
+    here = Path(__file__).resolve().parent
+    try:
+        found = subprocess.run(
+            ["git", "describe", "--always", "--dirty"], cwd=here, capture_output=True, text=True, timeout=10
+        )
+    except (OSError, subprocess.TimeoutExpired):
+        return "unknown"
+    return found.stdout.strip() or "unknown"

@@ -1,0 +1,78 @@
+"""A problem and a plan that works for it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import TRUE, And, Atom, Formula, GroundAtom, Instruction, Not, Problem, State
+from tmd.pddl.normalise import portable
+from tmd.pddl.validator import validate
+
+
+@dataclass(frozen=True)
+class Planned:
+    """A problem, a plan that reaches its goal, and the states on the way.
+
+    Make it with :func:`planned`, which executes the plan.
+
+    Attributes:
+        problem: The problem.
+        plan: The instructions.
+        cost: What they cost.
+        states: The states before, between and after them; one more than there are instructions.
+    """
+
+    problem: Problem
+    plan: tuple[Instruction, ...]
+    cost: int
+    states: tuple[State, ...]
+
+    @cached_property
+    def portable(self) -> Problem:
+        """The problem in the form that other planners read: flat, every requirement named, no ``either``.
+
+        Raises:
+            TmdError: It cannot be written so.
+        """
+        return portable(self.problem)
+
+    @property
+    def unit_cost(self) -> bool:
+        """Whether each instruction costs 1."""
+        return not self.problem.minimize_cost
+
+
+def planned(problem: Problem, plan: Iterable[Instruction]) -> Planned:
+    """Execute ``plan`` in ``problem``.
+
+    Raises:
+        TmdError: The plan does not work; the message names the first thing that fails.
+    """
+    steps = tuple(plan)
+    verdict = validate(problem, steps, trace=True)
+    if not verdict.valid:
+        raise TmdError(f"the plan does not work: {verdict.reason}", hint="only plans that work are exported")
+    return Planned(problem, steps, verdict.cost, verdict.trace)
+
+
+def with_outcome(problem: Problem, plan: Iterable[Instruction]) -> Problem:
+    """``problem`` with the goal that everything is as it is after ``plan``.
+
+    The goal of a text is not stated anywhere; what its plan changed stands for it. Where nothing changed, the goal
+    is empty.
+
+    Raises:
+        TmdError: An instruction cannot be executed.
+    """
+    open_ended = replace(problem, goal=TRUE)
+    end = planned(open_ended, plan).states[-1]
+    gained = [_atom(atom) for atom in sorted(end - problem.init)]
+    lost: list[Formula] = [Not(_atom(atom)) for atom in sorted(problem.init - end)]
+    return replace(problem, goal=And((*gained, *lost)))
+
+
+def _atom(atom: GroundAtom) -> Atom:
+    return Atom(atom.predicate, atom.args)

@@ -1,0 +1,94 @@
+"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer."""
+
+from __future__ import annotations
+
+import os
+import platform
+import stat
+from contextlib import suppress
+from pathlib import Path
+from zlib import crc32
+
+from tmd.diagnostics import OutputError
+
+
+def write_text(path: str | Path, text: str) -> None:
+    """Write ``text`` as UTF-8.
+
+    Raises:
+        OutputError: It cannot be written; what stood there before still stands.
+    """
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: str | Path, data: bytes) -> None:
+    """Write ``data`` to a new file beside ``path``, and let it take the place of ``path``.
+
+    A link stays a link. What is no regular file (``/dev/null``, a pipe) is written to as it is.
+
+    Raises:
+        OutputError: It cannot be written; what stood there before still stands.
+    """
+    given = Path(path)
+    try:
+        target = given.resolve()
+        mode = _mode(target)
+        if mode is not None and not stat.S_ISREG(mode):
+            _write(target, data, os.O_WRONLY)
+            return
+        draft = target.with_name(_draft(target.name))
+        try:
+            _write(draft, data, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
+            if mode is not None:
+                draft.chmod(stat.S_IMODE(mode))
+            draft.replace(target)
+        except BaseException:
+            with suppress(OSError):
+                draft.unlink(missing_ok=True)
+            raise
+    except OSError as error:
+        raise OutputError(
+            f"{given} cannot be written: {error.strerror or error}",
+            hint="check that the directory exists, that you may write there and that the disk has room",
+        ) from error
+
+
+def make_directory(path: str | Path) -> Path:
+    """Make a directory and those above it, if they are not there.
+
+    Raises:
+        OutputError: It cannot be made.
+    """
+    target = Path(path)
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise OutputError(
+            f"{target} cannot be made: {error.strerror or error}", hint="name a directory you may write to"
+        ) from error
+    return target
+
+
+def _draft(name: str) -> str:
+    """A name for the new file that no other writer uses: two machines that share a directory may share process ids.
+
+    The host is in it as a checksum, so that a long host name does not make the file name too long.
+    """
+    return f".{name}.{crc32(platform.node().encode()):08x}.{os.getpid()}.part"
+
+
+def _mode(path: Path) -> int | None:
+    try:
+        return path.stat().st_mode
+    except FileNotFoundError:
+        return None
+
+
+def _write(path: Path, data: bytes, flags: int) -> None:
+    """Write and make sure that it reached the disk: a rename may otherwise overtake the data."""
+    descriptor = os.open(path, flags, 0o666)
+    with os.fdopen(descriptor, "wb") as file:
+        file.write(data)
+        file.flush()
+        if flags & os.O_CREAT:
+            os.fsync(descriptor)

@@ -1,0 +1,1 @@
+"""Formatting of PDDL and YAML: the same layout everywhere; comments and the author's own line breaks stay."""

@@ -1,0 +1,253 @@
+"""Laying out PDDL: indentation, spaces and blank lines; comments and the author's own line breaks stay.
+
+Sections and the parts of actions begin lines of their own; a line that is too long is broken; nothing is joined. A
+group continues under its first argument, or two columns in where its head stands last on a line, unless the author
+chose another of the usual ways.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.syntax import split_lines
+
+WIDTH = 120
+_TOKEN = re.compile(r";.*|[()]|[^\s();]+")
+_PARTS = frozenset({":parameters", ":precondition", ":effect"})
+_LOOSE = 2
+"""A comment that many blanks behind the code follows it; farther away it stands in a column."""
+_TOP = frozenset({"define", ":action"})
+_BODY = frozenset({"forall", "exists"})
+"""Groups that continue two columns in from their parenthesis."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Token:
+    text: str
+    breaks: int
+    """0: on the line of the token before; 1: on a line of its own; 2: with a blank line between."""
+    column: int
+    """Where it stood; ``indent`` is where its line began."""
+    indent: int
+
+    @property
+    def is_comment(self) -> bool:
+        return self.text.startswith(";")
+
+
+@dataclass(slots=True)
+class _Open:
+    """A group that is open while lines are laid out."""
+
+    column: int
+    line_indent: int
+    head: str = ""
+    count: int = 0
+    argument: int | None = None
+    """The column of the first argument, if it stands on the line of the head."""
+    last: str = ""
+    was: tuple[int, int] = (0, 0)
+    """Where it and its line began before."""
+    was_argument: int | None = None
+
+    def indent(self, column: int) -> int:
+        """Where a line begins that continues this group and began at ``column`` before."""
+        if self.head in _TOP:
+            return self.column + (4 if self.last in _PARTS else 2)
+        if self.argument is not None and column == self.was_argument:
+            return self.argument
+        if self.head and column in (self.was[0] + 2, self.was[1] + 2):
+            return self.column + 2 if column == self.was[0] + 2 else self.line_indent + 2
+        if self.head in _BODY:
+            return self.column + 2
+        if self.count and not self.head:
+            return self.column + 1
+        if self.argument is not None:
+            return self.argument
+        return self.line_indent + 2
+
+
+def format_pddl(text: str, file: str = "<text>") -> str:
+    """``text`` laid out; the same tokens and comments in the same order.
+
+    Raises:
+        TmdError: Its parentheses do not match, so nothing can be laid out.
+    """
+    _refuse_unbalanced(text, file)
+    tokens = list(_broken(_tokens(text)))
+    while True:
+        lines, starts = _lay_out(tokens)
+        wider = next((n for n, line in enumerate(lines) if len(line.partition(";")[0].rstrip()) > WIDTH), None)
+        if wider is None or not _break_line(tokens, starts[wider], starts[wider + 1]):
+            break
+    laid = "\n".join(lines) + "\n" if lines else ""
+    if [t.text for t in _tokens(laid)] != [t.text for t in tokens]:
+        raise TmdError("cannot be laid out without changing it", location=Location(file, 1, 1), hint="please report")
+    return laid
+
+
+def _refuse_unbalanced(text: str, file: str) -> None:
+    """What else may be wrong does not keep a text from being laid out."""
+    depth = 0
+    for token in _tokens(text):
+        depth += {"(": 1, ")": -1}.get(token.text, 0)
+        if depth < 0:
+            break
+    if depth:
+        parse(text, file)
+        raise TmdError("the parentheses do not match", location=Location(file, 1, 1), code="unclosed-parenthesis")
+
+
+def _tokens(text: str) -> list[_Token]:
+    found: list[_Token] = []
+    empty = 0
+    for line in split_lines(text):
+        expanded = line.expandtabs(8)
+        indent = len(expanded) - len(expanded.lstrip())
+        matches = list(_TOKEN.finditer(expanded))
+        if not matches:
+            empty += 1
+        for match in matches:
+            first = match.start() == indent
+            breaks = (2 if empty and found else 1) if first else 0
+            found.append(_Token(match[0].rstrip(), breaks, match.start(), indent))
+            empty = 0
+    return found
+
+
+def _broken(tokens: list[_Token]) -> Iterator[_Token]:
+    """Sections and the parts of actions on lines of their own."""
+    heads: list[str] = []
+    counts: list[int] = []
+    for place, token in enumerate(tokens):
+        new = token.breaks
+        if heads and not token.is_comment and token.text != ")":
+            section = heads[-1] == "define" and token.text == "(" and counts[-1] >= 2
+            part = heads[-1] == ":action" and token.text.lower() in _PARTS
+            if (section or part) and not new:
+                new = 1
+        if token.text == ")" and new and not (place and tokens[place - 1].is_comment):
+            new = 1
+        yield replace(token, breaks=new)
+        if token.is_comment:
+            continue
+        if counts and token.text != ")":
+            if counts[-1] == 0 and token.text != "(":
+                heads[-1] = token.text.lower()
+            counts[-1] += 1
+        if token.text == "(":
+            heads.append("")
+            counts.append(0)
+        elif token.text == ")":
+            heads.pop()
+            counts.pop()
+
+
+def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
+    """The lines, and the number of the token that each begins with (and the number of all at the end)."""
+    lines: list[str] = []
+    starts: list[int] = []
+    stack: list[_Open] = []
+    indent = 0
+    for number, token in enumerate(tokens):
+        fresh = token.breaks or not lines or (number > 0 and tokens[number - 1].is_comment)
+        if fresh:
+            if token.breaks == 2 and token.text != ")" and not _after_open(tokens, number):
+                lines.append("")
+                starts.append(number)
+            indent = _indent(token, stack)
+            lines.append(" " * indent)
+            starts.append(number)
+        elif token.is_comment:
+            lines[-1] += " " * _gap(token, tokens[number - 1], tokens[starts[-1]], indent, len(lines[-1]))
+        elif token.text != ")" and tokens[number - 1].text != "(":
+            lines[-1] += " "
+        _enter(token, stack, len(lines[-1]), indent, bool(fresh))
+        lines[-1] += token.text
+    starts.append(len(tokens))
+    return lines, starts
+
+
+def _gap(comment: _Token, before: _Token, first: _Token, indent: int, length: int) -> int:
+    """The blanks before a comment: as many as there were, or so many that it stays in its column."""
+    was = comment.column - before.column - len(before.text)
+    if was <= _LOOSE:
+        return max(1, was)
+    if first.column != comment.indent:
+        return 1
+    return max(1, comment.column + indent - comment.indent - length)
+
+
+def _after_open(tokens: list[_Token], number: int) -> bool:
+    return number > 0 and tokens[number - 1].text == "("
+
+
+def _indent(token: _Token, stack: list[_Open]) -> int:
+    if not stack:
+        return 0
+    if token.text == ")":
+        return stack[-1].line_indent
+    if token.text.lower() in _PARTS:
+        return stack[-1].column + 2
+    return stack[-1].indent(token.column)
+
+
+def _enter(token: _Token, stack: list[_Open], column: int, indent: int, fresh: bool) -> None:
+    """Note ``token`` in the groups that are open."""
+    if token.is_comment:
+        return
+    if token.text == ")":
+        stack.pop()
+        return
+    if stack:
+        top = stack[-1]
+        if top.count == 0 and token.text != "(" and token.text[0] != "?":
+            top.head = token.text.lower()
+        elif top.count == 1 and top.argument is None and not fresh:
+            top.argument = column
+            top.was_argument = token.column
+        top.count += 1
+        top.last = token.text.lower()
+    if token.text == "(":
+        stack.append(_Open(column, indent, was=(token.column, token.indent)))
+
+
+def _break_line(tokens: list[_Token], start: int, end: int) -> bool:
+    """Break the line of the tokens from ``start`` to ``end``: at the children of its outermost group, or when full."""
+    opened: list[int] = []
+    children: dict[int, list[int]] = {}
+    for number in range(start, end):
+        text = tokens[number].text
+        if text == "(":
+            if opened and number != start:
+                children.setdefault(opened[-1], []).append(number)
+            elif not opened and number != start:
+                children.setdefault(-1, []).append(number)
+            opened.append(number)
+        elif text == ")" and opened:
+            opened.pop()
+    for _, inner in sorted(children.items()):
+        if len(inner) > 1:
+            for number in inner:
+                tokens[number] = replace(tokens[number], breaks=max(tokens[number].breaks, 1))
+            return True
+    return _fill(tokens, start, end)
+
+
+def _fill(tokens: list[_Token], start: int, end: int) -> bool:
+    """Break a line of words before the first word that goes beyond the width."""
+    lines, _ = _lay_out(tokens[:end])
+    column = len(lines[-1])
+    for number in range(end - 1, start + 1, -1):
+        text = tokens[number].text
+        column -= len(text) + (text not in "()")
+        if column <= WIDTH - 2 and text not in ("(", ")", "-") and tokens[number - 1].text not in ("(", "-"):
+            if tokens[number].breaks or tokens[number].is_comment:
+                return False
+            tokens[number] = replace(tokens[number], breaks=1)
+            return True
+    return False

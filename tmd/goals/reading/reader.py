@@ -1,0 +1,492 @@
+"""A clause as a PDDL goal: the row that fits, its slots filled, its noun phrases quantified."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations, islice, product
+
+from tmd.diagnostics import TmdError
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
+from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disjunction, negation, only_negative
+from tmd.goals.reading.nouns import Memory, Mode, Referent, relations_said
+from tmd.goals.reading.referents import Referents
+from tmd.goals.reading.requirements import Requirements
+from tmd.goals.reading.row_fitting import Fitting
+from tmd.goals.reading.states import BE, States
+from tmd.goals.sources.senses import family
+from tmd.goals.sources.table import ACTIONS, PREPOSITIONS, RELATION, GoalRow, GoalTable, Slot
+from tmd.goals.why import why_impossible
+from tmd.language.clause import Clause, Quantifier
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.model import Formula, Or
+from tmd.pddl.task import Bits
+from tmd.veil.world import World
+
+_NEVER_OTHERWISE = Or((FALSE,))
+"""Stands for what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
+_DEAD = (FALSE, _NEVER_OTHERWISE)
+_MOST_CHOICES = 200
+"""So many ways of choosing two of many things are looked at."""
+_NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
+"""Relations whose nouns must name something."""
+_ELIDED = ("in", "on", "to")
+"""The places that a verb may leave to what was spoken of."""
+
+
+class GoalReader:
+    """Reads clauses as goals in one environment.
+
+    Args:
+        world: The environment.
+        tables: What verbs mean, the surest source first; adjectives and groups are those of the first.
+        lexicon: The domain's words.
+        guess: Whether a thing may be taken for what a noun is only like in meaning.
+    """
+
+    def __init__(self, world: World, tables: Sequence[GoalTable], lexicon: Lexicon, *, guess: bool = False) -> None:
+        self.world = world
+        self.tables = tuple(tables)
+        self.lexicon = lexicon
+        self.domain = world.task.problem.domain
+        self.referents = Referents(world, tables[0] if tables else GoalTable(), lexicon, guess=guess)
+        self.requirements = Requirements(self.referents)
+        self.states = States(self.referents)
+        self.fitting = Fitting(self.referents)
+        self.grounder = self.referents.grounder
+        self.nouns = self.referents.nouns
+
+    def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refused:
+        """What ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
+        reading = ClauseReading(clause, state, Moments(state, memory.first), memory, awaited=awaited)
+        if (
+            clause.implied
+            and clause.verb == "have"
+            and any(r.source in clause.direct and r.relation not in ("of", "with", "without") for r in clause.relations)
+        ):
+            placed = self.read(replace(clause, verb="put", implied=False), state, memory)
+            if not isinstance(placed, Refused):
+                return placed  # "mug on the table" says where it shall be
+        bare = clause.verb == BE and not clause.relations and not clause.result
+        if bare or ((clause.verb == BE or clause.result) and not self._rows_with(clause)):
+            return self._state(reading)
+        own = list(dict.fromkeys((clause.verb, *self._synonyms(clause.verb))))
+        plain = clause.verb.partition("_")[0]
+        goals = {word for group in ("in", "on", "next_to", "to") for word in PREPOSITIONS[group]}
+        goes = any(r.source in clause.direct and r.relation in goals for r in clause.relations)
+        if plain != clause.verb and (goes or not clause.verb.endswith(("_out", "_away", "_off"))):
+            own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
+        found = self._by_tables(own, reading)
+        if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
+            asked = self._state(reading.again(strict=False))
+            found = found if isinstance(asked, Refused) else asked
+        return found
+
+    def _state(self, reading: ClauseReading) -> ClauseGoal | Refused:
+        """What a clause says to be so, or to be there.
+
+        *I want the table laid* is to lay it, where no state is called so.
+        """
+        clause = reading.clause
+        asked = self.states.read(reading)
+        done = self.lexicon.verb(clause.result) if clause.result and clause.verb in ("have", "get", "be") else None
+        if isinstance(asked, Refused) and asked.why is Why.NOT_UNDERSTOOD and done is not None and done[1] == "ed":
+            said = replace(clause, verb=done[0], result=None, implied=False)
+            found = self.read(said, reading.state, reading.memory, awaited=reading.awaited)
+            return asked if isinstance(found, Refused) else found
+        return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
+
+    def knows(self, noun: str) -> bool:
+        """Whether the domain has a word for a noun, be there such a thing here or not."""
+        words = {t.name for t in self.domain.types} | {c.name for c in self.domain.constants}
+        return bool(words & {noun, *self.lexicon.nouns.get(noun, ())}) or self.nouns.is_group(noun)
+
+    def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused:
+        """The goal by the first source that knows the verb."""
+        failure: Refused | None = None
+        for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
+            found = self._by_table(table, own, reading)
+            if isinstance(found, ClauseGoal):
+                return found
+            failure = failure or found
+            if found is not None and found.why is not Why.NOT_UNDERSTOOD:
+                return found
+        return failure or self._unknown(reading.clause)
+
+    def _by_table(self, table: GoalTable, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused | None:
+        """The goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""
+        failure: Refused | None = None
+        others = self._family(own)
+        if any(row.source == ACTIONS for row in table.rows[:1]):
+            # an action that takes just what was named is meant rather than what an action does to a relative of it
+            self.grounder.exact = True
+            try:
+                for known in filter(None, map(table.of, (*own, *others))):
+                    found = self._by_rows(known, reading.again(strict=True))
+                    if not isinstance(found, Refused) or found.why is Why.IMPOSSIBLE:
+                        return found
+            finally:
+                self.grounder.exact = False
+        looser = () if self._is_placing(reading.clause) else ((False, others),)  # to put is more than to take
+        alone = not any(r.source in reading.clause.direct for r in reading.clause.relations)
+        for strict, verbs in ((True, own), (True, others), (False, own), *looser):
+            for verb in verbs:
+                # what another verb leaves without a trace says nothing of this one: to put is not to sit
+                rows = [row for row in table.of(verb) if verb in own or not row.traceless]
+                if not rows:
+                    continue
+                found = self._by_rows(rows, reading.again(strict=strict))
+                if isinstance(found, ClauseGoal):
+                    return found
+                if alone and verb == reading.clause.verb and found.why is Why.IMPOSSIBLE:
+                    return found  # what the verb itself asks for can never be: its relatives would ask for less
+                if failure is None or failure.why is Why.NOT_UNDERSTOOD:
+                    failure = found
+            settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
+            if settled and (not strict or self._is_placing(reading.clause)):
+                return failure
+        return failure
+
+    def _is_placing(self, clause: Clause) -> bool:
+        """Whether a clause says where something shall go: if it cannot go there, nothing less will do."""
+        placing = {"put", "place", "pour", "add"} & {clause.verb, *self._synonyms(clause.verb), *family(clause.verb)}
+        return bool(placing) and any(r.source in clause.direct and r.relation != "of" for r in clause.relations)
+
+    def _rows_with(self, clause: Clause) -> bool:
+        """Whether some row says what this verb with this state means."""
+        verbs = (clause.verb, *self._synonyms(clause.verb))
+        return any(row.result == clause.result for t in self.tables for v in verbs for row in t.of(v))
+
+    def _synonyms(self, verb: str) -> tuple[str, ...]:
+        canonical = self.lexicon.canonical_verb(verb)
+        return (canonical,) if canonical != verb else ()
+
+    def _family(self, own: Sequence[str]) -> list[str]:
+        """Verbs that ask for the same as ``own`` in English, whatever the domain."""
+        return [verb for verb in dict.fromkeys(name for one in own for name in family(one)) if verb not in own]
+
+    def _unknown(self, clause: Clause) -> Refused:
+        known = sorted({verb for table in self.tables for verb in table.verbs()} - {BE})
+        verb = clause.verb.replace("_", " ")
+        hint = f"say it with another verb, such as {', '.join(known[:6])}" if known else None
+        return Refused(Why.UNKNOWN_VERB, f"nobody has shown or declared what '{verb}' means", hint)
+
+    def _by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refused:
+        """The goal by the first rows that fit every thing the verb acts on."""
+        formulas: list[Formula] = []
+        used: GoalRow | None = None
+        for unit in self.referents.units(reading):
+            found = self._unit(rows, unit, reading)
+            if isinstance(found, Refused):
+                found = self._measured(rows, unit, reading) or found
+            if isinstance(found, Refused):
+                return found
+            formula, used = found
+            formulas.append(formula)
+        either = any(reading.clause.phrase(name).either for name in reading.clause.direct)
+        none = all(reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct or ("",))
+        whole = disjunction(formulas) if either or none else conjunction(formulas)
+        return self._finished(whole, used, reading)
+
+    def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | None:
+        """*Two spoons of coffee* is some coffee, where nothing can be said of the spoons."""
+        inner = next((target for relation, target in unit.relations if relation == "of"), None)
+        if inner is None or not self.nouns.constants(inner, ("object",), reading.state):
+            return None
+        others = [(r, t) for r, t in unit.relations if r != "of"]
+        clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
+            counted = replace(
+                clause.phrase(inner), quantifier=measure.quantifier, number=measure.number, plural=measure.plural
+            )
+            reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
+        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
+        reading.clause = clause
+        if isinstance(found, Refused):
+            return None
+        if unit.direct is not None and inner in reading.meant:
+            reading.meant.setdefault(unit.direct, reading.meant[inner])
+        return found
+
+    def _finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refused:
+        if reading.clause.direct and all(
+            reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct
+        ):
+            formula = negation(formula)
+        try:
+            cubes = self.grounder.cubes(formula)
+        except TmdError as error:
+            return Refused(Why.NOT_UNDERSTOOD, error.message, error.hint)
+        if not cubes:
+            return Refused(Why.CONTRADICTION, f"'{reading.clause.text}' asks for what cannot hold at the same time")
+        groups = tuple((noun, names) for noun, names in reading.meant.items() if names)
+        return ClauseGoal(
+            reading.clause,
+            formula,
+            cubes,
+            row,
+            dict(reading.meant),
+            tuple(reading.approach),
+            tuple(reading.released),
+            groups,
+            tuple(dict.fromkeys(reading.notes)),
+        )
+
+    def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | Refused:
+        """The goal of one thing; a pronoun is what it most likely means of that which a row fits."""
+        if unit.direct is None or not self.referents.points_back(unit.direct):
+            return self._with_places(rows, unit, reading)
+        failure: Refused | None = None
+        held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
+        reading.pronoun = unit.direct
+        options = self.referents.antecedents(unit.direct, reading)
+        for number in range(len(options) or 1):
+            reading.antecedent = number
+            before = dict(reading.meant)
+            found = self._with_rows(rows, unit, reading)
+            if isinstance(found, Refused):
+                failure = failure or found
+            elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
+                if reading.awaited:
+                    return found
+                held = held or (found, reading.meant)  # so already: rather what is not
+                reading.meant = before
+            elif held is None or not options[number][1] or found[1].looks_back:
+                return found
+        if held is not None:
+            reading.meant = held[1]
+            return held[0]
+        assert failure is not None
+        return failure
+
+    def _with_places(
+        self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
+    ) -> tuple[Formula, GoalRow] | Refused:
+        """As :meth:`_with_rows`, with places that point back: what was spoken of last and a row fits.
+
+        A place may be left out (*pour the milk*) or be a pronoun (*pour the milk in it*); it is then no object of the
+        clause itself, whatever row would fit that.
+        """
+        fillers = [f for row in rows for slot in row.places for f in self.fitting.fillers(slot, unit, reading)]
+        back = [""] if any(relation in _ELIDED and target is None for relation, target in fillers) else []
+        pronouns = (target for _, target in fillers if target is not None and self.referents.points_back(target))
+        back += [p for p in islice(pronouns, 1) if reading.clause.together.get(p, 1) == 1]
+        for pronoun in back:
+            reading.pronoun = pronoun
+            for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
+                reading.antecedent = number
+                found = self._with_rows(rows, unit, reading)
+                if not isinstance(found, Refused) and not (pronoun and is_object):
+                    return found
+            reading.pronoun = reading.antecedent = None
+        return self._with_rows(rows, unit, reading)
+
+    def _with_rows(
+        self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
+    ) -> tuple[Formula, GoalRow] | Refused:
+        """The goal of one thing by the row with the most slots that fits and can hold."""
+        failure: Refused | None = None
+        fitting = self.fitting.of(rows, unit, reading)
+        impossible: set[str] = set()
+        most = 0
+        for place, row in enumerate(fitting):
+            if impossible and (row.source != ACTIONS or row.evidence in impossible) and len(row.slots) < most:
+                continue  # what cannot be done with all that was said is not done with less
+            before = dict(reading.meant), list(reading.approach), list(reading.notes)
+            found = self._by_row(row, unit, reading)
+            shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
+            if not isinstance(found, Refused) and shorter and self.fitting.may_tell_which(row, unit, reading):
+                # what holds already told which thing is meant, if the verb can do without it
+                held = self.grounder.truth(found, reading.state)
+                other = self._with_rows(shorter, unit, reading)
+                if not isinstance(other, Refused) and (held or not self.grounder.truth(other[0], reading.state)):
+                    return other
+            if not isinstance(found, Refused):
+                return found, row
+            failure = failure or found
+            if found.why is Why.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
+                impossible.add(row.evidence)
+                most = max(most, len(row.slots))
+            reading.meant, reading.approach, reading.notes = before
+        if failure is not None:
+            return failure
+        said = text_of(reading.clause)
+        known = "; ".join(dict.fromkeys(row.pattern for row in rows))
+        return Refused(Why.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}")
+
+    def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refused:
+        """The goal of one thing by one row: for each combination of what stands behind the prepositions."""
+        consumed: set[tuple[str, str | None]] = set()
+        choices: list[list[tuple[Slot, str, str | None]]] = [[]]
+        alternatives = False
+        for slot in row.places:
+            fillers = self.fitting.fillers(slot, unit, reading)
+            consumed.update(fillers)
+            alternatives = alternatives or any(t and reading.clause.phrase(t).either for _, t in fillers)
+            choices = [[*c, (slot, relation, target)] for c in choices for relation, target in fillers]
+        leftover = [pair for pair in unit.relations if pair not in consumed]
+        if (reading.strict or row.source == ACTIONS) and any(
+            self.referents.unplaced(unit, *pair, reading) for pair in leftover
+        ):
+            return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of")
+        unknown = self._unknown_thing(leftover, reading)
+        if unknown is not None:
+            return unknown
+        formulas = []
+        for choice in choices:
+            found = self._combination(row, unit.direct, choice, leftover, reading)
+            if isinstance(found, Refused):
+                if not alternatives:
+                    return found
+                continue
+            formulas.append(found)
+        if not formulas:
+            return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
+        return disjunction(formulas) if alternatives else conjunction(formulas)
+
+    def _unknown_thing(self, leftover: Sequence[tuple[str, str]], reading: ClauseReading) -> Refused | None:
+        """A thing that was named and that is not there: whatever is done without it is something else."""
+        if self.nouns.guess:
+            return None
+        for relation, target in leftover:
+            named = not self.referents.points_back(target) and target not in reading.clause.quantities
+            if named and relation in _NAMING and not self.referents.targets(target, reading):
+                return self.referents.missing(Referent(target, ()), reading)
+        return None
+
+    def _combination(
+        self,
+        row: GoalRow,
+        direct: str | None,
+        places: Sequence[tuple[Slot, str, str | None]],
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Formula | Refused:
+        slots: list[tuple[Slot, list[Referent]]] = []
+        if row.direct is not None and direct is not None:
+            slots.append((row.direct, self.referents.referents(direct, row, row.direct, leftover, reading)))
+            slots[0] = (row.direct, [self._at_origin(r, places, reading) for r in slots[0][1]])
+        relations: dict[str, tuple[str, ...]] = {}
+        for slot, relation, target in places:
+            relations[slot.variable] = relations_said(relation, slot.prepositions)
+            noun = "" if target is None else target
+            slots.append(
+                (
+                    slot,
+                    self.referents.referents(
+                        noun, row, slot, self.referents.relations_of(noun, reading.clause) if noun else (), reading
+                    ),
+                )
+            )
+        failure: Refused | None = None
+        for chosen in product(*(options for _, options in slots)):
+            if any(not referent.names for referent in chosen):
+                missing = next(referent for referent in chosen if not referent.names)
+                failure = failure or self.referents.missing(missing, reading)
+                continue
+            pairs = [(slot.variable, referent) for (slot, _), referent in zip(slots, chosen, strict=True)]
+            formula = self._formula(row, pairs, relations, direct, leftover, reading)
+            if formula == FALSE:
+                failure = failure or self._impossible(row, pairs, relations, reading)
+                continue
+            for _, referent in pairs:
+                reading.meant[referent.noun] = referent.names
+            return formula
+        return failure or Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
+
+    def _at_origin(
+        self, referent: Referent, places: Sequence[tuple[Slot, str, str | None]], reading: ClauseReading
+    ) -> Referent:
+        """*Everything off the table*: of what is meant, what is there now."""
+        for _, relation, target in places:
+            if target is not None and relation in PREPOSITIONS["from"]:
+                ends = self.referents.targets(target, reading)
+                there = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments)
+                referent = replace(referent, names=there or referent.names)
+        return referent
+
+    def _formula(
+        self,
+        row: GoalRow,
+        pairs: Sequence[tuple[str, Referent]],
+        relations: Mapping[str, tuple[str, ...]],
+        direct: str | None,
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Formula:
+        """The condition of a row with its slots quantified, and what else was said of the thing acted on."""
+        said = [r for names in relations.values() for r in names] or [""]
+        variables = [variable for variable, _ in pairs]
+
+        def leaf(binding: Mapping[str, str]) -> Formula:
+            if len(set(binding.values())) < len(binding):
+                return FALSE
+            self.grounder.live = 0
+            return disjunction(
+                self.grounder.ground(row.condition, {**binding, RELATION: one}, variables, reading.moments)
+                for one in said
+            )
+
+        further = self.requirements.further(row, pairs, direct, leftover, reading)
+
+        def whole(binding: Mapping[str, str]) -> Formula:
+            formula = leaf(binding)
+            settled = formula == TRUE and row.source == ACTIONS  # no action moves a curtain from where it hangs
+            if formula == FALSE or ((settled or not self.grounder.live) and not row.traceless):
+                # what can never be so is not "not so already", but for one of many: all filters shall be clean
+                return FALSE if formula == FALSE else _NEVER_OTHERWISE
+            return conjunction((formula, *(extra(binding) for extra in further))) if further else formula
+
+        each = [p for p in pairs if p[1].each]
+        one = [p for p in pairs if p[1].mode is Mode.ANY and not p[1].each]
+        many = [p for p in pairs if p[1].mode is not Mode.ANY and not p[1].each]
+        formula = self._quantified([*each, *one, *many], {}, whole, reading)
+        if formula in _DEAD and one and many:
+            formula = self._quantified([*each, *many, *one], {}, whole, reading)
+        return FALSE if formula in _DEAD else formula
+
+    def _quantified(
+        self,
+        pairs: Sequence[tuple[str, Referent]],
+        binding: Mapping[str, str],
+        leaf: Callable[[Mapping[str, str]], Formula],
+        reading: ClauseReading,
+    ) -> Formula:
+        """The condition over all candidates, quantifier after quantifier."""
+        if not pairs:
+            return leaf(binding)
+        (variable, referent), *rest = pairs
+        parts = {name: self._quantified(rest, {**binding, variable: name}, leaf, reading) for name in referent.names}
+        alive = {name: part for name, part in parts.items() if part not in _DEAD}
+        match referent.mode:
+            case Mode.ALL:
+                kept = alive if referent.loose or FALSE not in parts.values() else parts
+                return conjunction(kept.values()) if kept else FALSE
+            case Mode.NUMBER:
+                ways = islice(combinations(alive.values(), referent.number), _MOST_CHOICES)
+                return disjunction(conjunction(way) for way in ways)
+            case Mode.NONE:
+                return conjunction(parts.values()) if len(parts) == 1 else disjunction(alive.values())
+        if referent.definite and len(alive) > 1:
+            open_ = [part for part in alive.values() if not self.grounder.truth(part, reading.state)]
+            if open_ and all(only_negative(part) for part in alive.values()):
+                return conjunction(open_)
+            if open_:
+                return disjunction(open_)
+        return disjunction(alive.values())
+
+    def _impossible(
+        self,
+        row: GoalRow,
+        pairs: Sequence[tuple[str, Referent]],
+        relations: Mapping[str, tuple[str, ...]],
+        reading: ClauseReading,
+    ) -> Refused:
+        short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
+        if short is not None:
+            message = f"there are only {len(short.names)} of '{short.noun.replace('_', ' ')}' here, not {short.number}"
+            return Refused(Why.NO_SUCH_THING, message)
+        said = next((names for names in relations.values() if names), ("",))
+        binding = {variable: referent.names[0] for variable, referent in pairs}
+        reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.world.task, self.grounder)
+        return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")

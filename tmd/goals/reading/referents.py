@@ -1,0 +1,333 @@
+"""What the nouns and pronouns of a clause mean, by what was said of them and what was spoken of before."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why
+from tmd.goals.grounder import Grounder, Moments
+from tmd.goals.reading.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.sources.senses import state_words, words_of
+from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
+from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.nouns import split_name
+from tmd.language.syntax.pronouns import is_one, is_pronoun
+from tmd.veil.world import World
+
+
+class Referents:
+    """Finds what noun phrases mean in one environment.
+
+    Args:
+        world: The environment.
+        table: What adjectives and groups mean.
+        lexicon: The domain's words.
+        guess: Whether a thing may be taken for what a noun is only like in meaning.
+    """
+
+    def __init__(self, world: World, table: GoalTable, lexicon: Lexicon, *, guess: bool = False) -> None:
+        self.world = world
+        self.lexicon = lexicon
+        self.domain = world.task.problem.domain
+        self.grounder = Grounder(world)
+        self.nouns = Nouns(world, table, self.grounder, guess=guess)
+
+    def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
+        """The relations in which a noun stands, each with what it is related to."""
+        found = [
+            (r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)
+        ]
+        if clause.setting and name in (*clause.direct, ""):
+            found.append(("to", clause.setting.split()[-1]))
+        contents = {r.source: r.target for r in clause.relations if r.relation == "of"}
+        measures = words_of("measures")
+        found = [(r, contents.get(t, t) if t in measures and r != "of" else t) for r, t in found]
+        return [(r, t) for r, t in found if t not in PERSONS]
+
+    def units(self, reading: ClauseReading) -> list[Unit]:
+        """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
+        clause = reading.clause
+        direct = [name for name in clause.direct if name not in PERSONS]
+        if not direct:
+            direct = [""] if "" in clause.antecedents else []
+        none = [name for name in direct if clause.phrase(name).quantifier is Quantifier.NONE]
+        if 0 < len(none) < len(direct):
+            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
+        units = [Unit(name, self.relations_of(name, clause)) for name in direct]
+        for unit in units if len(none) and none != direct else ():
+            unit.relations += [("without", name) for name in none if name not in direct]
+        for unit in units:
+            measured = next((t for r, t in unit.relations if r == "of"), None)
+            if unit.direct in words_of("measures") and measured is not None:
+                unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.relations_of(measured, clause)
+                unit.direct = measured
+        if clause.implied:
+            # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
+            for unit, following in reversed(list(pairwise(units))):
+                unit.relations = unit.relations or list(following.relations)
+        return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Whether a relation of what is acted on holds now of one of its candidates."""
+        if not unit.direct:
+            return False
+        referent = Referent(unit.direct, self.nouns.things(unit.direct, reading.state))
+        names = self.targets(target, reading)
+        return bool(self.nouns.related_now(referent, relation, names, reading.state, reading.moments))
+
+    def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Whether a relation says a place where what is acted on is not yet."""
+        place = relation in ("in", "into", "inside", "on", "onto", "to", "next_to", "on_top_of", "over", "beside")
+        return place and bool(self.targets(target, reading)) and not self.tells_which(unit, relation, target, reading)
+
+    def points_back(self, noun: str) -> bool:
+        """Whether a noun, or its absence, stands for something that was spoken of."""
+        return not noun or self._is_pronoun(noun) or noun in words_of("anaphors")
+
+    def _is_pronoun(self, noun: str) -> bool:
+        """Whether a noun is a pronoun, and no name that the domain has for something: ``red_one: [red_block]``."""
+        return is_pronoun(noun) and noun not in self.lexicon.nouns
+
+    def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
+        """What a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
+        clause, memory = reading.clause, reading.memory
+        if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
+            return [(noun, False)]
+        nouns = [(name, False) for name in clause.antecedents.get(noun, ())]
+        seen = {n for name, _ in nouns for n in (memory.bound[name].names if name in memory.bound else ())}
+        return [*nouns, *((name, True) for name in memory.recent if name not in seen)]
+
+    def referents(
+        self, noun: str, row: GoalRow, slot: Slot, relations: Iterable[tuple[str, str]], reading: ClauseReading
+    ) -> list[Referent]:
+        """What may stand in a slot, likeliest first: one reading for a noun, one for each antecedent of a pronoun."""
+        types = slot_types(row.condition, slot.variable, self.domain)
+        clause = reading.clause
+        phrase = clause.phrase(noun)
+        if not self.points_back(noun):
+            return [self._named(noun, phrase, types, list(relations), reading, place=slot.is_place)]
+        if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
+            return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+        options = self.antecedents(noun, reading)
+        if reading.antecedent is not None and noun == reading.pronoun:
+            options = options[reading.antecedent : reading.antecedent + 1]
+        found = []
+        for name, is_object in options:
+            if not is_object:
+                found.append(self._antecedent(name, noun, types, reading))
+            elif self.grounder.is_a(name, types):
+                found.append(Referent(noun or "it", (name,), definite=True))
+            else:
+                inside = tuple(c for c in self.nouns.contents(name, reading.state) if self.grounder.is_a(c, types))
+                found.append(Referent(noun or "it", inside))
+        return [referent for referent in found if referent.names] or [Referent(noun or "it", ())]
+
+    def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        """What a pronoun means if it stands for ``antecedent``: what that turned out to be."""
+        if is_one(pronoun):
+            said = reading.clause.phrase(pronoun)
+            relations = self.relations_of(pronoun, reading.clause)
+            return replace(
+                self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
+            )
+        bound = reading.memory.bound.get(antecedent)
+        many = pronoun in ("them", "they", "these", "those", "both", "all")
+        if bound is not None:
+            names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
+            if not names:
+                inside = (c for n in (*bound.names, *bound.containers) for c in self.nouns.contents(n, reading.state))
+                names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+                return Referent(antecedent, names)
+            names = self._by_now(names, types, reading)
+            mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
+            return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
+        return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
+
+    def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        names: dict[str, None] = {}
+        for noun in nouns:
+            names.update(dict.fromkeys(self._antecedent(noun, "them", types, reading).names))
+        return Referent(pronoun, tuple(names), Mode.ALL)
+
+    def _named(
+        self,
+        noun: str,
+        phrase: NounPhrase,
+        types: tuple[str, ...],
+        relations: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+        *,
+        place: bool = False,
+    ) -> Referent:
+        """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
+        likely = self.nouns.things(noun, reading.state, place=place, types=types)
+        things = tuple(n for n in likely if self.grounder.fits(n, types))
+        if phrase.definite and not phrase.plural and not relations:
+            things = self._part_of(reading.memory.recent, noun) or things
+        for relation, target in relations:
+            if relation in PART_OF:
+                things = self._part_of(self.targets(target, reading), noun) or things
+            if relation == "of":
+                held = self.nouns.holders(noun, self.targets(target, reading), reading.state, reading.moments)
+                things = tuple(n for n in held if self.grounder.fits(n, types)) or things
+        if not likely and noun in words_of("parts"):
+            # "the lid", where lids are no things of their own, is that of what was spoken of
+            spoken = [n for n in reading.memory.recent if self.grounder.is_a(n, types)]
+            opened = [n for n in spoken if self.nouns.state_of(state_words("open"), n) is not None]
+            things = tuple(opened or spoken)[:1]
+        inside = self._by_now_in(noun, types, reading) if phrase.quantifier is Quantifier.PLAIN else ()
+        if inside and place:
+            return Referent(noun, inside, definite=True)
+        if inside and phrase.definite:
+            things = tuple(n for n in things if n in inside) or things  # "until the water boils": the water in the pot
+        wanted_constants = self.nouns.constants(noun, types, reading.state)
+        if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
+            wanted_constants = self._by_now(wanted_constants, types, reading)
+        objects = tuple(n for n in things if n not in self.world.profiles.constants)
+        group = self.nouns.is_group(noun) and not (place and noun in self.lexicon.nouns)
+        if not objects and wanted_constants:
+            mode, number = mode_of(phrase, group=False, thing=False)
+            return Referent(noun, wanted_constants, mode, number, phrase.definite)
+        mode, number = mode_of(phrase, group=group, thing=True, place=place)
+        if mode is not Mode.ANY and not group:
+            objects, group = self._all_kinds(noun, objects, types, reading)
+        if phrase.number == 2 and mode is Mode.ALL:
+            mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
+        referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
+        whole = referent.names
+        referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
+        if whole and not referent.names and any(relation == "of" for relation, _ in relations):
+            # "a hot cup of coffee": the cup shall be so, with what is in it
+            reading.wanted[noun] = phrase.attributes
+            referent = replace(referent, names=whole)
+        if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
+            referent = replace(referent, names=())
+        reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
+        referent = self._restricted(referent, relations, reading)
+        bound = reading.memory.bound.get(noun)
+        if bound is not None and phrase.quantifier is Quantifier.OTHER:
+            return replace(referent, names=tuple(n for n in referent.names if n not in bound.names))
+        if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
+            return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
+        return referent
+
+    def _by_now_in(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """What contains the substance that was spoken of: *over the noodles* is over what they are in by now."""
+        named = set(self.nouns.constants(noun, ("object",), reading.state)) & set(self.world.profiles.constants)
+        for bound in reversed(tuple(reading.memory.bound.values())):
+            if bound.containers and named & set(bound.names):
+                return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
+        return ()
+
+    def _by_now(self, names: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """What was spoken of, as that which it turned into since: the noodles, when they are cooked."""
+
+        def now(name: str) -> str:
+            for later in self.nouns.turns_into(name) if name in self.world.profiles.constants else ():
+                fresh = (a for a in self.nouns.facts_about(later) if self.grounder.holds(a, reading.state))
+                if self.grounder.is_a(later, types) and any(
+                    not self.grounder.holds(a, reading.memory.first) for a in fresh
+                ):
+                    return later
+            return name
+
+        return tuple(dict.fromkeys(map(now, names)))
+
+    def _part_of(self, wholes: Iterable[str], noun: str) -> tuple[str, ...]:
+        """*The door*, after the microwave was spoken of, is its door."""
+        profiles = self.world.profiles
+        for name in wholes:
+            for whole in dict.fromkeys((name, profiles.wholes.get(name, name))):
+                found = tuple(p for short, p in profiles.parts.get(whole, ()) if split_name(short)[-1:] == (noun,))
+                if found:
+                    return found
+        return ()
+
+    def _all_kinds(
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading
+    ) -> tuple[tuple[str, ...], bool]:
+        """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
+        matches = self.world.mentions.of(noun, reading.state)
+        if len(objects) == 1 and noun in self.lexicon.nouns:
+            wider = set(self.lexicon.nouns[noun])
+            kinds = self.world.mentions.kinds
+            names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
+            return (tuple(names), True) if len(names) > 1 else (objects, False)
+        if not matches or matches[0].how != "alias":
+            return objects, False
+        names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
+        return tuple(n for n in names if self.grounder.is_a(n, types)), True
+
+    def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> Referent:
+        """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
+        for relation, target in relations:
+            names = self.targets(target, reading)
+            if relation in ("except", "besides", "apart_from"):
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
+                continue
+            if relation.startswith("not_"):
+                now = self.nouns.related_now(
+                    referent, relation.removeprefix("not_"), names, reading.state, reading.moments
+                )
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
+                continue
+            if relation in ("without", "for") or not names:
+                continue
+            now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
+            if now or relation in INVERSE or relation == "where":
+                referent = replace(referent, names=now)  # what stands on nothing has no burner under it
+        return referent
+
+    def targets(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """The objects or constants that a noun behind a preposition may mean."""
+        if noun in reading.asked:
+            return ()
+        reading.asked.add(noun)
+        try:
+            return self._meant_by(noun, reading)
+        finally:
+            reading.asked.discard(noun)
+
+    def _meant_by(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        if self._is_pronoun(noun):
+            names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self.targets(a, reading))
+            names = names or tuple(
+                n for a in reading.clause.direct[:1] if is_one(noun) for n in self.targets(a, reading)
+            )
+            for relation, target in self.relations_of(noun, reading.clause):
+                ends = self.targets(target, reading)
+                referent = Referent(noun, names)
+                names = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments) or names
+            return names
+        bound = reading.memory.bound.get(noun)
+        things = self.nouns.things(noun, reading.state)
+        if bound is not None and set(bound.names) & set(things):
+            return tuple(n for n in things if n in bound.names)
+        constants = self.nouns.constants(noun, ("object",), reading.state)
+        return tuple(dict.fromkeys((*things, *constants)))
+
+    def not_there(self, clause: Clause) -> Refused:
+        """That the thing a clause acts on is not there."""
+        reading = ClauseReading(clause, 0, Moments(0, 0), Memory())
+        return self.missing(Referent(clause.direct[0] if clause.direct else "it", ()), reading)
+
+    def missing(self, referent: Referent, reading: ClauseReading) -> Refused:
+        """Why a noun means nothing here."""
+        phrase = reading.clause.phrase(referent.noun)
+        words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
+        known = self.nouns.things(referent.noun, reading.state)
+        if known and phrase.attributes:
+            return Refused(
+                Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}"
+            )
+        if known:
+            return Refused(
+                Why.NOT_UNDERSTOOD,
+                f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here",
+            )
+        return Refused(
+            Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses"
+        )

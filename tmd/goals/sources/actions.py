@@ -1,0 +1,399 @@
+"""What verbs mean, read off a domain's own words: names of actions and predicates. No kitchen is known here.
+
+Four readings, each as rows that an author could have written:
+
+* a verb whose outcome has a word (*open*: opened; *turn on*: active, lit, running) and a predicate with that word;
+* a verb that stands in the name of an action, and what that action brings about for its parameters;
+* a participle that is the name of a predicate (*deliver*: ``delivered-to``);
+* prepositions that stand in predicates, or as constants in their arguments: where things are, and what they contain.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import permutations
+
+from tmd.goals.sources.senses import family, result_verbs, results
+from tmd.goals.sources.table import ACTIONS, LOCATED, PREPOSITIONS, GoalRow, GoalTable, Slot
+from tmd.language.lexicon.lexicon import builtin
+from tmd.language.lexicon.nouns import split_name, words_in_name
+from tmd.pddl.hierarchy import hierarchy
+from tmd.pddl.model import ActionSchema, And, Atom, Domain, Effect, Exists, Formula, Not, Or, Predicate, TypedName
+from tmd.pddl.writer import format_formula
+
+_ACTORS = frozenset({"robot", "agent", "gripper", "hand", "arm", "actor"})
+"""Names of types, and of parents of types, whose objects act or hold rather than being acted on ..."""
+_PEOPLE = frozenset({"person", "human", "worker", "gardener", "player", "operator"})
+"""... and of those whose objects do so where most actions have one; elsewhere things are done for them."""
+_PLACES = ("in", "on", "next_to", "under", "behind", "above")
+_PUT = ("put", "bring", "throw")
+_BRING = ("take", "bring", "carry", "move", "get", "send")
+_GO = ("go", "move", "walk", "drive", "come", "return")
+_HANGING = frozenset({"hung", "hanging", "suspended"})
+_ANYWHERE = ("in", "on", "to", "next_to", "with", "of", "under", "from")
+_MOST_SLOTS = 3
+
+
+def rows_of_actions(domain: Domain) -> GoalTable:
+    """The rows that a domain's names suggest."""
+    words = _Words(domain)
+    rows = [
+        *words.relations(),
+        *words.contents(),
+        *words.named_actions(),
+        *words.states(),
+        *words.participles(),
+        *words.named_actions(shortened=True),
+    ]
+    return GoalTable(tuple(rows))
+
+
+class _Words:
+    """The names of one domain."""
+
+    def __init__(self, domain: Domain) -> None:
+        self.domain = domain
+        self.types = hierarchy(domain)
+        self.fluent = {effect.atom.predicate for action in domain.actions for effect in action.effects}
+        self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
+        self.constants: dict[tuple[str, ...], list[str]] = {}
+        self.passing = _passing(domain)
+        peopled = [a for a in domain.actions if any(self._kinds(p) & _PEOPLE for p in a.parameters)]
+        self.actors = _ACTORS | _PEOPLE if 2 * len(peopled) > len(domain.actions) else _ACTORS
+        self.actors |= self._movers()
+
+    def _movers(self) -> frozenset[str]:
+        """The type of the first parameter of most actions, if one of them takes such a thing from place to place."""
+        firsts = Counter(kind for a in self.domain.actions for p in a.parameters[:1] for kind in p.types)
+        kind, count = firsts.most_common(1)[0] if firsts else ("", 0)
+        twice = any(sum(kind in p.types for p in a.parameters) > 1 for a in self.domain.actions)
+        if twice or 4 * count < 3 * len(self.domain.actions):
+            return frozenset()
+        moves = any(
+            a.parameters[0].name in made.terms and kind in a.parameters[0].types
+            for a in self.domain.actions
+            for made, _ in _journeys(a)
+        )
+        return frozenset({kind}) if moves else frozenset()
+
+    def _kinds(self, parameter: TypedName) -> set[str]:
+        return {kind for given in parameter.types for kind in self.types.ancestors(given)}
+
+    def actor(self, parameter: TypedName) -> bool:
+        """Whether a parameter is for who acts, not for what is acted on."""
+        return bool(self._kinds(parameter) & self.actors)
+
+    def things(self, predicate: Predicate) -> list[TypedName]:
+        """The parameters of a predicate that stand for neither who acts nor a value."""
+        return [p for p in predicate.parameters if not self.actor(p) and not self.valued(p)]
+
+    def fixed(self, parameter: TypedName) -> list[str]:
+        """The constants of the domain that a parameter may be."""
+        return [c.name for c in self.domain.constants if self.types.accepts(parameter.types, c.types)]
+
+    def valued(self, parameter: TypedName) -> bool:
+        """Whether a parameter stands for a value (an amount, a setting, a substance): its type has constants."""
+        return bool(self.fixed(parameter)) and not self.actor(parameter) and not _placelike(parameter, self.types)
+
+    # ------------------------------------------------------------------ states
+
+    def states(self) -> Iterator[GoalRow]:
+        """``open X: (opened ?x)`` for every verb of English whose outcome a predicate or a constant has in its name."""
+        for verb in result_verbs():
+            for word in results(verb):
+                wanted, positive = word.removeprefix("-"), not word.startswith("-")
+                for predicate in self.domain.predicates:
+                    if predicate.name not in self.fluent:
+                        continue
+                    condition = self._state(predicate, wanted, any_value=not positive)
+                    if condition is not None:
+                        found = condition if positive else Not(condition)
+                        yield self._row((verb,), (Slot("?x"),), found, f"{verb} X", f"'{wanted}' in {predicate.name}")
+
+    def _state(self, predicate: Predicate, word: str, *, any_value: bool = False) -> Formula | None:
+        """That ``?x`` is in a state that has ``word`` in its name; everything else is left open.
+
+        A predicate with a value besides (an amount, a load) is such a state with ``any_value`` only: nothing is in it.
+        """
+        things = self.things(predicate)
+        if len(things) != 1:
+            return None
+        values = [p for p in predicate.parameters if self.valued(p)]
+        named = word in words_in_name(predicate.name)
+        chosen = {p.name: word for p in values if word in self.fixed(p)}
+        if not chosen and (not named or (values and not any_value)):
+            return None
+        return self._atom(predicate, {things[0].name: "?x", **chosen})
+
+    def _atom(self, predicate: Predicate, given: dict[str, str]) -> Formula:
+        """An atom with some arguments given; what is left is whoever or whatever it may be."""
+        terms: list[str] = []
+        left: list[TypedName] = []
+        for parameter in predicate.parameters:
+            if parameter.name in given:
+                terms.append(given[parameter.name])
+                continue
+            fixed = self.fixed(parameter)
+            if self.actor(parameter) and len(fixed) == 1:
+                terms.append(fixed[0])
+                continue
+            name = f"?any_{len(left)}"
+            left.append(TypedName(name, parameter.types))
+            terms.append(name)
+        atom = Atom(predicate.name, tuple(terms))
+        return Exists(tuple(left), atom) if left else atom
+
+    def _row(
+        self, verbs: tuple[str, ...], slots: tuple[Slot, ...], condition: Formula, pattern: str, evidence: str
+    ) -> GoalRow:
+        return GoalRow(verbs, slots, condition, pattern, source=ACTIONS, probability=0.5, evidence=evidence)
+
+    # ------------------------------------------------------------------ relations
+
+    def relations(self) -> Iterator[GoalRow]:
+        """``put X in Y`` for every relation of two things with a preposition in its name or among its arguments."""
+        places: dict[str, list[Formula]] = {}
+        for predicate in self.domain.predicates:
+            if predicate.name not in self.fluent or predicate.name not in self.made or predicate.name in self.passing:
+                continue
+            for preposition, atom in self._places(predicate):
+                places.setdefault(preposition, []).append(atom)
+        yield from self._going()
+        for preposition, atoms in places.items():
+            condition = _any_of(atoms)
+            slots = (Slot("?x"), Slot("?y", (preposition,)))
+            yield self._row((*_PUT, "be"), slots, condition, f"put X {preposition} Y", "a predicate of place")
+        if places:
+            whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
+            slots = (Slot("?x"), Slot("?y", ("to",)))
+            yield self._row(_BRING, slots, _any_of(whither), "take X to Y", "predicates of place")
+            anywhere = tuple(Not(atom) for atoms in places.values() for atom in atoms)
+            slots = (Slot("?x"), Slot("?y", ("from",)))
+            yield self._row(("take",), slots, And(anywhere), "take X from Y", "predicates of place")
+
+    def _places(self, predicate: Predicate) -> Iterator[tuple[str, Formula]]:
+        things = self.things(predicate)
+        relations = [p for p in predicate.parameters if p not in things and set(self.fixed(p)) & set(PREPOSITIONS)]
+        if len(things) != 2:
+            return
+        given = {things[0].name: "?x", things[1].name: "?y"}
+        for parameter in relations:
+            for constant in self.fixed(parameter):
+                if constant in PREPOSITIONS:
+                    yield constant, self._atom(predicate, {**given, parameter.name: constant})
+        if relations:
+            return
+        parts = words_in_name(predicate.name)
+        for preposition in _PLACES:
+            if parts & set(PREPOSITIONS[preposition]) or (preposition == "on" and parts & _HANGING):
+                yield preposition, self._atom(predicate, given)
+                return
+        first, *rest = split_name(predicate.name)
+        verb = builtin().verb(first)
+        placed = not rest and verb is not None and verb[1] == "ed" and "put" in family(verb[0])  # "stowed"
+        if parts & LOCATED or placed:
+            for preposition in ("in", "on", "next_to"):
+                yield preposition, self._atom(predicate, given)
+
+    def _going(self) -> Iterator[GoalRow]:
+        """``go to Y`` for the place that an action takes the one to who acts."""
+        found: dict[Formula, None] = {}
+        for action in self.domain.actions:
+            given = {p.name: p for p in action.parameters}
+            for atom, (place,) in _journeys(action):
+                others = [given[term] for term in atom.terms if term in given and term != place]
+                if all(map(self.actor, others)):
+                    names = {**{p.name: f"?any_{i}" for i, p in enumerate(others)}, place: "?y"}
+                    there = Atom(atom.predicate, tuple(names.get(term, term) for term in atom.terms))
+                    left = tuple(TypedName(names[p.name], p.types) for p in others)
+                    found[Exists(left, there) if left else there] = None
+        for condition in found:
+            where = Slot("?y", ("in", "on", "to", "next_to"))
+            yield self._row(_GO, (where,), condition, "go to Y", "a predicate of where one is")
+
+    def contents(self) -> Iterator[GoalRow]:
+        """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
+        for predicate in self.domain.predicates:
+            if predicate.name not in self.made:
+                continue
+            things = self.things(predicate)
+            values = [p for p in predicate.parameters if self.valued(p)]
+            if len(things) != 1 or len(values) != 1:
+                continue
+            condition = self._atom(predicate, {things[0].name: "?v", values[0].name: "?s"})
+            why = f"{predicate.name} joins a thing and a value"
+            yield self._row(("fill", "load"), (Slot("?v"), Slot("?s", ("with", "of"))), condition, "fill V with S", why)
+            places = ("in", "on", "to")
+            yield self._row(
+                ("put", "pour", "add", "be"), (Slot("?s"), Slot("?v", places)), condition, "put S in V", why
+            )
+            yield self._row(("be",), (Slot("?v"), Slot("?s", ("with", "of"))), condition, "be V with S", why)
+            yield self._row(("set", "turn", "change"), (Slot("?v"), Slot("?s", ("to",))), condition, "set V to S", why)
+
+    # ------------------------------------------------------------------ participles
+
+    def participles(self) -> Iterator[GoalRow]:
+        """``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
+        for predicate in self.domain.predicates:
+            first, *rest = split_name(predicate.name)
+            verb = builtin().verb(first)
+            things = self.things(predicate)
+            said = predicate.name in self.made and predicate.name not in self.passing
+            if not said or verb is None or verb[1] != "ed" or first in LOCATED or not 0 < len(things) < 3:
+                continue
+            slots = [Slot("?x")]
+            names = {things[0].name: "?x"}
+            if len(things) == 2:
+                slots.append(Slot("?y", tuple(p for p in _ANYWHERE if p != "from")))
+                names[things[1].name] = "?y"
+            verbs = (verb[0], "_".join([verb[0], *rest])) if rest else (verb[0],)
+            condition = self._atom(predicate, names)
+            pattern = " … ".join([verbs[0], *(s.variable.removeprefix("?").upper() for s in slots)])
+            yield self._row(verbs, tuple(slots), condition, pattern, f"the predicate {predicate.name}")
+
+    # ------------------------------------------------------------------ actions
+
+    def named_actions(self, *, shortened: bool = False) -> Iterator[GoalRow]:
+        """Rows for the verbs in the names of actions: what these bring about for their parameters.
+
+        Args:
+            shortened: Rows for names without their particle instead: *lay* for ``lay-down``.
+        """
+        firsts = [split_name(action.name)[:1] for action in self.domain.actions]
+        for action in self.domain.actions:
+            words = split_name(action.name)
+            if shortened and (words[-1] not in ("up", "down", "out") or firsts.count(words[:1]) > 1):
+                continue
+            wanted = self._brought_about(action)
+            verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
+            if wanted:
+                yield from self._with_slots(action, verbs, wanted)
+            else:
+                yield from self._of_oneself(action, words)
+
+    def _brought_about(self, action: ActionSchema) -> list[Effect]:
+        """What an action is for: what it makes true, unconditionally, of its parameters; or else makes false."""
+        wanted = [p.name for p in action.parameters if not self.actor(p)]
+        own = [
+            e
+            for e in action.effects
+            if not e.parameters
+            and e.condition == And()
+            and set(e.atom.terms) & set(wanted)
+            and e.atom.predicate not in self.passing
+        ]
+        if not own:
+            return []
+        positive = [e for e in own if e.positive]
+        negative = [e for e in own if not e.positive]
+        moved = {e.atom.predicate for e in positive} & {e.atom.predicate for e in negative}
+        acted_on = [e for e in positive if wanted[0] in e.atom.terms]
+        held = {word for verb in ("take", "hold") for word in results(verb)}
+        only = [e for e in negative if wanted[0] in e.atom.terms and self._makers(e) == 1 and len(e.atom.terms) > 1]
+        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in acted_on)
+        taking = split_name(action.name)[0] in ("take", *family("take"))
+        if acted_on and general and only and not taking:
+            # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
+            positive, negative = [], only
+        elif acted_on or moved or not any(wanted[0] in e.atom.terms for e in negative):
+            positive = acted_on or positive
+        else:
+            # the first parameter is what is acted on: to strip a bed is no way to get hold of a sheet
+            positive, negative = [], [e for e in negative if wanted[0] in e.atom.terms]
+        # what only this action brings about says what it is for: to harvest is to pick, not to hold
+        chosen = positive or negative
+        fewest = min((self._makers(e) for e in chosen), default=0)
+        return [e for e in chosen if e.positive is False or self._makers(e) == fewest]
+
+    def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
+        """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""
+        own = [e for e in action.effects if not e.parameters and e.condition == And() and not e.atom.terms]
+        if not own:
+            return
+        condition = _joined([self._said(effect, {}, action) for effect in own])
+        noun = "_".join(words[1:])
+        why = f"the action {action.name}"
+        yield self._row(("_".join(words),), (), condition, "_".join(words), why)
+        nouns = [noun] if noun else ["yourself", "battery"]
+        for name in nouns:
+            row = self._row((words[0],), (), condition, f"{words[0]} {name}", why)
+            yield replace(row, noun=name)
+
+    def _makers(self, effect: Effect) -> int:
+        """How many actions make something of a predicate true, or false, as an effect does."""
+        alike = (effect.positive, effect.atom.predicate)
+        return sum(any((e.positive, e.atom.predicate) == alike for e in a.effects) for a in self.domain.actions)
+
+    def _with_slots(self, action: ActionSchema, verbs: tuple[str, ...], wanted: Sequence[Effect]) -> Iterator[GoalRow]:
+        """One row for each choice of which parameters are said; the others are whatever they may be."""
+        mentioned = {term for effect in wanted for term in effect.atom.terms}
+        used = [p for p in action.parameters if p.name in mentioned and not self.actor(p)]
+        for count in range(min(len(used), _MOST_SLOTS), 0, -1):
+            for said in permutations(used, count):
+                names = {p.name: f"?{'xyz'[i]}" for i, p in enumerate(said)}
+                slots = (Slot("?x"), *(Slot(names[p.name], _ANYWHERE) for p in said[1:]))
+                pattern = " … ".join([verbs[0], *(p.name.removeprefix("?").upper() for p in said)])
+                formula = _joined([self._said(effect, names, action) for effect in wanted])
+                yield self._row(verbs, slots, formula, pattern, f"the action {action.name}")
+
+    def _said(self, effect: Effect, names: Mapping[str, str], action: ActionSchema) -> Formula:
+        """What an effect brings about, with what was not said left open: of something, or no longer of anything."""
+        left = {p.name: f"?any_{i}" for i, p in enumerate(action.parameters) if p.name not in names}
+        terms = tuple({**left, **names}.get(term, term) for term in effect.atom.terms)
+        others = tuple(TypedName(left[p.name], p.types) for p in action.parameters if left.get(p.name) in terms)
+        atom = Atom(effect.atom.predicate, terms)
+        formula = Exists(others, atom) if others else atom
+        return formula if effect.positive else Not(formula)
+
+
+def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
+    """The atoms that an action makes true of one place and false of another, each with the place."""
+    for made in (e.atom for e in action.effects if e.positive and e.condition == And()):
+        for left in (e.atom for e in action.effects if not e.positive and e.condition == And()):
+            if left.predicate != made.predicate:
+                continue
+            differing = [there for there, here in zip(made.terms, left.terms, strict=True) if there != here]
+            if len(differing) == 1 and differing[0].startswith("?"):
+                yield made, (differing[0],)
+
+
+def _any_of(parts: Sequence[Formula]) -> Formula:
+    return parts[0] if len(parts) == 1 else Or(tuple(parts))
+
+
+def _joined(parts: list[Formula]) -> Formula:
+    return parts[0] if len(parts) == 1 else And(tuple(parts))
+
+
+def _verbs_of(name: str) -> Iterator[str]:
+    """The verbs that an action's name says: itself, without a preposition at its end, and its first word."""
+    yield name
+    words = name.split("_")
+    if len(words) == 1:
+        for ending in ("into", "onto", "from", "to", "in", "on"):
+            if name.endswith(ending) and len(name) > len(ending) + 2:
+                yield name.removesuffix(ending)
+        return
+    prepositions = {word for members in PREPOSITIONS.values() for word in members}
+    if words[-1] in prepositions:
+        yield "_".join(words[:-1])
+    if words[-1] not in ("on", "off", "up", "down", "out"):
+        yield words[0]
+
+
+def _placelike(parameter: TypedName, types: object) -> bool:
+    """Whether a parameter may be a thing or a place, although the domain has a constant of that type (the floor)."""
+    return any(t in ("object", "thing", "item", "place", "location", "physobj", "movable") for t in parameter.types)
+
+
+def _passing(domain: Domain) -> frozenset[str]:
+    from tmd.goals.commitments import passing_predicates
+
+    return passing_predicates(domain)
+
+
+def describe(rows: Iterable[GoalRow]) -> str:
+    """The rows as lines of ``lexicon.yaml``, for an author to look at."""
+    return "\n".join(f"- {row.pattern}: {' '.join(format_formula(row.condition).split())}" for row in rows)

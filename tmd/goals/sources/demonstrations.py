@@ -1,0 +1,385 @@
+"""What verbs mean, learned from demonstrations: what is so when the segments of a verb are done.
+
+For every verb with the same slots, each literal that could be a goal is counted: in how many clauses it *could* hold,
+in how many of these it held at the end, and in how many it became true. A literal that nearly always holds and often
+becomes true is what the verb is for; what comes about by the way is not. Dishes (*make ramen*) are learned from the
+ends of whole demonstrations. What is opened or switched on by the way and mostly undone again is learned as well. Not
+in the paper.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter, defaultdict
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import product
+from typing import Any
+
+from tmd.diagnostics import TmdError
+from tmd.goals.commitments import passing_predicates
+from tmd.goals.grounder import FALSE, Grounder, Moments
+from tmd.goals.reading.nouns import Nouns
+from tmd.goals.sources.senses import results, words_of
+from tmd.goals.sources.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, PutBack, read_row
+from tmd.language.clause import PERSONS, Clause, Mood
+from tmd.language.lexicon.lexicon import Declared, Lexicon
+from tmd.language.lexicon.nouns import NAME, Match, words_in_name
+from tmd.language.syntax.pronouns import is_pronoun
+from tmd.pddl.model import Domain, Instruction, Predicate
+from tmd.pddl.task import Bits
+from tmd.pddl.writer import format_formula
+from tmd.veil.demonstration import Demonstration
+from tmd.veil.library import lessons, run
+from tmd.veil.world import World
+
+FEWEST = 3
+"""Clauses that a literal must have been possible in."""
+SUPPORT = 0.7
+"""The share of them in which it must have held at the end."""
+CHANGED = 0.3
+"""The share of them in which it must have become true: what always was so is no goal."""
+COMPANION = 0.8
+"""The share of what the best literal has that a further one must have to join it."""
+DISH = 0.75
+"""The share of whole demonstrations of a dish whose ends must agree."""
+UNDONE = 0.6
+"""The share of the cases in which people must have undone what they opened or switched on."""
+FEWEST_UNDONE = 5
+"""The cases of which that is a share."""
+_NAMES = re.compile(r"\((\S+)")
+"""What stands behind parentheses: the predicates of a condition, and its connectives."""
+_MAKING = frozenset({"make", "prepare", "cook", "brew", "mix"})
+
+
+@dataclass(slots=True)
+class _Count:
+    possible: int = 0
+    held: int = 0
+    changed: int = 0
+
+    @property
+    def support(self) -> float:
+        """The share of the clauses in which it was possible where it held at the end."""
+        return self.held / self.possible if self.possible else 0.0
+
+    @property
+    def gained(self) -> float:
+        """The share in which it became true."""
+        return self.changed / self.possible if self.possible else 0.0
+
+
+@dataclass(slots=True)
+class _Shape:
+    """What is counted for one verb with one kind of slots."""
+
+    clauses: int = 0
+    counts: dict[str, _Count] = field(default_factory=lambda: defaultdict(_Count))
+
+
+def learn_goals(
+    demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
+) -> GoalTable:
+    """The rows that demonstrations teach."""
+    shown = list(demonstrations)
+    if not shown:
+        return GoalTable()
+    learner = _Learner(shown, world_of, lexicon)
+    for demonstration in shown:
+        learner.take(demonstration)
+    return GoalTable(tuple(learner.rows()), put_back=learner.put_back())
+
+
+def table_to_json(table: GoalTable) -> dict[str, object]:
+    """What was learned, as :func:`table_from_json` reads it."""
+    rows = [
+        {
+            "pattern": row.pattern,
+            "condition": " ".join(format_formula(row.condition).split()),
+            "evidence": row.evidence,
+            "probability": round(row.probability, 4),
+        }
+        for row in table.rows
+    ]
+    return {"rows": rows, "put_back": [[p.predicate, p.kind, p.at_once] for p in sorted(table.put_back)]}
+
+
+def table_from_json(data: Mapping[str, Any], domain: Domain) -> GoalTable:
+    """What was learned.
+
+    Raises:
+        KeyError, TypeError, ValueError, TmdError: It is no such table.
+    """
+    rows = []
+    for entry in data["rows"]:
+        row = read_row(Declared(str(entry["pattern"]), str(entry["condition"])), domain, LEARNED)
+        rows.append(_with_evidence(row, str(entry["evidence"]), float(str(entry["probability"]))))
+    return GoalTable(
+        tuple(rows), put_back=frozenset(PutBack(str(p), str(kind), bool(once)) for p, kind, once in data["put_back"])
+    )
+
+
+def _with_evidence(row: GoalRow, evidence: str, probability: float) -> GoalRow:
+    return replace(row, evidence=evidence, probability=probability)
+
+
+def _said(text: str) -> int:
+    """How much a literal says: of two that hold alike, the one that says more is the goal."""
+    return text.count("?x") + text.count("?y") + text.count("(")
+
+
+class _Learner:
+    """Counts, demonstration after demonstration."""
+
+    def __init__(
+        self, demonstrations: Sequence[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
+    ) -> None:
+        self.world_of = world_of
+        self.lexicon = lexicon
+        self.domain = world_of(demonstrations[0].environment).task.problem.domain
+        self.shapes: dict[tuple[str, tuple[str, ...], bool], _Shape] = defaultdict(_Shape)
+        self.dishes: dict[str, Counter[tuple[str, ...]]] = defaultdict(Counter)
+        self.made: Counter[str] = Counter()
+        self.started: dict[PutBack, _Count] = defaultdict(_Count)
+        words = {word for verb in ("open", "turn_on") for word in results(verb)}
+        self.startable = {p.name for p in self.domain.predicates if words & words_in_name(p.name)}
+        self._grounders: dict[str, tuple[Grounder, Nouns]] = {}
+        self._known_literals: dict[tuple[str, ...], list[tuple[str, GoalRow]]] = {}
+        self.predicates = self._of_ends(demonstrations)
+
+    def _of_ends(self, demonstrations: Sequence[Demonstration]) -> tuple[Predicate, ...]:
+        """The predicates that ever stand in what was said of an end; where nothing was, those that last."""
+        said = (text for d in demonstrations for text in (*d.end_state, d.goal or ""))
+        named = {name for text in said for name in _NAMES.findall(text)}
+        passing = passing_predicates(self.domain)
+        fluent = {e.atom.predicate for action in self.domain.actions for e in action.effects}
+        wanted = (named & fluent) or (fluent - passing)
+        return tuple(p for p in self.domain.predicates if p.name in wanted and p.parameters)
+
+    def _tools(self, world: World) -> tuple[Grounder, Nouns]:
+        if world.name not in self._grounders:
+            grounder = Grounder(world)
+            self._grounders[world.name] = grounder, Nouns(world, GoalTable(), grounder)
+        return self._grounders[world.name]
+
+    # ------------------------------------------------------------------ counting
+
+    def take(self, demonstration: Demonstration) -> None:
+        """Count what one demonstration shows."""
+        world = self.world_of(demonstration.environment)
+        whole = world.task.init, run(world, world.task.init, demonstration.instructions)
+        self._undone(world, world.task.init, demonstration.instructions, at_once=False)
+        for lesson in lessons(demonstration, world, self.lexicon):
+            self._undone(world, lesson.states[0], lesson.instructions, at_once=True)
+            if lesson.clause is not None and lesson.clause.mood is Mood.DO:
+                self._clause(lesson.clause, world, lesson.states, lesson.instructions)
+                self._dish(lesson.clause, world, whole)
+
+    def _clause(self, clause: Clause, world: World, states: tuple[Bits, Bits], done: Sequence[object]) -> None:
+        binding = self._slots(clause, world, states[0], done)
+        if binding is None:
+            return
+        slots, relation, substance = binding
+        key = self.lexicon.canonical_verb(clause.verb), tuple(p for p, _ in slots), substance
+        shape = self.shapes[key]
+        shape.clauses += 1
+        grounder, _ = self._tools(world)
+        names = {variable: name for variable, (_, name) in zip(("?x", "?y"), slots, strict=False)}
+        moments = Moments(states[0], states[0])
+        for text, row in self._literals(tuple(names)):
+            grounder.live = 0
+            said = {**names, RELATION: relation or "in"}
+            found = grounder.ground(row.condition, said, names, moments)
+            if not grounder.live or found == FALSE:
+                continue
+            count = shape.counts[text]
+            count.possible += 1
+            after = grounder.truth(found, states[1])
+            count.held += after
+            count.changed += after and not grounder.truth(found, states[0])
+
+    def _undone(self, world: World, state: Bits, instructions: Sequence[Instruction], *, at_once: bool) -> None:
+        """Count what is opened or switched on, and whether that is undone before the end."""
+        first, ever = state, 0
+        for instruction in instructions:
+            operator = world.task.by_instruction.get(instruction)
+            if operator is None or not operator.applicable(state):
+                continue
+            state = operator.apply(state)
+            ever |= state & ~first
+        for atom in world.task.names(ever):
+            if atom.predicate in self.startable and len(atom.args) == 1:
+                count = self.started[PutBack(atom.predicate, world.mentions.kinds.get(atom.args[0], ""), at_once)]
+                count.possible += 1
+                count.held += not state >> world.task.index[atom] & 1
+
+    def put_back(self) -> frozenset[PutBack]:
+        """What is undone in most cases."""
+        return frozenset(p for p, c in self.started.items() if c.possible >= FEWEST_UNDONE and c.support >= UNDONE)
+
+    def _slots(
+        self, clause: Clause, world: World, state: Bits, done: Sequence[object]
+    ) -> tuple[list[tuple[str, str]], str, bool] | None:
+        """Preposition group and object of the direct object and of the first place that was said."""
+        used = {a for i in done for a in getattr(i, "args", ())}
+        direct = [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
+        if len(direct) != 1:
+            return None
+        first = self._object(direct[0], clause, world, state, used)
+        if first is None:
+            return None
+        slots, said = [("", first)], ""
+        for relation in clause.relations:
+            group = next((g for g, words in PREPOSITIONS.items() if relation.relation in words), None)
+            if relation.source not in (direct[0], None) or group is None or relation.target in PERSONS:
+                continue
+            second = self._object(relation.target, clause, world, state, used)
+            if second is not None and second != first:
+                slots.append((group, second))
+                said = group
+                break
+        return slots, said, first in world.profiles.constants
+
+    def _object(self, noun: str, clause: Clause, world: World, state: Bits, used: set[str]) -> str | None:
+        """The one object, or constant, that a noun meant: one that was used, or the only one there is."""
+        _, nouns = self._tools(world)
+        meant = clause.meant(noun)
+        for name in meant[:1]:
+            if is_pronoun(name):
+                return None
+            things = nouns.things(name, state)
+            objects = [t for t in things if t not in world.profiles.constants]
+            own = [t for t in objects if t in used or any(p in used for _, p in world.profiles.parts.get(t, ()))]
+            if own:
+                return own[0]
+            constants = nouns.constants(name, ("object",), state)
+            if len(objects) == 1:
+                return objects[0]
+            if constants and not objects:
+                return constants[0]
+        return None
+
+    # ------------------------------------------------------------------ literals
+
+    def _literals(self, variables: tuple[str, ...]) -> Sequence[tuple[str, GoalRow]]:
+        if variables not in self._known_literals:
+            self._known_literals[variables] = list(self._make_literals(variables))
+        return self._known_literals[variables]
+
+    def _make_literals(self, variables: tuple[str, ...]) -> Iterator[tuple[str, GoalRow]]:
+        """Every literal that could be a goal of a clause with such slots."""
+        constants = self.domain.constants
+        for predicate in self.predicates:
+            choices = []
+            for parameter in predicate.parameters:
+                fixed = [c.name for c in constants if set(c.types) & set(parameter.types) or c.types == parameter.types]
+                relations = [c for c in fixed if c in PREPOSITIONS]
+                if relations:
+                    choices.append([RELATION])
+                elif len(fixed) == 1 and len(predicate.parameters) > 1 and not set(fixed) & {"floor"}:
+                    choices.append([*fixed, *variables])
+                else:
+                    choices.append([*variables, "?v", *fixed[:6]])
+            for terms in product(*choices):
+                own = [t for t in terms if t in variables]
+                if not own or len(set(own)) < len(own) or (RELATION in terms and "?y" not in terms):
+                    continue
+                atom = f"({' '.join((predicate.name, *terms))})"
+                if "?v" in terms:
+                    kind = " ".join(predicate.parameters[terms.index("?v")].types[:1])
+                    yield from self._readable(f"(exists (?v - {kind}) {atom})", variables)
+                    for state in self._states() if terms.index("?v") == 0 else ():
+                        yield from self._readable(f"(exists (?v - {kind}) (and {atom} ({state} ?v)))", variables)
+                    continue
+                yield from self._readable(atom, variables)
+                yield from self._readable(f"(not {atom})", variables)
+
+    def _states(self) -> list[str]:
+        """The predicates of one thing."""
+        return [p.name for p in self.predicates if len(p.parameters) == 1]
+
+    def _readable(self, text: str, variables: tuple[str, ...]) -> Iterator[tuple[str, GoalRow]]:
+        pattern = "do X" + (" in Y" if "?y" in variables else "")
+        try:
+            yield text, read_row(Declared(pattern, text), self.domain, LEARNED)
+        except TmdError:
+            return
+
+    # ------------------------------------------------------------------ dishes
+
+    def _dish(self, clause: Clause, world: World, states: tuple[Bits, Bits]) -> None:
+        """Count what is so of some one thing at the end of a demonstration that makes a dish."""
+        nouns = [n for n in clause.direct if n not in PERSONS and not is_pronoun(n) and n not in words_of("measures")]
+        if clause.verb not in _MAKING or len(nouns) != 1 or any(m.score == 1.0 for m in self._named(nouns[0], world)):
+            return
+        constants = world.profiles.constants
+        facts: dict[str, set[tuple[str, ...]]] = defaultdict(set)
+        wanted = {p.name for p in self.predicates}
+        for atom in world.task.names(states[1] & ~states[0]):
+            if atom.predicate not in wanted or not atom.args or atom.args[0] in constants:
+                continue
+            if all(a in constants and a not in PREPOSITIONS for a in atom.args[1:]):
+                facts[atom.args[0]].add((atom.predicate, *atom.args[1:]))
+        if facts:
+            best = max(facts.values(), key=lambda found: (len(found), sorted(found)))
+            self.made[nouns[0]] += 1
+            self.dishes[nouns[0]].update(best)
+
+    def _named(self, noun: str, world: World) -> list[Match]:
+        """The objects whose own name a noun is, where it names nothing that they contain."""
+        constants = world.profiles.constants
+        if any(m.name in constants for m in world.mentions.ranked(noun)):
+            return []
+        return [m for m in world.mentions.ranked(noun) if m.how == NAME and m.name not in constants]
+
+    # ------------------------------------------------------------------ rows
+
+    def rows(self) -> Iterator[GoalRow]:
+        """The rows that the counts bear out, by verb."""
+        for noun, count in sorted(self.made.items()):
+            common = sorted(f for f, n in self.dishes[noun].items() if n >= DISH * count)
+            if count >= FEWEST and common:
+                parts = " ".join(f"({' '.join((f[0], '?v', *f[1:]))})" for f in common)
+                condition = f"(exists (?v - object) (and {parts}))"
+                evidence = f"the ends of {count} demonstrations that make {noun}"
+                yield from self._row(f"make|have|serve|cook {noun}", condition, evidence, 0.8)
+        for (verb, groups, _), shape in sorted(self.shapes.items()):
+            yield from self._of_shape(verb, groups, shape)
+
+    def _of_shape(self, verb: str, groups: tuple[str, ...], shape: _Shape) -> Iterator[GoalRow]:
+        good = sorted(
+            ((text, c) for text, c in shape.counts.items() if self._good(text, c)),
+            key=lambda pair: (
+                -round(pair[1].gained * pair[1].support, 1),
+                "exists" in pair[0],
+                -_said(pair[0]),
+                pair[0],
+            ),
+        )
+        if not good:
+            return
+        core, count = good[0]
+        companions = [
+            text
+            for text, other in good[1:]
+            if other.held >= COMPANION * count.held and not text.startswith(("(not", "(exists"))
+        ]
+        parts = [core, *companions[:2]]
+        condition = parts[0] if len(parts) == 1 else f"(and {' '.join(parts)})"
+        held = {word for word in results("take") if not word.startswith("-")}
+        if verb not in ("take", "hold", "bring") and any(word in core for word in held):
+            return  # what is in the hand is the way, not the goal
+        pattern = f"{verb} X" + (f" {groups[1]} Y" if len(groups) > 1 else "")
+        evidence = f"holds after {count.held} of {count.possible} clauses, became true in {count.changed}"
+        yield from self._row(pattern, condition, evidence, count.support)
+
+    def _good(self, text: str, count: _Count) -> bool:
+        least = 0.9 if text.startswith("(not") else SUPPORT
+        return count.possible >= FEWEST and count.support >= least and count.gained >= CHANGED
+
+    def _row(self, pattern: str, condition: str, evidence: str, probability: float) -> Iterator[GoalRow]:
+        try:
+            row = read_row(Declared(pattern, condition), self.domain, LEARNED)
+        except TmdError:
+            return
+        yield _with_evidence(row, evidence, probability)

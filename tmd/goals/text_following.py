@@ -1,0 +1,349 @@
+"""A text, clause by clause: which goals it has in the state reached so far, and what must be kept."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tmd.goals.clause_goal import ClauseGoal, Refused, Why
+from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
+from tmd.goals.grounder import TRUE, Moments, atoms_of
+from tmd.goals.reading.nouns import Bound, Memory, Referent
+from tmd.goals.reading.reader import GoalReader
+from tmd.goals.reading.states import BE
+from tmd.goals.sources.senses import words_of
+from tmd.goals.steps import PARTINGS, Step, in_order
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
+from tmd.language.lexicon.coverage import REMINDER
+from tmd.language.syntax.pronouns import is_pronoun
+from tmd.pddl.task import Bits, Cube, Task
+
+_NEVER = frozenset({"use", "touch"})
+"""To do this to a thing is to handle it in whatever way."""
+
+_COMPLETE = frozenset({"done", "ready", "finished", "complete", "over"})
+"""What is said of something only to say when: the clause before has brought it about."""
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """What was said and done before a step.
+
+    Attributes:
+        memory: What nouns turned out to mean.
+        kept: What must not be undone.
+        guards: For the sentence so far, whether its condition held.
+    """
+
+    memory: Memory
+    kept: tuple[Kept, ...] = ()
+    guard: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A step with its goal in one state.
+
+    Attributes:
+        step: The step.
+        goal: What it asks for; ``None`` where there is nothing to do.
+        already: It holds already.
+        note: Why there is nothing to do.
+        aims: What to plan for: the goal with what is to be kept, then with ever less of that.
+        ways: What shall hold on the way, before the goal does.
+    """
+
+    step: Step
+    goal: ClauseGoal | None
+    already: bool = False
+    note: str = ""
+    aims: tuple[tuple[Cube, ...], ...] = ()
+    ways: tuple[tuple[Cube, ...], ...] = ()
+
+
+@dataclass(frozen=True)
+class Constraints:
+    """What must not happen, and what must stay as it is.
+
+    Attributes:
+        task: The task without the operators that are forbidden.
+        kept: What must hold at the end of every step.
+        notes: What could not be taken into account.
+    """
+
+    task: Task
+    kept: tuple[Kept, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+class Follower:
+    """Follows a text in one environment.
+
+    Args:
+        reader: Reads clauses as goals.
+    """
+
+    def __init__(self, reader: GoalReader) -> None:
+        self.reader = reader
+        self.task = reader.world.task
+
+    def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[Step, ...], Context, Constraints] | Refused:
+        """The steps of a text, what is known before the first, and what holds throughout."""
+        unread = [piece for piece in parsed.skipped if piece.reason == REMINDER]
+        if unread and not self.reader.nouns.guess:
+            message = f"'{' '.join(unread[0].text.split())}' {REMINDER}"
+            return Refused(Why.NOT_UNDERSTOOD, message, "say what shall be done with it")
+        memory = Memory(first=state)
+        constraints = self._constraints(parsed, state, memory)
+        if isinstance(constraints, Refused):
+            return constraints
+        return in_order(parsed.clauses), Context(memory, constraints.kept), constraints
+
+    def target(self, step: Step, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
+        """What a step asks for in ``state``."""
+        due = self._due(step, context, state)
+        if isinstance(due, Refused):
+            return due
+        if step.otherwise or step.guards:
+            context = replace(context, guard=due if not step.otherwise else context.guard)
+        if not due:
+            note = "the condition does not hold" if not step.otherwise else "the condition before it held"
+            return Target(step, None, note=note), context
+        if step.clause.mood is Mood.KEEP:
+            preserved = self._preserved(step.clause, step.number, state, context.memory)
+            if isinstance(preserved, Refused):
+                return preserved
+            return Target(step, None, note="it stays as it is"), replace(context, kept=(*context.kept, *preserved))
+        goal = self.reader.read(step.clause, state, context.memory, awaited=step.awaited)
+        if isinstance(goal, Refused):
+            unread = {Why.UNKNOWN_VERB, Why.NOT_UNDERSTOOD, Why.CONTRADICTION}
+            if step.clause.verb in PARTINGS:
+                unread.add(Why.NO_SUCH_THING)  # "before you leave the room"
+            if step.clause.result in _COMPLETE:
+                unread.add(Why.IMPOSSIBLE)  # "when they are done"
+            if step.optional and goal.why in unread:
+                return Target(step, None, note=goal.message), context
+            return goal
+        if goal.formula == TRUE:
+            return Target(step, goal, already=True, note="nothing that a state shows"), context
+        if step.besides:
+            own = tuple(replace(k, hard=True) if k.clause == step.number else k for k in context.kept)
+            context = replace(context, kept=own)
+        targets = tuple(a for a in aims(goal.cubes, context.kept, goal.released, self.task) if a)
+        hard = [k for k in context.kept if k.hard]
+        if not targets or (hard and not combined(goal.cubes, hard)):
+            return Refused(Why.CONTRADICTION, f"'{step.clause.text}' contradicts what was said before")
+        held = any(cube.holds(state) for cube in targets[0])
+        ways = () if held else self._ways(goal)
+        return Target(step, goal, already=held, aims=targets, ways=ways), context
+
+    def reached(self, target: Target, context: Context, end: Bits) -> Context:
+        """What is known after a step that ended in ``end``."""
+        if target.goal is None or target.goal.formula == TRUE:
+            return context
+        cube = next((c for c in target.goal.cubes if c.holds(end)), target.goal.cubes[0])
+        memory = bindings_of(target.goal, cube, self.reader, context.memory)
+        task = self.task
+        number = target.step.number
+        fresh = keep(cube, number, task)
+        literals = {k.ways[0] for k in fresh}
+        still = tuple(
+            k for k in context.kept if (any(way.holds(end) for way in k.ways) or k.hard) and k.ways[0] not in literals
+        )
+        return replace(context, memory=memory, kept=(*still, *fresh))
+
+    def put_back(self, before: Bits, end: Bits, context: Context, *, at_once: bool) -> tuple[Cube, ...]:
+        """What people undo by themselves of that which became true between two states and which nobody asked for.
+
+        Together with all that is to be kept; empty where there is nothing to undo.
+        """
+        known = {(p.predicate, p.kind) for t in self.reader.tables for p in t.put_back if p.at_once == at_once}
+        kinds = self.reader.world.mentions.kinds
+        asked: Bits = 0
+        for kept in context.kept:
+            asked |= kept.ways[0].positive
+        undone: Bits = 0
+        for atom in self.task.names(end & ~before & ~asked) if known else ():
+            if len(atom.args) == 1 and (atom.predicate, kinds.get(atom.args[0], "")) in known:
+                undone |= 1 << self.task.index[atom]
+        return combined((Cube(0, undone),), context.kept) if undone else ()
+
+    def _ways(self, goal: ClauseGoal) -> tuple[tuple[Cube, ...], ...]:
+        found = []
+        for formula in goal.approach:
+            cubes = self.reader.grounder.cubes(formula)
+            if cubes:
+                found.append(cubes)
+        return tuple(found)
+
+    # ------------------------------------------------------------------ conditions
+
+    def _due(self, step: Step, context: Context, state: Bits) -> bool | Refused:
+        """Whether a step is to be done in ``state``."""
+        if step.otherwise:
+            return context.guard is False
+        if context.guard is not None and step.guards and all(guard.carried for guard in step.guards):
+            return context.guard  # "if the lamp is on, turn it off and bring it": what was so when it was said
+        for condition in step.guards:
+            found = self._holds(condition, context, state)
+            if isinstance(found, Refused):
+                return found
+            if found == (condition.word == "unless"):
+                return False
+        return True
+
+    def _holds(self, condition: Condition, context: Context, state: Bits) -> bool | Refused:
+        if not condition.clauses:
+            return Refused(
+                Why.CONDITION,
+                f"the condition '{condition.text}' is not understood",
+                "say it as a state: if the door is open",
+            )
+        truth = True
+        for clause in condition.clauses:
+            goal = self.reader.read(clause, state, context.memory)
+            if isinstance(goal, Refused):
+                states = clause.result or any(r.relation == "with" for r in clause.relations)
+                exists = clause.verb == BE and not states and all(map(self.reader.knows, clause.direct))
+                never = goal.why is Why.CONTRADICTION and (exists or condition.negated or not clause.relations)
+                if never or (exists and goal.why is Why.NO_SUCH_THING):
+                    truth = False  # "if there is milk": where there is none, there is none
+                    continue
+                return replace(goal, why=Why.CONDITION, message=f"the condition '{condition.text}': {goal.message}")
+            truth = truth and any(cube.holds(state) for cube in goal.cubes)
+        return truth != condition.negated
+
+    # ------------------------------------------------------------------ constraints
+
+    def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> Constraints | Refused:
+        """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
+        forbidden = Cube(0, 0)
+        names: set[str] = set()
+        kept: list[Kept] = []
+        for clause in parsed.constraints:
+            found = self._avoided(clause, state, memory)
+            if isinstance(found, Refused):
+                return found
+            forbidden = Cube(forbidden.positive | found[0].positive, forbidden.negative | found[0].negative)
+            names |= found[1]
+            kept += found[2]
+        for number, clause in enumerate(parsed.clauses):
+            other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
+            if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions or other):
+                preserved = self._preserved(clause, number, state, memory)
+                if isinstance(preserved, Refused):
+                    return preserved
+                kept += preserved
+        task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
+        return Constraints(task, tuple(kept))
+
+    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
+        """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
+        if clause.verb in _NEVER and not self._declared(clause.verb):
+            names = {n for noun in clause.direct for n in self._kept_things(clause, noun, state)}
+            if not names:
+                return self.reader.referents.not_there(clause)
+            for name in tuple(names):
+                names.update(self.reader.grounder.relatives(name, 0))
+            return Cube(0, 0), names, []
+        final = clause.implied or bool(clause.result)
+        goal = self.reader.read(
+            replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
+        )
+        if isinstance(goal, Refused):
+            return (Cube(0, 0), set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
+        added: Bits = 0
+        deleted: Bits = 0
+        kept: list[Kept] = []
+        for atom in sorted(atoms_of(goal.formula)):
+            bit = 1 << self.task.index[atom]
+            if final:
+                stands = any(cube.positive & bit for cube in goal.cubes)
+                kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
+                continue
+            stands = any(cube.positive & bit for cube in goal.cubes)
+            if (
+                stands
+                and not state & bit
+                and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes)
+            ):
+                added |= bit
+            elif not stands and state & bit:
+                deleted |= bit
+        return Cube(added, deleted), set(), kept
+
+    def _declared(self, verb: str) -> bool:
+        return any(table.of(verb) for table in self.reader.tables)
+
+    def _kept_things(self, clause: Clause, noun: str, state: Bits) -> tuple[str, ...]:
+        """The things that a noun, or a pronoun with what was said of it, names."""
+        nouns = self.reader.nouns
+        meant = clause.antecedents.get(noun, ())[: clause.together.get(noun, 1)] if is_pronoun(noun) else (noun,)
+        names = tuple(dict.fromkeys(n for one in meant for n in nouns.things(one, state)))
+        for relation in clause.relations:
+            if relation.source == noun and relation.relation != "where":
+                targets = nouns.things(relation.target, state)
+                referent = Referent(noun, names)
+                names = nouns.related_now(referent, relation.relation, targets, state, Moments(state, state)) or names
+        said, _ = nouns.narrowed(Referent(noun, names), clause.phrase(noun), state, Moments(state, state))
+        return said.names
+
+    def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
+        """*Leave the door open* keeps that; *leave the cup where it is* keeps where it is."""
+        if clause.result and clause.result not in ("alone",):
+            goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
+            if isinstance(goal, Refused):
+                parts = clause.direct != () and all(noun in words_of("parts") for noun in clause.direct)
+                return [] if parts else goal  # "leave the lid open": that of what will have been spoken of
+            held = [cube for cube in goal.cubes if cube.holds(state)]
+            return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
+        names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
+        if not names:
+            return (
+                self.reader.referents.not_there(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
+            )
+        constants = self.reader.world.profiles.constants
+        found = []
+        for atom in self.task.names(state):
+            things = [a for a in atom.args if a not in constants]
+            everything = clause.verb != "keep" and len(atom.args) > 1  # to keep a bowl is not to keep what is in it
+            if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
+                found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
+        return found
+
+
+def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
+    """What later clauses remember of a clause whose goal was reached as ``cube``."""
+    task = reader.world.task
+    atoms = task.names(cube.positive | cube.negative)
+    mentioned = dict.fromkeys(a for atom in atoms for a in atom.args)
+    constants = reader.world.profiles.constants
+    bound = dict(memory.bound)
+    recent: dict[str, None] = {}
+    # "heat it in the microwave, and add the noodles": to what was heated; where it was done comes after that
+    for noun, names in sorted(goal.meant.items(), key=lambda said: " " in said[0]):
+        chosen = tuple(n for n in names if n in mentioned) or tuple(
+            n for n in names if any(o in mentioned for level in range(4) for o in reader.grounder.relatives(n, level))
+        )
+        chosen = chosen or names
+        containers: tuple[str, ...] = ()
+        if all(n in constants for n in chosen):
+            containers = tuple(
+                dict.fromkeys(a.args[0] for a in atoms if set(a.args[1:]) & set(chosen) and a.args[0] not in constants)
+            )
+        bound.pop(noun, None)
+        bound[noun] = Bound(chosen, containers)
+        recent.update(dict.fromkeys((*(n for n in chosen if n not in constants), *containers)))
+    recent.update(dict.fromkeys(a for a in mentioned if a not in constants))
+    recent.update(dict.fromkeys(memory.recent))
+    return replace(memory, bound=bound, recent=tuple(recent))
+
+
+def _single(cube: Cube) -> list[Cube]:
+    """The literals of a cube."""
+    found = []
+    for bits, positive in ((cube.positive, True), (cube.negative, False)):
+        while bits:
+            low = bits & -bits
+            found.append(Cube(low, 0) if positive else Cube(0, low))
+            bits ^= low
+    return found

@@ -1,0 +1,99 @@
+"""One definition of a model: what inference minimises, and how far it looks.
+
+``tmd ground --model``, ``import tmd`` and the rows of the experiments take the same presets, so what ships is what was
+measured. The ablations of the paper are presets with one thing changed (:mod:`tmd.evaluation.models.paper_models`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.reading.syntax import nearest
+
+AKIN = 0.75
+"""What a noun counts in extended models that differs from another only by a modifier."""
+
+
+@dataclass(frozen=True, slots=True)
+class InferenceConfig:
+    """How clauses become plans.
+
+    Attributes:
+        weights: The name of the weights (``tmd/inference/data``); where weights are learned, those that learning begins
+            with.
+        extended: Whether the paper's factors and rules are extended: nouns paired in order of mention, akin nouns,
+            Δ_cover.
+        policy: Whether a policy, learned from the same demonstrations, proposes sequences beside the templates and
+            judges all candidates by the words of the clause (Δ_words).
+        goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
+        sources: Where the meaning of a clause may come from (:data:`tmd.goals.sources.all_sources.SOURCES`).
+        latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
+        knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
+            candidate counts as executable, nothing is added to it, and the environment stays as it was.
+        language: Whether the robot hears what is said; without it *No NL Instructions*. Rows of the experiments only.
+        beam: How many environments each α_j keeps; ``None`` keeps all, which is exact.
+        trim: How many leading instructions of a template may be trimmed; ``None`` is any number.
+        generated: How many sequences of the policy are looked at for each clause and environment.
+        few: Below how many templates in all the policy is trusted less than half: with n its word counts
+            n / (n + ``few``), and its proposals are charged (n + ``few``) / n. What few demonstrations taught is
+            better done as it was shown. 0 trusts it always.
+        tried: How many proposals of templates and policy are completed to the goal of a clause.
+        guess: Whether anything is proposed for a verb that has no templates; with goals, whether a plan may be made
+            where what was said cannot be done, or is not understood.
+        cap: Generated states after which a search of the in-process planner gives up.
+        last_resort: Whether planners that are content with any plan are asked for the goal of a clause where the
+            optimal search gave up.
+    """
+
+    weights: str
+    extended: bool = False
+    policy: bool = False
+    goals: bool = False
+    latent: bool = True
+    knowledge: bool = True
+    language: bool = True
+    beam: int | None = 3
+    trim: int | None = None
+    generated: int = 5
+    sources: tuple[str, ...] = ("declared", "learned", "actions")  # not imported: the command line starts with this
+    tried: int = 6
+    few: float = 20.0
+    guess: bool = False
+    cap: int = 2_000  # what people leave unsaid is short: a candidate that needs more is not the best one
+    last_resort: bool = True
+
+    @property
+    def akin(self) -> float:
+        """As for :func:`tmd.inference.factors.delta_nl`."""
+        return AKIN if self.extended else 0.0
+
+
+PAPER = InferenceConfig("paper")
+PAPER_EXTENDED = InferenceConfig("paper_extended", extended=True)
+POLICY = InferenceConfig("policy", extended=True, policy=True)
+GOALS = InferenceConfig("goals", extended=True, policy=True, goals=True, beam=1)
+
+PRESETS: Mapping[str, InferenceConfig] = {
+    "goals": GOALS,
+    "policy": POLICY,
+    "paper_extended": PAPER_EXTENDED,
+    "paper": PAPER,
+}
+"""The models by name, from what ships by default to the paper's as printed. Each is a row of the experiments."""
+DEFAULT = "goals"
+_RENAMED = {"stating": "goals", "generating": "policy", "extended": "paper_extended"}
+
+
+def preset(name: str) -> InferenceConfig:
+    """The model of that name.
+
+    Raises:
+        TmdError: There is none.
+    """
+    if name in _RENAMED:
+        raise TmdError(f"the model '{name}' is now called '{_RENAMED[name]}'")
+    if name not in PRESETS:
+        raise TmdError(f"there is no model '{name}'", hint=nearest(name, list(PRESETS), what="models"))
+    return PRESETS[name]

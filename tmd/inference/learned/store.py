@@ -1,0 +1,157 @@
+"""Directories with what was learned of a domain: where `tmd learn` saves, and the cache of the user.
+
+``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned.knowledge` learns,
+``weights.txt`` the learned weights if there are any. ``learned.json`` is written last and has checksums: of what
+everything was made from, and of the other files. Where one of them does not fit, nothing of the directory is used.
+
+What nobody saved is learned when it is first asked for, and kept in the user's cache directory, a directory for each
+:mod:`digest <tmd.inference.learned.digest>`. Where there is no place for it, it is learned each time.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import shutil
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from tmd.diagnostics import OutputError, TmdError
+from tmd.files import make_directory, write_bytes
+from tmd.goals.sources.demonstrations import table_from_json, table_to_json
+from tmd.inference.learned.digest import digest
+from tmd.inference.learned.knowledge import Knowledge, study
+from tmd.inference.learned.library_json import library_from_json, library_to_json
+from tmd.inference.learned.policy_json import reward_from_json, reward_to_json, weights_bytes
+from tmd.inference.learned.progress import Progress
+from tmd.inference.weights import format_weights, parse_weights
+from tmd.veil.corpus import Corpus
+
+FOLDER = "learned"
+"""Where it is kept beside a domain's demonstrations."""
+MANIFEST, LIBRARY, POLICY, THETA, WEIGHTS = "learned.json", "library.json", "policy.json", "policy.npy", "weights.txt"
+GOALS = "goals.json"
+_KEPT = 3
+"""Directories of the cache that are kept for each domain: those that were used last."""
+_DIGITS = 16
+"""The digits of a digest that name a directory of the cache."""
+
+
+def place(corpus: Corpus, root: Path | None = None) -> Path:
+    """The directory for a domain: its own below ``root``, or the one beside its demonstrations."""
+    return root / corpus.folder.name if root is not None else corpus.directory / FOLDER
+
+
+def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str | None = None) -> None:
+    """Write what was learned; a reader finds all of it or, until the last file is there, none.
+
+    Args:
+        knowledge: What was learned.
+        corpus: The domain.
+        directory: Where to.
+        made_from: The :func:`~tmd.inference.learned.digest.digest` of the corpus before it was read, where others may
+            write to it meanwhile; what it is now where none is given.
+
+    Raises:
+        OutputError: It cannot be written.
+    """
+    files = {LIBRARY: _json(library_to_json(knowledge.library))}
+    if knowledge.reward is not None:
+        files[POLICY] = _json(reward_to_json(knowledge.reward))
+        files[THETA] = weights_bytes(knowledge.reward)
+    if knowledge.goals is not None:
+        files[GOALS] = (json.dumps(table_to_json(knowledge.goals), ensure_ascii=False, indent=1) + "\n").encode()
+    if knowledge.weights is not None:
+        files[WEIGHTS] = format_weights(knowledge.weights).encode()
+    manifest = {
+        "domain": corpus.folder.name,
+        "made_from": made_from or digest(corpus),
+        "files": {name: _checksum(content) for name, content in sorted(files.items())},
+    }
+    make_directory(directory)
+    for name, content in files.items():
+        write_bytes(directory / name, content)
+    write_bytes(directory / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+
+
+def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
+    """What was saved; ``None`` where nothing was, or it is damaged, or was made from something else."""
+    try:
+        manifest = json.loads((directory / MANIFEST).read_bytes())
+        if manifest["made_from"] != digest(corpus):
+            return None
+        files = {name: (directory / name).read_bytes() for name in manifest["files"]}
+        if any(_checksum(files[name]) != checksum for name, checksum in manifest["files"].items()):
+            return None
+        library = library_from_json(json.loads(files[LIBRARY]), corpus.lexicon)
+        reward = reward_from_json(json.loads(files[POLICY]), files[THETA]) if POLICY in files else None
+        goals = table_from_json(json.loads(files[GOALS]), corpus.folder.domain) if GOALS in files else None
+        weights = parse_weights(files[WEIGHTS].decode(), str(directory / WEIGHTS)) if WEIGHTS in files else None
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, TmdError):
+        return None
+    return Knowledge(library, reward, weights, goals)
+
+
+def known(corpus: Corpus, root: Path | None = None) -> Knowledge:
+    """What was saved or kept of a domain, or else what its demonstrations teach now, which is kept.
+
+    Learning that takes long is told of on standard error.
+
+    Args:
+        corpus: The domain.
+        root: Where ``tmd learn --out`` saved; beside the demonstrations where none is given.
+
+    Raises:
+        TmdError: Nothing was saved that still holds, and a demonstration is wrong.
+    """
+    return recall(corpus, place(corpus, root)) or _from_cache(corpus, digest(corpus))
+
+
+def cache_directory() -> Path | None:
+    """The user's cache directory for what is learned; ``None`` where there can be none.
+
+    It is in ``$XDG_CACHE_HOME``, if that is an absolute path, or else in ``.cache`` of a home directory that exists.
+    """
+    given = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if given.is_absolute():
+        return given / "tmd" / "learned"
+    try:
+        home = Path.home()
+    except RuntimeError:
+        return None
+    return home / ".cache" / "tmd" / "learned" if home.is_absolute() and home.is_dir() else None
+
+
+def _from_cache(corpus: Corpus, made_from: str) -> Knowledge:
+    """What is kept, or else learned now and kept."""
+    cache = cache_directory()
+    kept = cache / corpus.folder.name / made_from[:_DIGITS] if cache is not None else None
+    found = recall(corpus, kept) if kept is not None else None
+    if found is None:
+        with Progress(f"learning from the demonstrations of {corpus.folder.name}") as progress:
+            found = study(corpus, progress.tell)
+        if kept is not None and len(found.library):
+            with suppress(OutputError):
+                save(found, corpus, kept, made_from)
+    if kept is not None:
+        _tidy(kept)
+    return found
+
+
+def _tidy(kept: Path) -> None:
+    """Remove what was kept longest without being used; ``kept`` is what is used now."""
+    with suppress(OSError):
+        os.utime(kept)
+        ages = {path: path.stat().st_mtime_ns for path in kept.parent.iterdir() if len(path.name) == _DIGITS}
+        for path in sorted(ages, key=lambda path: (path != kept, -ages[path]))[_KEPT:]:
+            shutil.rmtree(path, ignore_errors=True)
+
+
+def _json(data: dict[str, Any]) -> bytes:
+    return (json.dumps(data, ensure_ascii=False, separators=(",", ":")) + "\n").encode()
+
+
+def _checksum(content: bytes) -> str:
+    return hashlib.sha256(content).hexdigest()

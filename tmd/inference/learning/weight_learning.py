@@ -1,0 +1,209 @@
+"""Learning the weights by stochastic gradient descent (section VI-F).
+
+For each training example inference proposes plans; each plan is a vector of factors and has a loss against what the
+person did. The target is the plan of least loss that inference can reach at all, y*. The objective is the
+structured hinge with margin rescaling: for each example
+
+    max_y [ loss(y) - loss(y*) + E(y*) - E(y) ] ≥ 0,
+
+plus a small quadratic term that keeps the weights near where they began. It is convex in the weights, and its
+subgradient is the difference of two factor vectors. Factors are costs, so weights are kept from falling below zero.
+Plans are proposed anew with the weights of each round, and the old ones are kept: the most violating plan of a
+round is among them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tmd.inference.learning.journal import Journal, Vector
+from tmd.inference.ranking import RankedPlan
+from tmd.inference.weights import NAMES, Weights
+
+
+@dataclass(slots=True)
+class Pool:
+    """The plans proposed for one example: factor vectors, shape (plans, factors), and losses in [0, 1]."""
+
+    factors: list[Vector] = field(default_factory=list)
+    losses: list[float] = field(default_factory=list)
+    _known: set[tuple[object, ...]] = field(default_factory=set)
+
+    def add(self, vector: Vector, loss: float) -> None:
+        """Take up a plan, once."""
+        key = (*vector.tolist(), loss)
+        if key not in self._known:
+            self._known.add(key)
+            self.factors.append(vector)
+            self.losses.append(loss)
+
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """What learning gives.
+
+    Attributes:
+        weights: The weights.
+        curve: For each epoch ``round``, ``epoch``, the mean ``loss`` over the examples of the plan that the weights
+            prefer among those proposed so far, and the mean hinge (``objective``). Epoch 0 is before the first step
+            of a round: there ``loss`` is that of the plans that inference itself has just chosen.
+    """
+
+    weights: Weights
+    curve: tuple[Mapping[str, float], ...]
+
+
+Propose = Callable[[int, Weights], Sequence[tuple[RankedPlan, float]]]
+"""The plans, cheapest first, for the example of that number under those weights, each with its loss."""
+
+
+def vector_of(plan: RankedPlan) -> Vector:
+    """The factors of a plan before they are weighed."""
+    raw = plan.raw
+    return np.array([raw.get(name, 0.0) for name in NAMES])
+
+
+def learn_weights(
+    propose: Propose,
+    examples: int,
+    start: Weights,
+    random: np.random.Generator,
+    *,
+    factors: Collection[str] = NAMES,
+    rounds: int = 3,
+    epochs: int = 20,
+    rate: float = 0.1,
+    pull: float = 1e-3,
+    journal: Journal | None = None,
+) -> Learned:
+    """Learn weights from ``examples`` training examples.
+
+    Args:
+        propose: Inference and loss for one example.
+        examples: How many examples there are.
+        start: Where to begin.
+        random: The order in which examples are visited.
+        factors: The factors to be weighed; all others keep weight 0.
+        rounds: How often plans are proposed anew.
+        epochs: Passes over the examples in each round.
+        rate: The step of the descent, in units of each factor's spread.
+        pull: How strongly weights are drawn to ``start``.
+        journal: Where proposals are written down, and read again after an interruption.
+    """
+    start = Weights({name: start[name] for name in NAMES if name in factors})
+    pools = [Pool() for _ in range(examples)]
+    weights = start
+    curve: list[Mapping[str, float]] = []
+    for number in range(1, rounds + 1):
+        chosen = []
+        for example, pool in enumerate(pools):
+            proposed = journal.read(number, example) if journal else None
+            if proposed is None:
+                proposed = [(vector_of(plan), loss) for plan, loss in propose(example, weights)]
+                if journal:
+                    journal.write(number, example, proposed)
+            for vector, loss in proposed:
+                pool.add(vector, loss)
+            if proposed:
+                chosen.append(proposed[0][1])
+        descent = descend(pools, start, random, factors=factors, epochs=epochs, rate=rate, pull=pull)
+        weights = descent.weights
+        losses = [float(np.mean(chosen)) if chosen else 0.0, *descent.losses]
+        curve += [
+            {"round": number, "epoch": epoch, "loss": loss, "objective": objective}
+            for epoch, (loss, objective) in enumerate(zip(losses, descent.objectives, strict=True))
+        ]
+    return Learned(weights, tuple(curve))
+
+
+@dataclass(frozen=True, slots=True)
+class Descent:
+    """The outcome of a descent: weights, for each epoch the mean loss, and before and after each the mean hinge."""
+
+    weights: Weights
+    losses: tuple[float, ...]
+    objectives: tuple[float, ...]
+
+
+def descend(
+    pools: Sequence[Pool],
+    start: Weights,
+    random: np.random.Generator,
+    *,
+    factors: Collection[str] = NAMES,
+    epochs: int,
+    rate: float,
+    pull: float,
+) -> Descent:
+    """Stochastic subgradient descent on the hinge over fixed pools.
+
+    What is returned is the mean of the iterates up to that epoch whose preferred plans have the least mean loss, the
+    start among them, the latest of equals: the hinge bounds the loss, but what is wanted is a small loss.
+    """
+    useful = [pool for pool in pools if len(pool.losses) > 1]
+    if not useful:
+        return Descent(start, (0.0,) * epochs, (0.0,) * (epochs + 1))
+    scale = _spread(useful)
+    free = np.array([name in factors for name in NAMES])
+    origin = np.array([start[name] for name in NAMES]) * scale
+    origin = origin / max(float(np.abs(origin).sum()), 1e-9) * len(NAMES)
+    current = origin.copy()
+    total = np.zeros_like(current)
+    tables = [(np.array(pool.factors) / scale, np.array(pool.losses)) for pool in useful]
+    first, hinge = _judge(tables, origin)
+    losses, objectives = [], [hinge]
+    least, kept = first, origin
+    for epoch in range(epochs):
+        step = rate / (1 + epoch)
+        for index in random.permutation(len(tables)):
+            current = np.where(free, _step(current, origin, *tables[int(index)], step, pull), 0.0)
+            total += current
+        mean = total / ((epoch + 1) * len(tables))
+        loss, objective = _judge(tables, mean)
+        losses.append(loss)
+        objectives.append(objective)
+        if loss <= least:
+            least, kept = loss, mean
+    learned = zip(NAMES, kept / scale, strict=True)
+    weights = Weights({name: float(value) for name, value in learned if name in factors})
+    return Descent(weights, tuple(losses), tuple(objectives))
+
+
+def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[float, float]:
+    """The mean loss of the plans that ``weights`` prefer, and the mean hinge."""
+    chosen, hinges = [], []
+    for factors, losses in tables:
+        energies = factors @ weights
+        chosen.append(float(losses[int(np.argmin(energies))]))
+        target = _target(energies, losses)
+        hinges.append(float(np.max((losses - losses[target]) - (energies - energies[target]))))
+    return float(np.mean(chosen)), float(np.mean(hinges))
+
+
+def _target(energies: Vector, losses: Vector) -> int:
+    """y*: among the plans of least loss the one of least energy."""
+    best = np.flatnonzero(losses == losses.min())
+    return int(best[np.argmin(energies[best])])
+
+
+def _step(current: Vector, origin: Vector, factors: Vector, losses: Vector, step: float, pull: float) -> Vector:
+    """One subgradient step on one example; weights stay non-negative."""
+    energies = factors @ current
+    target = _target(energies, losses)
+    violation = (losses - losses[target]) - (energies - energies[target])
+    worst = int(np.argmax(violation))
+    gradient = pull * (current - origin)
+    if violation[worst] > 0:
+        gradient = gradient + factors[target] - factors[worst]
+    stepped: Vector = np.maximum(0.0, current - step * gradient)
+    return stepped
+
+
+def _spread(pools: Sequence[Pool]) -> Vector:
+    """The mean spread of each factor within the pools, so that a step means the same for each; 1 where it is none."""
+    spreads = np.mean([np.std(np.array(pool.factors), axis=0) for pool in pools], axis=0)
+    found: Vector = np.where(spreads > 1e-9, spreads, 1.0)
+    return found

@@ -1,0 +1,174 @@
+"""Read a domain's ``lexicon.yaml``; every fault is reported with file, line and column.
+
+The format is described in ``docs/language.md``.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import NoReturn
+
+import yaml
+
+from tmd.diagnostics import Location, TmdError
+from tmd.language.lexicon.lexicon import Declared, Lexicon
+from tmd.language.lexicon.morphology import singular
+
+KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
+_NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
+
+
+class _Source:
+    """The text of the file, to point into it."""
+
+    def __init__(self, path: Path, text: str) -> None:
+        self.path = path
+        self.lines = text.splitlines()
+
+    def fail(self, mark: yaml.Mark | None, message: str, hint: str | None = None) -> NoReturn:
+        line, column = (mark.line, mark.column) if mark is not None else (0, 0)
+        source = self.lines[line] if line < len(self.lines) else None
+        place = Location(str(self.path), line + 1, column + 1)
+        raise TmdError(message, location=place, hint=hint, source=source)
+
+    def name(self, node: yaml.Node) -> str:
+        """Return a scalar that is a name: lower case, words joined by underscores."""
+        if not isinstance(node, yaml.ScalarNode):
+            self.fail(node.start_mark, "expected a name here", "a name is one word, such as crock_pot")
+        if not _NAME.match(node.value):
+            self.fail(
+                node.start_mark,
+                f"'{node.value}' is not a name",
+                "use lower case, digits and underscores, and begin with a letter",
+            )
+        return str(node.value)
+
+    def target(self, node: yaml.Node) -> str:
+        """Return a scalar that names a class, an object or a substance of the domain, in its own spelling."""
+        if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
+            self.fail(node.start_mark, "expected the name of a class, an object or a substance here")
+        return str(node.value)
+
+    def sequence(self, node: yaml.Node, item: Callable[[yaml.Node], str]) -> tuple[str, ...]:
+        if not isinstance(node, yaml.SequenceNode):
+            self.fail(node.start_mark, "expected a list here", "write [one, two]")
+        return tuple(item(child) for child in node.value)
+
+    def mapping(self, node: yaml.Node) -> list[tuple[str, yaml.Node, yaml.Node]]:
+        """Return (key, key node, value node) triples; a key may stand only once."""
+        if not isinstance(node, yaml.MappingNode):
+            self.fail(node.start_mark, "expected 'name: value' pairs here")
+        seen: dict[str, int] = {}
+        triples = []
+        for key, value in node.value:
+            name = self.name(key)
+            if name in seen:
+                self.fail(key.start_mark, f"'{name}' stands twice", f"first in line {seen[name]}")
+            seen[name] = key.start_mark.line + 1
+            triples.append((name, key, value))
+        return triples
+
+    def condition(self, node: yaml.Node) -> tuple[str, Location]:
+        """Return a scalar that is a PDDL condition, and where it begins."""
+        if not isinstance(node, yaml.ScalarNode) or not node.value.strip():
+            self.fail(node.start_mark, "expected a PDDL condition here", "write (opened ?x)")
+        quoted = node.style in ("'", '"')
+        return node.value, Location(str(self.path), node.start_mark.line + 1, node.start_mark.column + 1 + quoted)
+
+    def aliases(self, node: yaml.Node) -> dict[str, tuple[str, ...]]:
+        result = {}
+        for name, _, value in self.mapping(node):
+            single = isinstance(value, yaml.ScalarNode)
+            result[name] = (self.target(value),) if single else self.sequence(value, self.target)
+        return result
+
+
+def read_lexicon(path: Path) -> Lexicon:
+    """Read a lexicon file.
+
+    Raises:
+        TmdError: The file cannot be read, is no YAML, has an unknown key or a value of the wrong kind.
+    """
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise TmdError(f"cannot read the lexicon {path}: {reason}") from None
+    source = _Source(path, text)
+    try:
+        node = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # libyaml where it is built in
+    except yaml.MarkedYAMLError as error:
+        source.fail(error.problem_mark, f"broken YAML: {error.problem}")
+    except yaml.YAMLError as error:
+        source.fail(None, f"broken YAML: {str(error).splitlines()[0]}")
+    if node is None:
+        return Lexicon(source=str(path))
+    parts = _parts(source, node)
+    verbs = source.sequence(parts["verbs"], source.name) if "verbs" in parts else ()
+    nouns = source.aliases(parts["nouns"]) if "nouns" in parts else {}
+    return Lexicon(
+        verbs=frozenset(verbs),
+        phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
+        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
+        verb_synonyms=_synonyms(source, parts["verb_synonyms"]) if "verb_synonyms" in parts else {},
+        goals=_goals(source, parts["goals"]) if "goals" in parts else (),
+        attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),
+        groups=source.aliases(parts["groups"]) if "groups" in parts else {},
+        source=str(path),
+    )
+
+
+def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
+    parts = {}
+    for name, key, value in source.mapping(node):
+        if name not in KEYS:
+            near = difflib.get_close_matches(name, KEYS, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(KEYS)}"
+            source.fail(key.start_mark, f"unknown key '{name}'", hint)
+        if not (isinstance(value, yaml.ScalarNode) and value.tag.endswith(":null")):
+            parts[name] = value
+    return parts
+
+
+def _goals(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
+    """A list of ``- pattern: condition``; their order counts."""
+    if not isinstance(node, yaml.SequenceNode):
+        source.fail(node.start_mark, "expected a list of goals here", "write '- open X: (opened ?x)'")
+    found = []
+    for child in node.value:
+        if not isinstance(child, yaml.MappingNode) or len(child.value) != 1:
+            source.fail(child.start_mark, "expected one 'pattern: condition' here", "write '- open X: (opened ?x)'")
+        key, value = child.value[0]
+        if not isinstance(key, yaml.ScalarNode):
+            source.fail(key.start_mark, "expected a pattern here, such as 'place X in|on Y'")
+        found.append(Declared(key.value, *source.condition(value)))
+    return tuple(found)
+
+
+def _attributes(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
+    return tuple(Declared(name, *source.condition(value)) for name, _, value in source.mapping(node))
+
+
+def _phrasal(source: _Source, node: yaml.Node) -> dict[str, str]:
+    result = {}
+    for name, key, value in source.mapping(node):
+        if "_" not in name:
+            source.fail(key.start_mark, f"'{name}' has no particle", "write verb_particle, such as fire_up")
+        own = isinstance(value, yaml.ScalarNode) and value.tag.endswith(":null")
+        result[name] = name if own else source.name(value)
+    return result
+
+
+def _synonyms(source: _Source, node: yaml.Node) -> dict[str, str]:
+    synonyms = {name: source.name(value) for name, _, value in source.mapping(node)}
+    for name, key, _ in source.mapping(node):
+        if synonyms[name] in synonyms:
+            source.fail(
+                key.start_mark,
+                f"'{name}' stands for '{synonyms[name]}', which stands for another verb",
+                f"write '{name}: {synonyms[synonyms[name]]}'",
+            )
+    return synonyms

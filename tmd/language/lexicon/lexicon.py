@@ -1,0 +1,271 @@
+"""The words the parser knows: own lists, WordNet's verbs behind them, and what a domain adds.
+
+A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon.file`.
+"""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache, cached_property
+from pathlib import Path
+
+from tmd.diagnostics import Location
+from tmd.language.lexicon.morphology import positive, singular, verb_stem
+from tmd.language.lexicon.word_lists import data_text, section, sections
+
+_TYPO_LENGTH = 4
+"""Shorter words are never corrected."""
+_TYPO_RATIO = 0.83
+"""Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
+_NOUN_TYPO_RATIO = 0.8
+"""The same where a noun of the domain may be meant: one wrong letter of five."""
+
+
+@cache
+def _wordnet_verbs() -> tuple[Mapping[str, str], dict[str, str], frozenset[str]]:
+    """Return (stem -> flag, irregular form -> stem, verbs with a particle)."""
+    flags: dict[str, str] = {}
+    irregular: dict[str, str] = {}
+    phrasal = set()
+    for line in data_text("wordnet_verbs.txt").splitlines():
+        if line.startswith("#"):
+            continue
+        head, *rest = line.split()
+        if "_" in head:
+            phrasal.add(head)
+        else:
+            flags[head] = rest[0]
+            for form in rest[1:]:
+                irregular.setdefault(form, head)
+    return flags, irregular, frozenset(phrasal)
+
+
+@cache
+def _spellings() -> Mapping[str, str]:
+    return dict(entry.split("=") for entry in sections()["spellings"])
+
+
+@cache
+def _english() -> frozenset[str]:
+    return frozenset(data_text("wordnet_words.txt.gz").split())
+
+
+@dataclass(frozen=True, slots=True)
+class Declared:
+    """A pattern or an adjective with the PDDL condition that it was given, as written, and its place."""
+
+    pattern: str
+    condition: str
+    location: Location | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Lexicon:
+    """Built-in words plus those of a domain.
+
+    Attributes:
+        verbs: Further verbs.
+        phrasal: Further verbs with a particle, each with the verb it stands for (``turn_on`` itself, or
+            another): ``{"fire_up": "turn_on"}``.
+        nouns: What a noun may mean here: names of classes, objects or substances, likeliest first.
+        verb_synonyms: Verb to the verb whose templates serve it as well.
+        goals: What verbs with their slots mean, as conditions of the domain (:mod:`tmd.goals.sources.table`).
+        attributes: What adjectives mean, as conditions of ``?x``.
+        groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
+        source: The file it came from.
+        kinds: Names of types and constants of the domain: what is called so is a noun, be it a verb as well.
+    """
+
+    verbs: frozenset[str] = frozenset()
+    phrasal: Mapping[str, str] = field(default_factory=dict)
+    nouns: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    verb_synonyms: Mapping[str, str] = field(default_factory=dict)
+    goals: tuple[Declared, ...] = ()
+    attributes: tuple[Declared, ...] = ()
+    groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    source: str = ""
+    kinds: frozenset[str] = frozenset()
+
+    @classmethod
+    def load(cls, path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
+        """Read a ``lexicon.yaml``; without a path there are the built-in words only.
+
+        Args:
+            path: The file.
+            kinds: Names of types and constants of the domain.
+
+        Raises:
+            TmdError: The file cannot be read or is not a lexicon; with its place.
+        """
+        from tmd.language.lexicon.file import read_lexicon
+
+        lexicon = cls() if path is None else read_lexicon(Path(path))
+        return replace(lexicon, kinds=frozenset(name.replace("-", "_").rpartition("_")[2] for name in kinds))
+
+    def canonical_verb(self, verb: str) -> str:
+        """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
+        return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
+
+    @cached_property
+    def goal_verbs(self) -> frozenset[str]:
+        """The verbs that have a declared meaning."""
+        return frozenset(verb for row in self.goals for verb in row.pattern.partition(" ")[0].split("|"))
+
+    @cached_property
+    def _own_verbs(self) -> frozenset[str]:
+        named = {verb.partition("_")[0] for verb in self.goal_verbs}
+        return section("verbs") | section("noun_verbs") | section("lead_verbs") | self.verbs | named
+
+    @cached_property
+    def _own_nouns(self) -> frozenset[str]:
+        heads = {part for noun in (*self.nouns, *self.groups) for part in (noun, noun.rpartition("_")[2])}
+        return section("nouns") | frozenset(heads) | self.kinds
+
+    @cached_property
+    def _phrasal(self) -> Mapping[str, bool]:
+        """Verb with particle -> whether the particle is one even before a noun."""
+        moving = section("intransitive") | section("chain_verbs")
+        table = {name: False for name in _wordnet_verbs()[2] if name.partition("_")[0] not in moving}
+        table.update((entry.rstrip("!"), entry.endswith("!")) for entry in sections()["phrasal"])
+        table.update((name, table.get(name, False)) for name in self.goal_verbs if "_" in name)
+        table.update((name, True) for name in self.phrasal)
+        return table
+
+    def verb(self, word: str) -> tuple[str, str, int] | None:
+        """Return (stem, form, strength) if a word can be a verb.
+
+        Strength 3 is a verb of the own list, 2 one that is a noun as well, 1 more often a noun.
+        """
+        if word in _spellings():
+            return _spellings()[word], "base", 3
+        found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
+        if found is None:
+            return None
+        stem, form = found
+        noun = singular(word) in self._own_nouns or stem in self._own_nouns
+        if stem in self.verbs:
+            return stem, form, 2 if noun and form == "base" else 3
+        if stem in section("noun_verbs") or (word in section("keep_adjectives") and stem not in section("verbs")):
+            return stem, form, 1
+        if stem in section("verbs"):
+            return stem, form, 2 if noun else 3
+        flag = _wordnet_verbs()[0].get(stem, "v")
+        strength = {"v": 2, "vn": 2, "nv": 1}[flag]
+        return stem, form, min(strength, 1) if noun else strength
+
+    def _known_verb(self, word: str) -> bool:
+        return word in self._own_verbs or word in _wordnet_verbs()[0]
+
+    def particle(self, stem: str, particle: str) -> bool | None:
+        """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
+        return self._phrasal.get(f"{stem}_{particle}")
+
+    def is_noun(self, word: str) -> bool:
+        """Tell whether the own lists or the domain know a noun, in any number."""
+        return word in self._own_nouns or singular(word) in self._own_nouns
+
+    def knows(self, word: str) -> bool:
+        """Tell whether a word is in any list, WordNet's included."""
+        return (
+            word in _closed_words()
+            or singular(word) in _closed_words()
+            or self.is_noun(word)
+            or self.verb(word) is not None
+            or word in _english()
+            or positive(word) in _closed_words()
+            or (word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs)
+            or singular(word) in _english()
+        )
+
+    def correct(self, word: str) -> str | None:
+        """Return the known word a typo stands for, or ``None``.
+
+        Only words that are in no list are corrected, and only to a word with the same first letter that is
+        alike enough (:data:`_TYPO_RATIO`).
+        """
+        if len(word) < _TYPO_LENGTH or self.knows(word):
+            return None
+        swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
+        if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
+            return swapped[0]
+        if word.endswith("s") and (stem := self.correct(word[:-1])):
+            return stem + "s"
+        group = self._by_initial.get(word[0], ())
+        near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
+        if not near:
+            near = difflib.get_close_matches(word, sorted(self._own_nouns.intersection(group)), 1, _NOUN_TYPO_RATIO)
+        # "soapy" is no slip of "soap": letters get lost at the end, endings are not made up
+        return near[0] if near and not word.startswith(near[0]) else None
+
+    @cached_property
+    def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
+        table: dict[str, list[str]] = {}
+        words = (
+            self._own_nouns
+            | section("misspelt")
+            | section("verbs")
+            | section("noun_verbs")
+            | self.verbs
+            | _typo_closed()
+        )
+        for word in sorted(words):
+            if "_" not in word and len(word) >= _TYPO_LENGTH:
+                table.setdefault(word[0], []).append(word)
+        return {initial: tuple(group) for initial, group in table.items()}
+
+
+_CLOSED = (
+    "drop_adjectives",
+    "keep_adjectives",
+    "determiners",
+    "quantifiers",
+    "pronouns",
+    "prepositions",
+    "particles",
+    "units_time",
+    "units",
+    "numbers",
+    "adverbs",
+    "conditions",
+    "relatives",
+    "be",
+    "modals",
+    "negations",
+    "names",
+    "subjects",
+    "let_verbs",
+)
+
+
+def _swaps(word: str) -> list[str]:
+    """Return a word with each pair of neighbouring letters changed, but for the first."""
+    return [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)]
+
+
+def _is_swap(word: str, other: str) -> bool:
+    """Tell whether two words differ by two neighbouring letters that changed places."""
+    if len(word) != len(other):
+        return False
+    places = [i for i in range(len(word)) if word[i] != other[i]]
+    if len(places) != 2 or places[1] != places[0] + 1:
+        return False
+    first, second = places
+    return word[first] == other[second] and word[second] == other[first]
+
+
+@cache
+def _closed_words() -> frozenset[str]:
+    return frozenset({"and", "or", "but", "then", "to", "not", "plus"}.union(*(section(n) for n in _CLOSED)))
+
+
+@cache
+def _typo_closed() -> frozenset[str]:
+    return section("prepositions") | section("drop_adjectives")
+
+
+@cache
+def builtin() -> Lexicon:
+    """Return the lexicon without a domain."""
+    return Lexicon()

@@ -1,0 +1,253 @@
+"""Which things of an environment a noun may name, with the kind of evidence for each.
+
+The order of evidence is fixed: the thing's own name, an alias of the domain, an alias learned in training, WordNet
+similarity, nothing. A weaker kind is only asked where all stronger ones are silent; but where a name agrees only in
+part, an alias of the whole noun goes before it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import NamedTuple
+
+from tmd.language.lexicon import wordnet
+from tmd.language.lexicon.lexicon import Lexicon, builtin
+from tmd.language.lexicon.morphology import singular
+
+NAME, ALIAS, LEARNED, WORDNET = "name", "alias", "learned", "wordnet"
+"""What :attr:`Match.how` can say, strongest first."""
+
+SIMILAR = 0.85
+"""Least Wu-Palmer similarity that counts (the value of the original system)."""
+
+_ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"]
+_NUMBERS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
+_CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
+_LOOSEST = 0.5
+"""Score of a name match by head alone, all modifiers unmatched."""
+_ANCESTOR_DECAY = 0.05
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A thing of the environment: an object, a part of one, or a substance.
+
+    Attributes:
+        name: Its name in the environment: ``microwave1_door``.
+        class_name: Its class.
+        ancestors: The classes above, nearest first.
+        words: Further words for it: the class of the whole for a part, colours, labels.
+    """
+
+    name: str
+    class_name: str = ""
+    ancestors: tuple[str, ...] = ()
+    words: tuple[str, ...] = ()
+
+
+class Match(NamedTuple):
+    """A candidate a noun may name: how sure (0 to 1], and by which kind of evidence."""
+
+    name: str
+    score: float
+    how: str
+
+
+@dataclass(frozen=True, slots=True)
+class _Noun:
+    """A language-object taken apart: head and modifiers, and the number it is called by."""
+
+    head: str
+    modifiers: tuple[str, ...]
+    number: int | None
+    ordinal: bool = False
+
+    @property
+    def words(self) -> tuple[str, ...]:
+        return (*self.modifiers, self.head)
+
+
+@lru_cache(maxsize=4096)
+def split_name(name: str) -> tuple[str, ...]:
+    """Return the words of a name: ``TvRemote_1`` gives ``("tv", "remote", "1")``; of what has none, itself."""
+    return tuple(part.lower() for part in _CAMEL.findall(name)) or (name.lower(),)
+
+
+def words_in_name(name: str) -> frozenset[str]:
+    """Return the words of a name and every run of them: ``switched-on`` has *switched*, *on* and *switched_on*."""
+    parts = split_name(name)
+    ends = range(1, len(parts) + 1)
+    return frozenset({name, *("_".join(parts[begin:end]) for end in ends for begin in range(end))})
+
+
+def rank(
+    noun: str,
+    candidates: Sequence[Candidate],
+    lexicon: Lexicon | None = None,
+    learned: Mapping[str, Mapping[str, float]] | None = None,
+    threshold: float = SIMILAR,
+) -> list[Match]:
+    """Rank the things a noun may name.
+
+    Args:
+        noun: A language-object (``fridge_door``, ``burner_3``, ``cups``).
+        candidates: What there is.
+        lexicon: The domain's words; its ``nouns`` are the aliases.
+        learned: Aliases from training: noun to class (or name) to weight in (0, 1].
+        threshold: Least WordNet similarity.
+
+    Returns:
+        Matches of the strongest kind of evidence that speaks, best first; ties in the order of the
+        candidates' names. Empty if the noun names nothing here.
+    """
+    parsed = _parse(noun)
+    aliases = (lexicon or builtin()).nouns
+    named = _by_name(parsed, candidates)
+    if max((match.score for match in named), default=0.0) < 1.0:
+        # an alias of the whole noun says more than a name that shares its head only
+        spelled = {form: aliases[form] for form in _spellings(noun, parsed)[:-1] if form in aliases}
+        named = _by_alias(noun, parsed, candidates, spelled) or named
+    for found in (
+        named,
+        _by_alias(noun, parsed, candidates, aliases),
+        _by_learned(noun, parsed, candidates, learned or {}),
+        _by_wordnet(parsed, candidates, threshold),
+    ):
+        if found:
+            return sorted(found, key=lambda m: (-m.score, _natural(m.name)))
+    return []
+
+
+def _natural(name: str) -> tuple[tuple[int, int | str], ...]:
+    return tuple((0, int(p)) if p.isdigit() else (1, p) for p in re.split(r"(\d+)", name) if p)
+
+
+def _parse(noun: str) -> _Noun:
+    words = list(split_name(singular(noun.lower().replace(" ", "_").replace("-", "_"))))
+    number, ordinal = None, False
+    if words and words[-1].isdecimal():
+        number = int(words.pop())
+    elif len(words) > 1 and words[-1] in _NUMBERS:
+        number = _NUMBERS.index(words.pop()) + 1
+    elif len(words) > 1 and words[0] in _ORDINALS:
+        number, ordinal = _ORDINALS.index(words.pop(0)) + 1, True
+    words = [singular(w) for w in words] or [noun]
+    return _Noun(words[-1], tuple(words[:-1]), number, ordinal)
+
+
+@lru_cache(maxsize=4096)
+def _vocabulary(candidate: Candidate) -> tuple[tuple[str, ...], ...]:
+    """Return the ways to name a candidate, each as its words without numbers, nearest first."""
+    names = (candidate.name, candidate.class_name, *candidate.ancestors)
+    spelled = [tuple(singular(w) for w in split_name(name) if not w.isdigit()) for name in names]
+    return tuple(words for words in spelled if words)
+
+
+def _by_name(noun: _Noun, candidates: Sequence[Candidate]) -> list[Match]:
+    found = []
+    for candidate in candidates:
+        score = max(
+            (
+                _name_score(noun, words, candidate.words) - _ANCESTOR_DECAY * max(0, level - 1)
+                for level, words in enumerate(_vocabulary(candidate))
+            ),
+            default=0.0,
+        )
+        if score > 0:
+            found.append((candidate, score))
+    best = max((score for _, score in found), default=0.0)
+    # "cup" is the cup, not the cup_holder's cup, where an exact name exists
+    kept = [(c, s) for c, s in found if s >= best - 0.25]
+    return _numbered([Match(c.name, round(s, 4), NAME) for c, s in kept], noun)
+
+
+def _name_score(noun: _Noun, words: tuple[str, ...], extra: tuple[str, ...]) -> float:
+    """Score the words of one name: the head has to agree, modifiers count by share."""
+    if "".join(noun.words) == "".join(words):
+        return 1.0
+    if noun.head != words[-1]:
+        return 0.0
+    supporting = set(words[:-1]) | {singular(w.lower()) for e in extra for w in split_name(e)}
+    wanted = set(noun.modifiers)
+    hits = len(wanted & supporting)
+    missing, unsaid = len(wanted) - hits, len(set(words[:-1]) - wanted)
+    return _LOOSEST + (1 - _LOOSEST) * (1 + 2 * hits) / (1 + 2 * hits + 2 * missing + unsaid) - 0.05
+
+
+def _numbered(matches: list[Match], noun: _Noun) -> list[Match]:
+    """Pick by number: the thing that carries it in its name, else (and for "second") the n-th in order."""
+    if not noun.number:
+        return matches
+    carrying = [m for m in matches if _number(m.name) == noun.number]
+    if carrying and not noun.ordinal:
+        return carrying
+    ordered = sorted(matches, key=lambda m: (-m.score, _natural(m.name)))
+    if noun.number <= len(ordered):
+        chosen = ordered[noun.number - 1]
+        return [chosen, *(m._replace(score=round(m.score / 2, 4)) for m in ordered if m is not chosen)]
+    return [m._replace(score=round(m.score / 2, 4)) for m in matches]
+
+
+def _number(name: str) -> int | None:
+    digits = re.findall(r"\d+", name)
+    return int(digits[-1]) if digits else None
+
+
+def _spellings(noun: str, parsed: _Noun) -> list[str]:
+    """Return the forms under which a noun may stand in a table: whole, without number, its head."""
+    forms = [noun.lower(), singular(noun.lower()), "_".join(parsed.words), parsed.head]
+    return list(dict.fromkeys(forms))
+
+
+def _names(candidate: Candidate, target: str) -> bool:
+    wanted = "".join(split_name(target))
+    own = (candidate.name, candidate.class_name, *candidate.ancestors)
+    return any("".join(split_name(name)) == wanted for name in own if name)
+
+
+def _by_alias(
+    noun: str, parsed: _Noun, candidates: Sequence[Candidate], aliases: Mapping[str, tuple[str, ...]]
+) -> list[Match]:
+    for form in _spellings(noun, parsed):
+        found: dict[str, Match] = {}
+        for place, target in enumerate(aliases.get(form, ())):
+            for candidate in candidates:
+                if candidate.name not in found and _names(candidate, target):
+                    found[candidate.name] = Match(candidate.name, round(0.9**place, 4), ALIAS)
+        if found:
+            return _numbered(list(found.values()), parsed)
+    return []
+
+
+def _by_learned(
+    noun: str, parsed: _Noun, candidates: Sequence[Candidate], learned: Mapping[str, Mapping[str, float]]
+) -> list[Match]:
+    for form in _spellings(noun, parsed):
+        table = learned.get(form, {})
+        found = []
+        for candidate in candidates:
+            weight = max((w for target, w in table.items() if _names(candidate, target)), default=0.0)
+            if weight > 0:
+                found.append(Match(candidate.name, round(weight, 4), LEARNED))
+        if found:
+            return _numbered(found, parsed)
+    return []
+
+
+def _by_wordnet(noun: _Noun, candidates: Sequence[Candidate], threshold: float) -> list[Match]:
+    whole = "_".join(noun.words)
+    word = whole if wordnet.known(whole) else noun.head
+    found = []
+    for candidate in candidates:
+        score = max((_similar(word, words) for words in _vocabulary(candidate)), default=0.0)
+        if score >= threshold:
+            found.append(Match(candidate.name, round(score, 4), WORDNET))
+    return _numbered(found, noun)
+
+
+def _similar(word: str, words: tuple[str, ...]) -> float:
+    whole = "_".join(words)
+    return wordnet.similarity(word, whole if wordnet.known(whole) else words[-1])

@@ -1,0 +1,173 @@
+"""Turns of phrase in plain words: *the floor needs sweeping*, *how about a tea*, *in with the keys*."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from tmd.language.lexicon.lexicon import builtin
+from tmd.language.lexicon.word_lists import section
+from tmd.language.syntax.attachment import is_number
+from tmd.language.tagging.tokens import Kind, Token
+
+SPEAKERS = frozenset({"i", "we"})
+_PUTTING = frozenset({"put", "place", "pop", "stick", "go", "goes", "belong", "belongs"})
+PRONOUNS = frozenset({"it", "they", "them", "you", "i", "we", "he", "she", "this", "that", "there"})
+_DUTIES = frozenset({"should", "must", "has", "have", "needs", "need", "ought"})
+BREAKS = (Kind.STOP, Kind.COMMA)
+JOINTS = frozenset({"and", "but", "then", "while"})
+
+
+def _none_of(tokens: list[Token]) -> list[Token]:
+    """Read "none of the lamps should be on" as "no lamps should be on"."""
+    if [t.text for t in tokens[:2]] != ["none", "of"]:
+        return tokens
+    determined = tokens[2:3] != [] and tokens[2].text in section("determiners")
+    return [replace(tokens[0], text="no"), *tokens[3 if determined else 2 :]]
+
+
+def _but_there(tokens: list[Token]) -> list[Token]:
+    """Read "…, but leave the blanket there" as "leave the blanket alone": it is there already."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 3):
+        if words[at : at + 2] != ["but", "leave"] or words[at + 2] in PRONOUNS:
+            continue
+        ends = (i for i in range(at + 2, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS)
+        end = next(ends, len(words))
+        if words[end - 1] == "there":
+            return [*tokens[: end - 1], replace(tokens[end - 1], text="alone"), *tokens[end:]]
+    return tokens
+
+
+def _in_with(tokens: list[Token]) -> list[Token]:
+    """Read "put the pen in with the keys" as "put the pen where the keys are"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 2):
+        if words[at : at + 2] != ["in", "with"] or not _PUTTING.intersection(words[:at]):
+            continue
+        ends = (i for i in range(at + 3, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS)
+        end = next(ends, len(words))
+        where = replace(tokens[at], text="where", span=tokens[at].span._replace(end=tokens[at + 1].span.end))
+        copula = replace(tokens[end - 1], text="is", span=tokens[end - 1].span._replace(start=tokens[end - 1].span.end))
+        return [*tokens[:at], where, *tokens[at + 2 : end], copula, *tokens[end:]]
+    return tokens
+
+
+def _needing(tokens: list[Token]) -> list[Token]:
+    """Read "the floor needs sweeping" as "sweep the floor"."""
+    for at in range(1, len(tokens) - 1):
+        done = builtin().verb(tokens[at + 1].text)
+        if tokens[at].text not in ("needs", "need") or done is None or done[1] != "ing":
+            continue
+        begin = at
+        while begin and tokens[begin - 1].kind not in BREAKS and tokens[begin - 1].text not in ("but", "so", "then"):
+            begin -= 1
+        begin += tokens[begin].text == "and"
+        subject = tokens[begin:at]
+        if subject and not {t.text for t in subject} & {*SPEAKERS, "you", "that", "which", "if", "when"}:
+            return [*tokens[:begin], replace(tokens[at + 1], text=done[0]), *subject, *_needing(tokens[at + 2 :])]
+    return tokens
+
+
+def _not_done_yet(tokens: list[Token]) -> list[Token]:
+    """Read "that hasn't been steamed" as "that isn't steamed"."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 2):
+        short = words[at] in ("hasn't", "haven't") and words[at + 1] == "been"
+        full = words[at] in ("has", "have") and words[at + 1 : at + 3] == ["not", "been"]
+        if words[at - 1] in ("that", "which") and (short or full):
+            isnt = replace(tokens[at], text="isn't" if words[at].startswith("has") else "aren't")
+            return [*tokens[:at], isnt, *_not_done_yet(tokens[at + (2 if short else 3) :])]
+    return tokens
+
+
+def _could_do_with(tokens: list[Token]) -> list[Token]:
+    """Read "I could do with a tea", "how about a tea" as "I would like a tea"."""
+    if [t.text for t in tokens[:2]] in (["how", "about"], ["what", "about"]) and len(tokens) > 2:
+        lead = [replace(tokens[0], text="i"), replace(tokens[0], text="would"), replace(tokens[1], text="like")]
+        return [*lead, *tokens[2:]]
+    for at in range(1, len(tokens) - 3):
+        if [t.text for t in tokens[at : at + 3]] == ["could", "do", "with"] and tokens[at - 1].text in SPEAKERS:
+            would, like = replace(tokens[at], text="would"), replace(tokens[at + 1], text="like")
+            return [*tokens[:at], would, like, *tokens[at + 3 :]]
+    return tokens
+
+
+def _one_of_many(tokens: list[Token]) -> list[Token]:
+    """Read "one of the two lamps" as "one of the lamps": how many there are picks none of them."""
+    for at in range(len(tokens) - 4):
+        words = [t.text for t in tokens[at : at + 4]]
+        if is_number(words[0]) and words[1] == "of" and words[2] in section("determiners") and is_number(words[3]):
+            return [*tokens[: at + 3], *_one_of_many(tokens[at + 4 :])]
+    return tokens
+
+
+def _so_should(tokens: list[Token]) -> list[Token]:
+    """Read "the cup should be in the sink and so should the mug" as "the cup and the mug should be in the sink"."""
+    words = [t.text for t in tokens]
+    for at in range(4, len(words) - 2):
+        if words[at - 1] == "so" and words[at] in _DUTIES and words[at] in words[: at - 2] and words[at - 2] == "and":
+            first = words.index(words[at])
+            end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS), len(words))
+            return [*tokens[:first], tokens[at - 2], *tokens[at + 1 : end], *tokens[first : at - 2], *tokens[end:]]
+    return tokens
+
+
+def _with_them(tokens: list[Token]) -> list[Token]:
+    """Read "put the cups on the shelf, and the mug with them" as "put the cups and the mug on the shelf"."""
+    words = [t.text for t in tokens]
+    for at in range(5, len(words) - 1):
+        ends = at + 2 == len(words) or tokens[at + 2].kind in BREAKS
+        if words[at] != "with" or words[at + 1] not in ("it", "them") or not ends:
+            continue
+        joint = next((i for i in range(at - 1, 0, -1) if words[i] == "and"), 0)
+        verb = next((i for i in range(joint) if words[i] in _PUTTING), None)
+        said = verb is not None and words[joint + 1] in section("determiners") | section("quantifiers")
+        place = next((i for i in range(verb or 0, joint) if words[i] in section("prepositions")), None)
+        if said and place is not None:
+            cut = joint - (tokens[joint - 1].kind is Kind.COMMA)
+            return [*tokens[:place], *tokens[joint:at], *tokens[place:cut], *tokens[at + 2 :]]
+    return tokens
+
+
+def _everything_else(tokens: list[Token]) -> list[Token]:
+    """Read "put the pen in the drawer and everything else in the bin" as "… and everything except that …"."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words)):
+        if words[at] == "else" and words[at - 1] in ("everything", "anything"):
+            cut = tokens[at].span.start + 1
+            but = replace(tokens[at], text="except", span=tokens[at].span._replace(end=cut))
+            them = replace(tokens[at], text="them", span=tokens[at].span._replace(start=cut))
+            return [*tokens[:at], but, them, *_everything_else(tokens[at + 1 :])]
+    return tokens
+
+
+def _coming_off(tokens: list[Token]) -> list[Token]:
+    """Read "the cups have to come off the table" as "take the cups off the table"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 1):
+        duty = at - 1 if words[at - 1] in ("should", "must") else at - 2 if words[at - 1] == "to" else -1
+        if words[at] != "come" or words[at + 1] not in ("off", "out", "from") or duty < 1 or words[duty] not in _DUTIES:
+            continue
+        begin = duty
+        while begin and tokens[begin - 1].kind not in BREAKS and words[begin - 1] not in (*JOINTS, "so"):
+            begin -= 1
+        if begin < duty and words[begin] not in PRONOUNS - {"it", "they", "this", "that"}:
+            return [*tokens[:begin], replace(tokens[at], text="take"), *tokens[begin:duty], *tokens[at + 1 :]]
+    return tokens
+
+
+IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
+    _none_of,
+    _in_with,
+    _but_there,
+    _needing,
+    _not_done_yet,
+    _could_do_with,
+    _one_of_many,
+    _so_should,
+    _with_them,
+    _everything_else,
+    _coming_off,
+)
+"""What is done with each sentence, in this order."""

@@ -1,0 +1,176 @@
+"""Executing sequences by force: every effect applies even where a precondition fails.
+
+This is how predictions are scored that nobody checked, for any PDDL domain. An
+instruction that names no action, or has a wrong number or type of arguments, is not executable and does
+nothing. An object that does not exist is a thing of which nothing is known, of the most general type: the
+instruction is not executable, but what it does to the objects that exist, it does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from tmd.pddl.grounding.ground import ground, ground_condition
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName
+from tmd.pddl.semantics import bind, schema_of
+from tmd.pddl.task import Bits, Cube, Operator, Task
+
+_GHOST = "?nobody-"
+"""Names of stand-ins for objects that do not exist begin so; no PDDL name can."""
+
+_FALSE = Or()
+
+
+@dataclass(frozen=True, slots=True)
+class Rollout:
+    """What happened: the state at the start and after each instruction, as bits of ``task``.
+
+    Attributes:
+        task: What the bits mean.
+        states: One more than there are instructions.
+        failures: The steps, from 0, that were not executable.
+    """
+
+    task: Task
+    states: tuple[Bits, ...]
+    failures: tuple[int, ...]
+
+    @property
+    def executable(self) -> bool:
+        """Whether every step was."""
+        return not self.failures
+
+    @property
+    def first_failure(self) -> int | None:
+        """The first step that was not executable."""
+        return self.failures[0] if self.failures else None
+
+    def decoded(self) -> list[State]:
+        """The states as sets of atoms."""
+        return [self.task.decode(bits) for bits in self.states]
+
+
+class Simulator:
+    """Forced execution in one environment.
+
+    Only the instructions that are really run are ground, so this is quick where the full task is large.
+    Naming them beforehand saves grounding again later; results do not depend on it.
+
+    Args:
+        problem: The environment.
+        instructions: What will be run.
+        absent: Types of things that do not exist and still choose a rule by their name.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        instructions: Iterable[Instruction] = (),
+        absent: Mapping[str, str] | None = None,
+    ) -> None:
+        self.problem = problem
+        self._absent = dict(absent or {})
+        self._roots = _general_types(problem)
+        self._known: set[Instruction] = set(instructions)
+        self._operators: dict[Instruction, Operator | None] = {}
+        self._preconditions: dict[Instruction, tuple[Cube, ...]] = {}
+        self._steps: dict[tuple[Bits, Instruction], tuple[Bits, bool]] = {}
+        self.task = self._ground()
+
+    def prepare(self, instructions: Iterable[Instruction]) -> Task:
+        """Get ready for these instructions; the task that :meth:`run` will use for them."""
+        wanted = set(instructions)
+        if not wanted <= self._known:
+            self._known |= wanted
+            self.task = self._ground()
+        return self.task
+
+    def run(self, instructions: Sequence[Instruction]) -> Rollout:
+        """Execute a sequence from the start."""
+        self.prepare(instructions)
+        states = [self.task.init]
+        failures = []
+        for number, instruction in enumerate(instructions):
+            after, applicable = self.step(states[-1], instruction)
+            states.append(after)
+            if not applicable:
+                failures.append(number)
+        return Rollout(self.task, tuple(states), tuple(failures))
+
+    def step(self, state: Bits, instruction: Instruction) -> tuple[Bits, bool]:
+        """The state after a prepared instruction, and whether it was executable."""
+        key = state, instruction
+        found = self._steps.get(key)
+        if found is None:
+            operator = self._operators[instruction]
+            after = state if operator is None else operator.apply(state)
+            found = self._steps[key] = after, any(c.holds(state) for c in self.precondition(instruction))
+        return found
+
+    def precondition(self, instruction: Instruction) -> tuple[Cube, ...]:
+        """A prepared instruction's precondition: one of these must hold; none if it can never be executed."""
+        return self._preconditions[instruction]
+
+    def _ground(self) -> Task:
+        """Ground the effects of all known instructions, and nothing else."""
+        known = sorted(self._known)
+        bound = {instruction: self._bound(instruction) for instruction in known}
+        ghosts = sorted({arg for b in bound.values() if b for arg in b.args if arg.startswith(_GHOST)})
+        objects = self.problem.objects + tuple(
+            TypedName(name, tuple(name.removeprefix(_GHOST).split("-"))) for name in ghosts
+        )
+        domain = self.problem.domain
+        blind = replace(domain, actions=tuple(replace(a, precondition=_FALSE) for a in domain.actions))
+        problem = replace(self.problem, domain=blind, objects=objects)
+        task = ground(problem, forced=sorted({b for b in bound.values() if b}))
+        real = ~sum(1 << i for i, atom in enumerate(task.atoms) if any(a in ghosts for a in atom.args))
+        self._steps.clear()
+        for instruction in known:
+            target = bound[instruction]
+            self._operators[instruction] = target and _without(task.by_instruction[target], real)
+            exists = target == instruction
+            self._preconditions[instruction] = self._conditions(instruction, task) if exists else ()
+        return task
+
+    def _conditions(self, instruction: Instruction, task: Task) -> tuple[Cube, ...]:
+        schema = schema_of(self.problem, instruction)
+        return ground_condition(task, schema.precondition, bind(self.problem, instruction))
+
+    def _bound(self, instruction: Instruction) -> Instruction | None:
+        """The instruction with stand-ins for objects that do not exist; nothing where it fits no action."""
+        schema = next((a for a in self.problem.domain.actions if a.name == instruction.name), None)
+        if schema is None or len(schema.parameters) != len(instruction.args):
+            return None
+        known = universe(self.problem)
+        args = []
+        for arg, parameter in zip(instruction.args, schema.parameters, strict=True):
+            if arg in known.types_of:
+                fits = known.is_a(arg, parameter.types)
+            elif arg in self._absent:
+                fits = known.hierarchy.accepts(parameter.types, (self._absent[arg],))
+            else:
+                fits = self._roots.issuperset(parameter.types)
+            if not fits:
+                return None
+            args.append(arg if arg in known.types_of else _GHOST + "-".join(parameter.types))
+        return Instruction(instruction.name, tuple(args))
+
+
+def _general_types(problem: Problem) -> frozenset[str]:
+    """The types right below the root that the problem has objects of; a relation word is no such thing."""
+    known = universe(problem)
+    declared = (known.hierarchy.ancestors(o.types[0])[-2:] for o in problem.objects)
+    return frozenset({OBJECT, *(types[0] for types in declared)})
+
+
+def rollout(problem: Problem, instructions: Sequence[Instruction]) -> Rollout:
+    """Execute one sequence by force; for many in the same environment use a :class:`Simulator`."""
+    return Simulator(problem, instructions).run(instructions)
+
+
+def _without(operator: Operator, real: Bits) -> Operator:
+    """The operator without what it says of things that do not exist."""
+    conditional = tuple(effect._replace(add=effect.add & real) for effect in operator.conditional)
+    return replace(operator, add=operator.add & real, conditional=conditional)

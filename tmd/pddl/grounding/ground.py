@@ -1,0 +1,149 @@
+"""From a problem to its ground task: every operator that may ever apply, as bit sets.
+
+In three steps. Actions are instantiated while relaxed reachability collects the atoms that may hold
+(:mod:`tmd.pddl.grounding.instantiate`). Then what can never apply, and what never changes, is pruned
+(:mod:`tmd.pddl.grounding.prune`). At last the atoms that are left are numbered.
+"""
+
+from __future__ import annotations
+
+import gc
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+
+from tmd.pddl.grounding.ground_action import Conditional, GroundAction
+from tmd.pddl.grounding.instantiate import Instances, instantiate_actions
+from tmd.pddl.grounding.normal_form import FALSE, TRUE, Literals, Tree, disjunctive, expand
+from tmd.pddl.grounding.prune import Pruned, prune
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State
+from tmd.pddl.semantics import Binding, bind
+from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
+
+_NEVER = Cube(0, 0)
+"""A forbidden cube that holds in every state."""
+
+
+def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Sequence[Instruction] = ()) -> Task:
+    """The ground task of ``problem``.
+
+    The task is exact for every state that its operators reach from the problem's initial state, from any of
+    ``initial_states``, and by the ``forced`` instructions, which may be executed although their precondition
+    does not hold.
+
+    Args:
+        problem: What to ground.
+        initial_states: Further states from which the task will be searched.
+        forced: Instructions whose effects count whether or not they are applicable. They are among the
+            operators even where they can never apply.
+
+    Raises:
+        TmdError: A forced instruction is not one of the problem, a cost has no value, or grounding exceeds
+            its limits.
+    """
+    for instruction in forced:
+        bind(problem, instruction)
+    with _collector_paused():
+        instances = instantiate_actions(problem, (problem.init, *initial_states), frozenset(forced))
+        pruned = prune(instances.actions, instances.reachability)
+        return _number(problem, instances, pruned)
+
+
+@contextmanager
+def _collector_paused() -> Iterator[None]:
+    """Grounding makes many small objects and no cycles; looking for cycles among them takes half the time."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
+
+
+def ground_condition(task: Task, formula: Formula, binding: Binding | None = None) -> tuple[Cube, ...]:
+    """``formula`` over the task's atoms, as a disjunction of cubes; empty where no state satisfies it.
+
+    Atoms that are neither fluent nor static in ``task`` count as false.
+
+    Raises:
+        TmdError: The formula has too many cases.
+    """
+
+    def lookup(atom: GroundAtom) -> Tree:
+        number = task.index.get(atom)
+        if number is not None:
+            return 2 * number
+        return TRUE if atom in task.static else FALSE
+
+    tree = expand(formula, binding or {}, universe(task.problem), lookup)
+    return tuple(sorted(_cube(literals) for literals in disjunctive(tree, "this formula")))
+
+
+def _number(problem: Problem, instances: Instances, pruned: Pruned) -> Task:
+    """The task over the fluent atoms, which are numbered in sorted order."""
+    names = instances.atoms
+    fluent = sorted(pruned.fluent, key=lambda number: names[number])
+    bit = {number: place for place, number in enumerate(fluent)}
+    atoms = tuple(names[number] for number in fluent)
+    operators = tuple(sorted((_operator(a, bit) for a in pruned.actions), key=lambda o: o.instruction))
+    static = frozenset(names[number] for number in pruned.always) | instances.static
+    index = {atom: place for place, atom in enumerate(atoms)}
+    draft = Task(problem, atoms, static, 0, (), operators, index, {o.instruction: o for o in operators})
+    return Task(
+        problem,
+        atoms,
+        static,
+        draft.encode(problem.init),
+        ground_condition(draft, problem.goal),
+        operators,
+        index,
+        draft.by_instruction,
+    )
+
+
+def _cube(literals: Iterable[int]) -> Cube:
+    positive = negative = 0
+    for literal in literals:
+        if literal & 1:
+            negative |= 1 << (literal >> 1)
+        else:
+            positive |= 1 << (literal >> 1)
+    return Cube(positive, negative)
+
+
+def _operator(action: GroundAction, bit: dict[int, int]) -> Operator:
+    """``action`` over bits: single-literal clauses are the precondition, others become forbidden cubes."""
+    units = [_renumber(c, bit) for c in action.clauses if len(c) == 1]
+    wider = [_renumber(c, bit) for c in action.clauses if len(c) != 1]
+    forbidden = [_cube(literal ^ 1 for literal in clause) for clause in wider]
+    precondition = _cube(literal for unit in units for literal in unit)
+    if precondition.positive & precondition.negative:
+        precondition, forbidden = Cube(), [_NEVER]
+    nothing = Conditional(frozenset(), frozenset(), frozenset())
+    always = next((e for e in action.effects if not e.condition), nothing)
+    conditional = [
+        ConditionalEffect(_cube(_renumber(condition, bit)), _bits(add, bit), _bits(delete, bit))
+        for condition, add, delete in action.effects
+        if condition
+    ]
+    return Operator(
+        action.instruction,
+        precondition,
+        _bits(always.add, bit),
+        _bits(always.delete, bit),
+        tuple(sorted(conditional)),
+        tuple(sorted(forbidden)),
+        action.cost,
+    )
+
+
+def _renumber(literals: Literals, bit: dict[int, int]) -> list[int]:
+    return [2 * bit[literal >> 1] + (literal & 1) for literal in literals]
+
+
+def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
+    found = 0
+    for atom in atoms:
+        found |= 1 << bit[atom]
+    return found

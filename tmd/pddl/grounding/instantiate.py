@@ -1,0 +1,261 @@
+"""Instantiating actions while relaxed reachability collects the atoms that may ever hold.
+
+The positive atoms of a precondition are joined against what is reached so far, the new atoms of each round
+first (semi-naive evaluation), so no binding is tried that could not apply.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.formulas import conjuncts, free_variables, predicates_of, signed_atoms
+from tmd.pddl.grounding.ground_action import GroundAction, GroundEffect, grouped
+from tmd.pddl.grounding.join import Check, Join, Query, Relation, Row, plan_join
+from tmd.pddl.grounding.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
+from tmd.pddl.grounding.reachability import Reachability
+from tmd.pddl.hierarchy import Universe, universe
+from tmd.pddl.model import (
+    ActionSchema,
+    And,
+    Atom,
+    Effect,
+    Formula,
+    GroundAtom,
+    Instruction,
+    Problem,
+    State,
+)
+from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
+
+_MOST_ACTIONS = 500_000
+
+
+@dataclass(frozen=True, slots=True)
+class Instances:
+    """All actions that may apply, over the numbered ``atoms``, and what they reach.
+
+    ``static`` are the atoms of predicates that no action changes.
+    """
+
+    atoms: Sequence[GroundAtom]
+    static: State
+    actions: Sequence[GroundAction]
+    reachability: Reachability
+
+
+def instantiate_actions(problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> Instances:
+    """Every instance that relaxed reachability from the union of ``initial_states`` admits."""
+    return _Instantiation(problem, initial_states, forced).run()
+
+
+@dataclass(frozen=True, slots=True)
+class _EffectPlan:
+    """A lifted effect, with the join that finds the values of its own parameters.
+
+    ``literals`` is what ``rest`` is a conjunction of, where it is so simple.
+    """
+
+    effect: Effect
+    join: Join | None
+    rest: Formula
+    literals: tuple[tuple[Atom, int], ...] | None
+
+
+@dataclass(frozen=True, slots=True)
+class _ActionPlan:
+    """A lifted action: its joins (one for each positive fluent atom that may come last) and the rest."""
+
+    action: ActionSchema
+    fluent: tuple[Atom, ...]
+    rest: Formula
+    first: Join
+    joins: tuple[Join, ...]
+    effects: tuple[_EffectPlan, ...]
+
+
+class _Instantiation:
+    """The state of one run."""
+
+    def __init__(self, problem: Problem, initial_states: Sequence[State], forced: frozenset[Instruction]) -> None:
+        self.problem = problem
+        self.objects: Universe = universe(problem)
+        self.forced = forced
+        self.numbers: dict[GroundAtom, int] = {}
+        self.atoms: list[GroundAtom] = []
+        self.actions: dict[Instruction, GroundAction] = {}
+        self.refused: set[Instruction] = set()
+        somewhere = frozenset[GroundAtom]().union(*initial_states)
+        everywhere = frozenset(problem.init).intersection(*initial_states)
+        changing = {e.atom.predicate for a in problem.domain.actions for e in a.effects}
+        changing |= {atom.predicate for atom in somewhere - everywhere}
+        self.changing = frozenset(changing)
+        self.static: State = frozenset(a for a in everywhere if a.predicate not in changing)
+        self.relations = {p.name: Relation() for p in problem.domain.predicates}
+        for atom in sorted(self.static):
+            self.relations[atom.predicate].add(atom.args)
+        fluent = sorted(a for a in somewhere if a.predicate in changing)
+        start = [2 * self.number(a) for a in fluent]
+        always = frozenset(self.number(a) for a in fluent if a in everywhere)
+        self.reachability = Reachability(start, lambda atom: atom not in always)
+        self.plans = [self.plan(action) for action in problem.domain.actions]
+
+    def number(self, atom: GroundAtom) -> int:
+        found = self.numbers.get(atom)
+        if found is None:
+            found = self.numbers[atom] = len(self.atoms)
+            self.atoms.append(atom)
+        return found
+
+    def lookup(self, atom: GroundAtom) -> Tree:
+        """Atoms of static predicates are known; others get their literal."""
+        if atom.predicate in self.changing:
+            return 2 * self.number(atom)
+        return TRUE if atom in self.static else FALSE
+
+    def run(self) -> Instances:
+        for plan in self.plans:
+            if not plan.fluent:
+                self.instantiate(plan, plan.first.order, plan.first.run([()]))
+        for instruction in sorted(self.forced):
+            plan = next(p for p in self.plans if p.action.name == instruction.name)
+            self.instantiate(plan, [p.name for p in plan.action.parameters], [instruction.args])
+        while new := self.reachability.run():
+            self.extend(new)
+        return Instances(self.atoms, self.static, tuple(self.actions.values()), self.reachability)
+
+    def extend(self, new: Iterable[int]) -> None:
+        """Instantiate what the literals ``new`` make possible; negated ones wait in the rules themselves."""
+        rows: dict[str, list[Row]] = {}
+        for literal in new:
+            if literal & 1:
+                continue
+            atom = self.atoms[literal >> 1]
+            self.relations[atom.predicate].add(atom.args)
+            rows.setdefault(atom.predicate, []).append(atom.args)
+        for plan in self.plans:
+            for atom_plan, join in zip(plan.fluent, plan.joins, strict=True):
+                start = self.unify(plan, atom_plan, rows.get(atom_plan.predicate, ()))
+                if start:
+                    self.instantiate(plan, join.order, join.run(start))
+
+    def unify(self, plan: _ActionPlan, atom: Atom, rows: Iterable[Row]) -> list[Row]:
+        """The values that matching ``atom`` with each of ``rows`` gives to its variables."""
+        types = {p.name: p.types for p in plan.action.parameters}
+        found: list[Row] = []
+        for row in rows:
+            values: dict[str, str] = {}
+            for term, value in zip(atom.terms, row, strict=True):
+                known = values.setdefault(term, value) if term.startswith("?") else term
+                if known != value or (term in types and not self.objects.is_a(value, types[term])):
+                    break
+            else:
+                found.append(tuple(values.values()))
+        return found
+
+    def is_static(self, formula: Formula) -> bool:
+        return not predicates_of(formula) & self.changing
+
+    def plan(self, action: ActionSchema) -> _ActionPlan:
+        parts = conjuncts(action.precondition)
+        fluent = tuple(dict.fromkeys(p for p in parts if isinstance(p, Atom) and not self.is_static(p)))
+        rest = And(tuple(p for p in parts if not self.is_static(p) and p not in fluent))
+        variables = {p.name: self.objects.of(p.types) for p in action.parameters}
+        static = [p for p in parts if self.is_static(p)]
+        joins = []
+        for atom in fluent:
+            given = tuple(dict.fromkeys(t for t in atom.terms if t.startswith("?")))
+            others = tuple(a for a in fluent if a != atom)
+            joins.append(self.join(variables, static, others, given))
+        return _ActionPlan(
+            action,
+            fluent,
+            rest,
+            self.join(variables, static, (), ()),
+            tuple(joins),
+            tuple(self.effect_plan(e, tuple(variables)) for e in action.effects),
+        )
+
+    def join(
+        self,
+        variables: dict[str, tuple[str, ...]],
+        static: Sequence[Formula],
+        fluent: Sequence[Atom],
+        given: Sequence[str],
+    ) -> Join:
+        atoms = [p for p in static if isinstance(p, Atom)]
+        checks = [
+            Check(free_variables(p), lambda binding, p=p: holds(p, self.static, self.objects, binding))  # type: ignore[misc]
+            for p in static
+            if not isinstance(p, Atom)
+        ]
+        return plan_join(Query(variables, [*atoms, *fluent], self.relations, checks, given))
+
+    def effect_plan(self, effect: Effect, given: tuple[str, ...]) -> _EffectPlan:
+        if not effect.parameters:
+            return _EffectPlan(effect, None, effect.condition, signed_atoms(effect.condition))
+        parts = conjuncts(effect.condition)
+        static = [p for p in parts if self.is_static(p)]
+        rest = And(tuple(p for p in parts if not self.is_static(p)))
+        variables = {p.name: self.objects.of(p.types) for p in effect.parameters}
+        return _EffectPlan(effect, self.join(variables, static, (), given), rest, signed_atoms(rest))
+
+    def instantiate(self, plan: _ActionPlan, order: Sequence[str], rows: Iterable[Row]) -> None:
+        """Make the instances for ``rows`` (values in ``order``), each once, and let them take part."""
+        action = plan.action
+        places = [order.index(p.name) for p in action.parameters]
+        for row in rows:
+            instruction = Instruction(action.name, tuple(row[p] for p in places))
+            if instruction in self.actions or instruction in self.refused:
+                continue
+            binding = dict(zip(order, row, strict=True))
+            ground = self.ground(plan, instruction, binding)
+            if ground is None:
+                self.refused.add(instruction)
+                continue
+            if len(self.actions) >= _MOST_ACTIONS:
+                raise TmdError(f"grounding gives more than {_MOST_ACTIONS} actions")
+            self.reachability.add(ground.rule(len(self.actions)))
+            self.actions[instruction] = ground
+
+    def ground(self, plan: _ActionPlan, instruction: Instruction, binding: Binding) -> GroundAction | None:
+        """The ground action, or ``None`` where its precondition contradicts itself or what never changes."""
+        forced = instruction in self.forced
+        what = str(instruction)
+        precondition = plan.action.precondition if forced else plan.rest
+        clauses = conjunctive(expand(precondition, binding, self.objects, self.lookup), what)
+        if not forced:
+            clauses.extend(frozenset((2 * self.number(instantiate(atom, binding)),)) for atom in plan.fluent)
+            units = {literal for clause in clauses if len(clause) == 1 for literal in clause}
+            if frozenset() in clauses or any(literal ^ 1 in units for literal in units):
+                return None
+        effects = grouped(found for effect in plan.effects for found in self.effects(effect, binding, what))
+        cost = action_cost(self.problem, plan.action, binding)
+        return GroundAction(instruction, tuple(dict.fromkeys(clauses)), effects, cost, forced)
+
+    def effects(self, plan: _EffectPlan, outer: Binding, what: str) -> Iterable[GroundEffect]:
+        rows: Iterable[Binding] = (outer,)
+        if plan.join is not None:
+            order = plan.join.order
+            found = plan.join.run([tuple(outer[v] for v in order[: len(outer)])])
+            rows = (dict(zip(order, row, strict=True)) for row in found)
+        for binding in rows:
+            cubes = self.cubes(plan, binding, what)
+            if cubes:
+                literal = 2 * self.number(instantiate(plan.effect.atom, binding)) + (not plan.effect.positive)
+                for cube in cubes:
+                    yield GroundEffect(cube, literal)
+
+    def cubes(self, plan: _EffectPlan, binding: Binding, what: str) -> Sequence[Literals]:
+        """The condition of an effect as cubes; most are plain conjunctions, and quick."""
+        if plan.literals is None:
+            return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)
+        cube: set[int] = set()
+        for atom, negated in plan.literals:
+            found = self.lookup(instantiate(atom, binding))
+            if isinstance(found, int):
+                cube.add(found ^ negated)
+            elif (found == TRUE) == bool(negated):
+                return ()
+        return () if any(literal ^ 1 in cube for literal in cube) else (frozenset(cube),)

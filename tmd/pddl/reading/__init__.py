@@ -1,0 +1,4 @@
+"""Reading PDDL with every fault told at its place: tokens, nested groups, sections, and what the checks find.
+
+Begin with :mod:`tmd.pddl.reading.reader`.
+"""

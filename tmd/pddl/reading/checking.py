@@ -1,0 +1,300 @@
+"""The meaning of a domain or problem, checked: every fault at once, each with its place and a hint.
+
+Syntax is :mod:`tmd.pddl.reading.reader`'s affair. What is found here: names declared twice or not at all, wrong
+numbers and types of arguments, free variables, and features used without their requirement.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.hierarchy import TypeHierarchy
+from tmd.pddl.model import (
+    OBJECT,
+    TOTAL_COST,
+    ActionSchema,
+    And,
+    Atom,
+    Domain,
+    Effect,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    Imply,
+    Not,
+    Or,
+    Predicate,
+    Problem,
+    TypedName,
+)
+from tmd.pddl.reading.requirements import missing_requirements
+from tmd.pddl.reading.syntax import Source, nearest
+
+MOST_FAULTS = 250
+"""After so many faults the rest of a problem is not looked at: their places and hints take time."""
+
+
+def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:
+    """Every fault of ``domain``, in order of appearance; empty where there is none.
+
+    The faults carry their source lines where ``source``, the text that was read, is given.
+    """
+    check = _Check(domain, domain.constants, source)
+    check.declarations()
+    for action in domain.actions:
+        check.action(action)
+    check.faults.extend(missing_requirements(domain))
+    return _in_order(check.faults, source)
+
+
+def check_problem(problem: Problem, source: Source | None = None) -> list[TmdError]:
+    """The faults of ``problem`` itself (its domain is taken as checked), as :func:`check_domain` lists them.
+
+    Of a hopeless problem they are the first ones only, some :data:`MOST_FAULTS`.
+    """
+    check = _Check(problem.domain, problem.all_objects(), source)
+    check.objects(problem)
+    for atom in sorted(problem.init):
+        if len(check.faults) > MOST_FAULTS:
+            break
+        place = problem.init_locations.get(atom)
+        check.atom(Atom(atom.predicate, atom.args, place), {}, check.predicates, "predicate")
+    check.values(problem)
+    check.formula(problem.goal, {})
+    check.faults.extend(missing_requirements(problem.domain, problem))
+    return _in_order(check.faults, source)
+
+
+def check_condition(
+    condition: Formula, variables: Iterable[str], domain: Domain, source: Source | None = None
+) -> list[TmdError]:
+    """Every fault of a condition over ``variables``, which may be of any type.
+
+    An argument of a wider type than the predicate takes is let pass: the condition holds of some of what it stands for.
+    """
+    check = _Overlapping(domain, domain.constants, source)
+    check.formula(condition, dict.fromkeys(variables, ()))
+    return _in_order(check.faults, source)
+
+
+def _in_order(faults: list[TmdError], source: Source | None) -> list[TmdError]:
+    """By place; faults without one come last, as they were found."""
+    for fault in faults:
+        fault.source = source.line(fault.location) if source else None
+    placed = sorted((f for f in faults if f.location), key=lambda f: f.location or Location("", 0, 0))
+    return placed + [f for f in faults if not f.location]
+
+
+class _Check:
+    """Names in scope, and the faults found so far."""
+
+    def __init__(self, domain: Domain, objects: Sequence[TypedName], source: Source | None = None) -> None:
+        self.domain = domain
+        self.source = source or Source("", ())
+        self.hierarchy = TypeHierarchy(domain.types)
+        self.predicates = {p.name: p for p in domain.predicates}
+        self.functions = {f.name: f for f in domain.functions}
+        self.known_objects = {o.name: o.types for o in objects}
+        self.faults: list[TmdError] = []
+
+    def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
+        """Note a fault at ``location``."""
+        self.faults.append(TmdError(message, location=location, hint=hint, code=code))
+
+    def declarations(self) -> None:
+        """Types, constants, predicates and functions."""
+        domain = self.domain
+        self.unique(domain.types, "type")
+        self.unique(domain.predicates, "predicate")
+        self.unique(domain.functions, "function")
+        self.unique(domain.actions, "action")
+        self.unique(domain.constants, "constant")
+        for declared in domain.types:
+            self.type_known(declared.parent, declared.location)
+            self.no_cycle(declared.name, declared.location)
+        for constant in domain.constants:
+            self.one_type(constant, "constant")
+        for signature in (*domain.predicates, *domain.functions):
+            self.parameters(signature.parameters, {})
+        for signature in domain.functions:
+            if signature.name == TOTAL_COST and signature.parameters:
+                self.fault(
+                    f"{TOTAL_COST} has no parameters", signature.location, f"write ({TOTAL_COST})", "wrong-arity"
+                )
+
+    def unique(self, declared: Iterable[TypedName | Predicate | ActionSchema | object], what: str) -> None:
+        seen: set[str] = set()
+        for item in declared:
+            name = str(getattr(item, "name", ""))
+            if name in seen:
+                self.fault(
+                    f'{what} "{name}" is declared twice',
+                    getattr(item, "location", None),
+                    "rename one of them",
+                    "duplicate-name",
+                )
+            seen.add(name)
+
+    def type_known(self, name: str, location: Location | None) -> None:
+        """``location`` is that of the name the type belongs to."""
+        if not self.hierarchy.known(name):
+            names = [OBJECT, *self.hierarchy.parents]
+            place = self.source.type_of(location, name)
+            self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
+
+    def no_cycle(self, name: str, location: Location | None) -> None:
+        chain: list[str] = []
+        current: str | None = name
+        while current is not None and current not in chain:
+            chain.append(current)
+            current = self.hierarchy.parents.get(current)
+        if current == name:
+            self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")
+
+    def one_type(self, declared: TypedName, what: str) -> None:
+        for name in declared.types:
+            self.type_known(name, declared.location)
+        if len(declared.types) > 1:
+            self.fault(
+                f'{what} "{declared.name}" must have one type, "either" belongs to parameters',
+                declared.location,
+                "declare a common parent type",
+                "not-supported",
+            )
+
+    def parameters(
+        self, parameters: Sequence[TypedName], scope: Mapping[str, tuple[str, ...]]
+    ) -> dict[str, tuple[str, ...]]:
+        """``scope`` with ``parameters`` in it."""
+        inner = dict(scope)
+        for parameter in parameters:
+            for name in parameter.types:
+                self.type_known(name, parameter.location)
+            if parameter.name in inner:
+                message = f'variable "{parameter.name}" is declared twice'
+                self.fault(message, parameter.location, "rename one of them", "duplicate-name")
+            inner[parameter.name] = parameter.types
+        return inner
+
+    def action(self, action: ActionSchema) -> None:
+        scope = self.parameters(action.parameters, {})
+        self.formula(action.precondition, scope)
+        for effect in action.effects:
+            self.effect(effect, scope)
+        if isinstance(action.cost, Atom):
+            self.atom(action.cost, scope, self.functions, "function")
+        if action.cost is not None and TOTAL_COST not in self.functions:
+            place = action.cost.location if isinstance(action.cost, Atom) else action.location
+            hint = f"declare (:functions ({TOTAL_COST}) - number)"
+            self.fault(f'unknown function "{TOTAL_COST}"', place, hint, "unknown-function")
+
+    def effect(self, effect: Effect, scope: Mapping[str, tuple[str, ...]]) -> None:
+        inner = self.parameters(effect.parameters, scope)
+        self.formula(effect.condition, inner)
+        self.atom(effect.atom, inner, self.predicates, "predicate")
+
+    def formula(self, formula: Formula, scope: Mapping[str, tuple[str, ...]]) -> None:
+        if isinstance(formula, Atom):
+            self.atom(formula, scope, self.predicates, "predicate")
+        elif isinstance(formula, Equals):
+            for number, term in enumerate((formula.left, formula.right), start=1):
+                self.term(term, scope, formula.location, number)
+        elif isinstance(formula, Not):
+            self.formula(formula.part, scope)
+        elif isinstance(formula, And | Or):
+            for part in formula.parts:
+                self.formula(part, scope)
+        elif isinstance(formula, Imply):
+            self.formula(formula.left, scope)
+            self.formula(formula.right, scope)
+        elif isinstance(formula, Forall | Exists):
+            self.formula(formula.part, self.parameters(formula.parameters, scope))
+
+    def atom(
+        self, atom: Atom, scope: Mapping[str, tuple[str, ...]], signatures: Mapping[str, Predicate], what: str
+    ) -> None:
+        """Predicate or function, number of arguments, and the type of each."""
+        signature = signatures.get(atom.predicate)
+        if signature is None:
+            hint = nearest(atom.predicate, list(signatures), what=f"{what}s")
+            self.fault(f'unknown {what} "{atom.predicate}"', self.word(atom, 0), hint, f"unknown-{what}")
+            for number, term in enumerate(atom.terms, start=1):
+                self.term(term, scope, atom.location, number)
+            return
+        shown = f"({' '.join((signature.name, *(p.name for p in signature.parameters)))})"
+        if len(atom.terms) != len(signature.parameters):
+            self.fault(
+                f'{what} "{atom.predicate}" takes {len(signature.parameters)} argument(s), found {len(atom.terms)}',
+                atom.location,
+                f"declared as {shown}",
+                "wrong-arity",
+            )
+            return
+        for number, (term, parameter) in enumerate(zip(atom.terms, signature.parameters, strict=True), start=1):
+            given = self.term(term, scope, atom.location, number)
+            known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
+            if given is not None and known and not self.fits(parameter.types, given):
+                self.fault(
+                    f'"{term}" is of type {_either(given)}, '
+                    f"{parameter.name} of {shown} needs {_either(parameter.types)}",
+                    self.word(atom, number),
+                    None,
+                    "wrong-type",
+                )
+
+    def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
+        """Whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
+        return self.hierarchy.accepts(wanted, given)
+
+    def word(self, atom: Atom, number: int) -> Location | None:
+        """Where the predicate (0) or an argument of ``atom`` stands."""
+        return self.source.word(atom.location, number)
+
+    def term(
+        self, term: str, scope: Mapping[str, tuple[str, ...]], location: Location | None, number: int
+    ) -> tuple[str, ...] | None:
+        """The types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
+        if term.startswith("?"):
+            if term not in scope:
+                hint = nearest(term, list(scope), what="variables here")
+                self.fault(f'free variable "{term}"', self.source.word(location, number), hint, "free-variable")
+            return scope.get(term)
+        if term not in self.known_objects:
+            hint = nearest(term, list(self.known_objects), what="objects")
+            if f"?{term}" in scope:
+                hint = f'did you mean "?{term}"?'
+            self.fault(f'unknown object "{term}"', self.source.word(location, number), hint, "unknown-object")
+        return self.known_objects.get(term)
+
+    def objects(self, problem: Problem) -> None:
+        """The problem's objects. A constant may be listed again with the same type."""
+        self.unique(problem.objects, "object")
+        constants = {c.name: c.types for c in problem.domain.constants}
+        for declared in problem.objects:
+            self.one_type(declared, "object")
+            if constants.get(declared.name, declared.types) != declared.types:
+                message = f'"{declared.name}" is a constant of another type'
+                self.fault(message, declared.location, "rename the object", "duplicate-name")
+
+    def values(self, problem: Problem) -> None:
+        """The values of cost functions, and that there is a cost to minimise."""
+        for function in sorted(problem.function_values):
+            place = problem.init_locations.get(function)
+            self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
+        if problem.minimize_cost and TOTAL_COST not in self.functions:
+            message = f'the metric needs the function "{TOTAL_COST}"'
+            self.fault(message, problem.location, "declare it in the domain", "unknown-function")
+
+
+class _Overlapping(_Check):
+    """Arguments need only have something in common with what is asked for."""
+
+    def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
+        above = self.hierarchy.ancestors
+        return not given or any(w in above(g) or g in above(w) for w in wanted for g in given)
+
+
+def _either(types: Sequence[str]) -> str:
+    return f'"{types[0]}"' if len(types) == 1 else f"either {' '.join(types)}"

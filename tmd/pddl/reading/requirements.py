@@ -1,0 +1,150 @@
+"""Which ``:requirements`` a domain or problem uses, and which of them it does not declare."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.model import (
+    OBJECT,
+    TRUE,
+    And,
+    Atom,
+    Domain,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    Imply,
+    Not,
+    Or,
+    Problem,
+    TypedName,
+)
+
+_QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
+_IMPLIED = {
+    ":fluents": (":action-costs",),
+    ":numeric-fluents": (":action-costs",),
+    ":quantified-preconditions": _QUANTIFIED,
+    ":adl": (
+        ":typing",
+        ":negative-preconditions",
+        ":disjunctive-preconditions",
+        ":equality",
+        ":quantified-preconditions",
+        ":conditional-effects",
+        *_QUANTIFIED,
+    ),
+}
+
+_OTHER_NOT = '"not" around something else than an atom'
+"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is no fault; we write it."""
+
+_Use = tuple[str, str, Location | None]
+"""A requirement, the feature that needs it, and where that stands."""
+
+
+def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
+    """One fault for each requirement that is used and not declared, at its first use.
+
+    Without ``problem`` the domain is looked at; with it, the problem, which inherits its domain's.
+    """
+    return [
+        TmdError(
+            f"{feature} needs {name}",
+            location=place,
+            hint=f"add {name} to (:requirements ...)",
+            code="missing-requirement",
+        )
+        for name, feature, place in _undeclared(domain, problem)
+    ]
+
+
+def undeclared_requirements(problem: Problem) -> tuple[str, ...]:
+    """The requirements that ``problem`` uses and neither it nor its domain declares."""
+    return tuple(name for name, _, _ in _undeclared(problem.domain, problem))
+
+
+def _undeclared(domain: Domain, problem: Problem | None) -> list[_Use]:
+    declared = set(domain.requirements) | set(problem.requirements if problem else ())
+    for name in tuple(declared):
+        declared.update(_IMPLIED.get(name, ()))
+    first: dict[str, _Use] = {}
+    for use in _problem_uses(problem) if problem else _domain_uses(domain):
+        if use[1] == _OTHER_NOT:
+            continue
+        before = first.get(use[0])
+        if before is None or (use[2] and before[2] and use[2] < before[2]):
+            first[use[0]] = use
+    return [use for use in first.values() if use[0] not in declared]
+
+
+def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[str, ...]:
+    """The requirements that ``domain`` (and ``problem``) use, each once, in the usual order."""
+    used = {requirement for requirement, _, _ in _domain_uses(domain)}
+    if problem:
+        used |= {requirement for requirement, _, _ in _problem_uses(problem)}
+    usual = (":typing", *_IMPLIED[":adl"][1:4], *_QUANTIFIED, ":conditional-effects", ":action-costs")
+    return (":strips", *(name for name in usual if name in used))
+
+
+def _domain_uses(domain: Domain) -> Iterator[_Use]:
+    for declared in domain.types:
+        yield ":typing", f'the type "{declared.name}"', declared.location
+    yield from _typed(domain.constants)
+    for signature in (*domain.predicates, *domain.functions):
+        yield from _typed(signature.parameters)
+    for function in domain.functions:
+        yield ":action-costs", f'the function "{function.name}"', function.location
+    for action in domain.actions:
+        yield from _typed(action.parameters)
+        yield from _formula_uses(action.precondition)
+        for effect in action.effects:
+            if effect.parameters:
+                yield ":conditional-effects", '"forall" in an effect', effect.location
+            if effect.condition != TRUE:
+                yield ":conditional-effects", '"when"', effect.location
+            yield from _typed(effect.parameters)
+            yield from _formula_uses(effect.condition)
+        if action.cost is not None:
+            place = action.cost.location if isinstance(action.cost, Atom) else action.location
+            yield ":action-costs", '"increase"', place
+
+
+def _problem_uses(problem: Problem) -> Iterator[_Use]:
+    yield from _typed(problem.objects)
+    yield from _formula_uses(problem.goal)
+    if problem.minimize_cost:
+        yield ":action-costs", "the metric", problem.location
+
+
+def _typed(names: Iterable[TypedName]) -> Iterator[_Use]:
+    for name in names:
+        if name.types != (OBJECT,):
+            yield ":typing", f'the type of "{name.name}"', name.location
+
+
+def _formula_uses(formula: Formula) -> Iterator[_Use]:
+    if isinstance(formula, Equals):
+        yield ":equality", '"="', formula.location
+    elif isinstance(formula, Not):
+        atomic = isinstance(formula.part, Atom)
+        yield ":negative-preconditions", '"not"' if atomic else _OTHER_NOT, formula.location
+        if not isinstance(formula.part, Atom | Equals):
+            yield ":disjunctive-preconditions", '"not" around a compound condition', formula.location
+        yield from _formula_uses(formula.part)
+    elif isinstance(formula, And | Or):
+        if isinstance(formula, Or):
+            yield ":disjunctive-preconditions", '"or"', formula.location
+        for part in formula.parts:
+            yield from _formula_uses(part)
+    elif isinstance(formula, Imply):
+        yield ":disjunctive-preconditions", '"imply"', formula.location
+        yield from _formula_uses(formula.left)
+        yield from _formula_uses(formula.right)
+    elif isinstance(formula, Forall | Exists):
+        kind, word = (":universal", "forall") if isinstance(formula, Forall) else (":existential", "exists")
+        yield f"{kind}-preconditions", f'"{word}"', formula.location
+        yield from _typed(formula.parameters)
+        yield from _formula_uses(formula.part)

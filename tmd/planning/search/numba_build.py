@@ -1,0 +1,123 @@
+"""The search kernel compiled by numba: the same code as :mod:`tmd.planning.search.kernel`, over arrays.
+
+numba is optional (the extra ``fast``). Compiling takes half a minute once per machine; the result is cached on
+disk beside the source. ``python -m tmd.planning`` does it, and so does the first search; then standard error says so.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from functools import cache
+from hashlib import sha256
+from pathlib import Path
+from types import FunctionType
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
+
+from tmd.planning.search import greedy, kernel, landmarks, relaxation, state_words
+from tmd.planning.search.flat_task import Ints, Tables
+from tmd.planning.search.relaxation import Goal
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+
+SearchFunction: TypeAlias = Callable[[Tables, Goal, Ints, int], tuple[int, int, int, Ints]]
+"""Status, bound, generated states and plan, for tables, goal, start and the greatest number of generated states."""
+
+
+class Functions(NamedTuple):
+    """The entry points of the kernel."""
+
+    prepared: Callable[[Tables, Ints, Ints, Ints, Ints], Goal]
+    search: SearchFunction
+    search_any: SearchFunction
+
+
+MODULES = (state_words, relaxation, landmarks, kernel, greedy)
+"""The modules that make up the kernel, each before those that use it."""
+
+REPLACED = frozenset({"zeros", "grown"})
+"""Functions of the kernel that differ between lists and arrays."""
+
+
+@cache
+def compiled() -> Functions:
+    """The kernel, compiled.
+
+    Raises:
+        ImportError: numba is not installed.
+    """
+    import numpy as np
+
+    def zeros(size: int) -> NDArray[np.int64]:
+        return np.zeros(size, np.int64)
+
+    def grown(old: NDArray[np.int64], size: int) -> NDArray[np.int64]:
+        new = np.zeros(size, np.int64)
+        new[: len(old)] = old
+        return new
+
+    _announce_compiling()
+    namespace: dict[str, Any] = {}
+    for module in MODULES:
+        namespace.update(vars(module))
+    namespace["zeros"], namespace["grown"] = jit(zeros), jit(grown)
+    version = digest()
+    for module in MODULES:
+        for name, member in vars(module).items():
+            if isinstance(member, FunctionType) and member.__module__ == module.__name__ and name not in REPLACED:
+                twin = FunctionType(member.__code__, namespace, name)
+                twin.__module__, twin.__qualname__ = module.__name__, f"{name}_{version}"
+                namespace[name] = jit(twin)
+    return Functions(namespace["prepared"], namespace["search"], namespace["search_any"])
+
+
+class _Announcement:
+    """Says once that numba compiles the kernel; loading what was compiled before is no event."""
+
+    said = False
+
+    def notify(self, event: Any) -> None:  # noqa: ANN401 - numba has no types
+        """Hear of an event of numba."""
+        function = event.data["dispatcher"].py_func
+        if event.is_start and not self.said and function.__module__.startswith("tmd.planning."):
+            self.said = True
+            print("compiling the search for this machine, once; this takes about half a minute …", file=sys.stderr)
+
+
+def _announce_compiling() -> None:
+    from numba.core import event
+
+    event.Listener.register(_Announcement)
+    event.register("numba:compile", _Announcement())  # type: ignore[no-untyped-call]
+
+
+def digest() -> str:
+    """A name for the present text of the kernel: what is cached of one module has others compiled into it."""
+    text = "".join(Path(module.__file__ or "").read_text(encoding="utf-8") for module in MODULES)
+    return sha256(text.encode()).hexdigest()[:12]
+
+
+def jit(function: Callable[..., object]) -> Callable[..., object]:
+    """``function`` compiled, with the result kept on disk where there is a place for it."""
+    import numba
+
+    try:
+        kept: Callable[..., object] = numba.njit(cache=True, nogil=True)(function)
+    except RuntimeError:  # no directory that numba may write to
+        kept = numba.njit(nogil=True)(function)
+    return kept
+
+
+def arrays(tables: Tables) -> Tables:
+    """``tables`` with numpy arrays in the place of lists."""
+    return Tables(*[array(part) if isinstance(part, list) else part for part in tables])  # type: ignore[arg-type]
+
+
+def array(values: Ints) -> Ints:
+    """A list as the compiled kernel's kind of list, a numpy array."""
+    import numpy as np
+
+    return cast(Ints, np.array(values, dtype=np.int64))

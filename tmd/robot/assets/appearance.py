@@ -1,0 +1,79 @@
+"""What a builder of shapes is told: sizes, colours, and which parts the object has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.sim.pose import Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Look:
+    """A shape with nothing left open.
+
+    Attributes:
+        kind: The kind of shape.
+        size: Depth, width, height.
+        colour: Of the body.
+        accent: Of what stands out on it.
+        mass: In kilograms.
+        settings: Of a knob.
+    """
+
+    kind: str
+    size: Vector
+    colour: str
+    accent: str
+    mass: float
+    settings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Parts:
+    """The parts of an object and how they look, in the order of its class."""
+
+    looks: dict[str, Look]
+
+    def of(self, *kinds: str) -> list[tuple[str, Look]]:
+        """Those of some kinds."""
+        return [(name, look) for name, look in self.looks.items() if look.kind in kinds]
+
+
+Builder = Callable[[Model, Look, Parts], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Kind:
+    """A kind of shape.
+
+    Attributes:
+        sort: ``fixture``, ``item`` or ``part``.
+        default: How it looks where a class says nothing.
+        build: Builds the object; a part is built by the builder of its whole.
+        takes: The kinds of parts that it has a place for, and how many of each at most.
+    """
+
+    sort: str
+    default: Look
+    build: Builder | None = None
+    takes: tuple[tuple[str, int], ...] = ()
+
+
+def rows(
+    front: float, width: float, depths: tuple[float, ...], pitch: float = 0.08, yaw: float = 0.0, middle: float = 0.0
+) -> list[tuple[float, float, float]]:
+    """Spots (x, y, yaw) behind a front edge, in rows; every row from the middle outwards.
+
+    Args:
+        front: x of the front edge.
+        width: From the first to the last spot of a row.
+        depths: How far the rows are behind the edge.
+        pitch: Between neighbours.
+        yaw: Of all.
+        middle: y of the middle.
+    """
+    count = int(width / pitch + 1e-6)
+    steps = sorted((index - count / 2 for index in range(count + 1)), key=lambda s: (abs(s), s))
+    return [(front - depth, middle + step * pitch, yaw) for depth in depths for step in steps]

@@ -1,0 +1,83 @@
+"""What a model's surfaces are good for: regions to put things in, grips of joints, grasps of items, signs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from tmd.robot.sim.pose import Pose, Vector, quaternion_of
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A position and the directions of the tool there: ``approach`` is the tool's +x, ``across`` its +y (fingers)."""
+
+    position: Vector
+    approach: Vector
+    across: Vector
+
+    def pose(self) -> Pose:
+        """The same as a pose."""
+        x, y = np.array(self.approach), np.array(self.across)
+        return Pose(self.position, quaternion_of(np.stack([x, y, np.cross(x, y)], axis=1)))
+
+
+@dataclass(frozen=True, slots=True)
+class Region:
+    """A space where items may be: on, in or next to a part.
+
+    Attributes:
+        part: The part (``ROOT``: the whole) whose region it is.
+        relation: ``on``, ``in`` or ``next_to``.
+        link: The link it moves with.
+        low: Lower corner of the box; its z is where things stand.
+        high: Upper corner.
+        entry: Unit vector along which the gripper comes in.
+        spots: Where items stand: (x, y, z, yaw), those best to reach first.
+        overhang: How far items may stick out at the front; ``inf``: on all sides, as a pot does over a burner.
+        heap: Whether things may lie on one another there, as in a basket.
+    """
+
+    part: str
+    relation: str
+    link: str
+    low: Vector
+    high: Vector
+    entry: Vector
+    spots: tuple[tuple[float, float, float, float], ...]
+    overhang: float = 0.0
+    heap: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """Where the robot works a joint: see :class:`tmd.robot.scene.scene.Handle`; ``tool`` is in the link's frame."""
+
+    part: str
+    kind: str
+    link: str
+    tool: Frame
+    opening: float
+    closed: float
+    open: float
+    settings: tuple[tuple[str, float], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Grasp:
+    """How to take an item: the tool in the item's frame, and how wide the fingers stand before they close (metres)."""
+
+    tool: Frame
+    opening: float
+
+
+@dataclass(frozen=True, slots=True)
+class Lamp:
+    """A link whose colour shows a state of a part."""
+
+    part: str
+    predicate: str
+    link: str
+    on: tuple[float, float, float, float]
+    off: tuple[float, float, float, float]

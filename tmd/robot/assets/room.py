@@ -1,0 +1,32 @@
+"""The floor and the three low walls around the fixtures; the fourth side is open to the camera."""
+
+from __future__ import annotations
+
+import math
+
+from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.scene.furniture_layout import Room
+
+WALL_HEIGHT = 1.7
+THICK = 0.08
+TILE = 0.8
+
+
+def build_room(room: Room) -> str:
+    """The room as URDF text, in the world's frame."""
+    model = Model("room", 1000.0)
+    (x0, y0), (x1, y1) = room.low, room.high
+    west, south = x0 - 2.0, y0 - 2.0
+    rows, columns = math.ceil((x1 - west) / TILE), math.ceil((y1 + 2.0 - south) / TILE)
+    middle = (west + rows * TILE / 2, south + columns * TILE / 2, -0.05)
+    model.box(middle, (rows * TILE, columns * TILE, 0.1), "sand", seen=False)
+    # tiles of two colours beside each other: one on top of another would flicker
+    for row in range(rows):
+        for column in range(columns):
+            corner = (west + row * TILE, south + column * TILE)
+            colour = "#d8cdb8" if (row + column) % 2 else "#e6dfd0"
+            model.slab((*corner, -0.02), (corner[0] + TILE, corner[1] + TILE, 0.0), colour, solid=False)
+    model.slab((x1, y0 - THICK, 0.0), (x1 + THICK, y1 + THICK, WALL_HEIGHT), "#e9e4d8")
+    model.slab((x0, y1, 0.0), (x1, y1 + THICK, WALL_HEIGHT), "#dfe5e2")
+    model.slab((x0, y0 - THICK, 0.0), (x1, y0, WALL_HEIGHT), "#dfe5e2")
+    return model.text()

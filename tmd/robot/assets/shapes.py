@@ -1,0 +1,158 @@
+"""The kinds of shapes, and from the classes of a domain to blueprints of objects.
+
+A class says ``shape: {kind: …}`` in ``objects.yaml``; what it leaves open is the kind's own. The parts of a class say
+their kinds too, and the whole's kind has places for them. A class that says nothing is a plain cabinet or a small
+box, by its PDDL type.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.reading.syntax import nearest
+from tmd.robot.assets.appearance import Kind, Look, Parts
+from tmd.robot.assets.colours import PALETTE
+from tmd.robot.assets.kinds import KINDS
+from tmd.robot.assets.urdf_builder import Model
+from tmd.world.classes import ROOT, Classes, Shape
+from tmd.world.folder import DomainFolder
+
+_PLAIN = {"item": "block", "part": "plain_part", "fixture": "counter"}
+LEAST, MOST = 0.5, 2.5
+"""A size may be so much of the kind's own."""
+
+
+@dataclass(frozen=True, slots=True)
+class Blueprint:
+    """How objects of a class are built.
+
+    Attributes:
+        class_name: The class.
+        sort: ``fixture`` or ``item``.
+        look: Of the whole.
+        model: Its links, regions, grips and grasps.
+        urdf: The model as URDF text.
+    """
+
+    class_name: str
+    sort: str
+    look: Look
+    model: Model
+    urdf: str
+
+
+class Shapes:
+    """The blueprints of a domain's classes.
+
+    Args:
+        folder: The domain.
+
+    Raises:
+        TmdError: (From the methods.) A shape makes no sense; with its place in ``objects.yaml``.
+    """
+
+    def __init__(self, folder: DomainFolder) -> None:
+        self.folder = folder
+        self.classes: Classes = folder.classes
+        self._known: dict[str, Blueprint] = {}
+
+    def blueprint(self, class_name: str) -> Blueprint:
+        """How an object of this class is built."""
+        if class_name not in self._known:
+            self._known[class_name] = self._blueprint(class_name)
+        return self._known[class_name]
+
+    def _blueprint(self, class_name: str) -> Blueprint:
+        vertices = self.classes.get(class_name).vertices
+        sort = self.sort(class_name)
+        look = self._look(class_name, vertices[ROOT].shape, sort, class_name, None)
+        parts = Parts(
+            {
+                name: self._look(vertex.class_name, vertex.shape, "part", class_name, name)
+                for name, vertex in vertices.items()
+                if name != ROOT
+            }
+        )
+        parts = Parts(
+            {name: self._like_its_whole(part, vertices[name].shape, look) for name, part in parts.looks.items()}
+        )
+        kind = KINDS[look.kind]
+        if vertices[ROOT].shape is not None:
+            self._check_parts(class_name, kind, look, parts)
+        if kind.build is None:
+            raise AssertionError(f"{look.kind} is no whole object")
+        model = Model(class_name, look.mass)
+        kind.build(model, look, parts)
+        return Blueprint(class_name, sort, look, model, model.text())
+
+    def _like_its_whole(self, look: Look, shape: Shape | None, whole: Look) -> Look:
+        """A door that says no colour has the colour of what it closes."""
+        if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
+            return look
+        return replace(look, colour=whole.colour)
+
+    def sort(self, class_name: str) -> str:
+        """``item``, ``part`` or ``fixture``, by the types above the class."""
+        return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
+
+    def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Look:
+        if shape is None:
+            return KINDS[_PLAIN[sort]].default
+        kind = KINDS.get(shape.kind)
+        if kind is None:
+            known = sorted(name for name, each in KINDS.items() if each.sort == sort)
+            hint = nearest(shape.kind, known) or f"a {sort} can be: {', '.join(known)}"
+            raise self._error(class_name, whole, part, "kind", f"there is no shape '{shape.kind}'", hint)
+        if kind.sort != sort:
+            article = {"item": "an item"}
+            own, wanted = (article.get(word, f"a {word}") for word in (kind.sort, sort))
+            message = f"'{shape.kind}' is the shape of {own}, but {part or class_name} is {wanted}"
+            raise self._error(class_name, whole, part, "kind", message, None)
+        for key in ("colour", "accent"):
+            said = getattr(shape, key)
+            if said is not None and not said.startswith("#") and said not in PALETTE:
+                hint = nearest(said, sorted(PALETTE)) or "write a colour of docs/scenes.md or '#rrggbb'"
+                raise self._error(class_name, whole, part, key, f"there is no colour '{said}'", hint)
+        usual = kind.default
+        if shape.size is not None:
+            for word, given, normal in zip(("depth", "width", "height"), shape.size, usual.size, strict=True):
+                if not LEAST * normal <= given <= MOST * normal:
+                    message = f"a {shape.kind} cannot have a {word} of {given:g} m"
+                    hint = f"between {LEAST * normal:.3g} and {MOST * normal:.3g} m, {normal:g} m is usual"
+                    raise self._error(class_name, whole, part, "size", message, hint)
+        return Look(
+            shape.kind,
+            shape.size or usual.size,
+            shape.colour or usual.colour,
+            shape.accent or usual.accent,
+            shape.mass or usual.mass,
+            shape.settings or usual.settings,
+        )
+
+    def _check_parts(self, class_name: str, kind: Kind, look: Look, parts: Parts) -> None:
+        left = dict(kind.takes)
+        for name, part in parts.looks.items():
+            if part.kind == "plain_part":
+                continue
+            if left.get(part.kind, 0) <= 0:
+                most = dict(kind.takes).get(part.kind, 0)
+                room = f"has room for {most} only" if most else "has no place for it"
+                message = f"the part '{name}' is a {part.kind}, and a {look.kind} {room}"
+                takes = ", ".join(f"{count} {each}" for each, count in kind.takes) or "no parts"
+                raise self._error(class_name, class_name, None, "kind", message, f"a {look.kind} takes {takes}")
+            left[part.kind] -= 1
+
+    def _error(self, owner: str, whole: str, part: str | None, key: str, message: str, hint: str | None) -> TmdError:
+        """An error where the shape was said: at the part, or at the class, or at the ancestor it comes from."""
+        entries = self.classes.entries.classes
+        if part is not None:
+            for name in self.classes.line(whole):
+                entry = entries.get(name)
+                if entry is not None and part in entry.parts and entry.parts[part].shape is not None:
+                    return self.classes.source.error(("classes", name, "parts", part, "shape", key), message, hint)
+        for name in self.classes.line(owner):
+            entry = entries.get(name)
+            if entry is not None and entry.shape is not None:
+                return self.classes.source.error(("classes", name, "shape", key), message, hint)
+        return self.classes.source.error(("classes", owner), message, hint)

@@ -1,0 +1,150 @@
+"""Items that hold nothing: cutlery, packets, soft things. Handles point to the front, +x."""
+
+from __future__ import annotations
+
+import math
+
+from tmd.robot.assets.appearance import Look, Parts
+from tmd.robot.assets.features import Frame, Grip
+from tmd.robot.assets.fittings import TIP
+from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.assets.vessels import bar_grasps, grasp, post_grasps
+
+_LOW = TIP + 0.004
+
+
+def utensil(model: Model, look: Look, parts: Parts) -> None:
+    """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
+
+    What dips has a short head and a high handle: the head gets into a jar while the handle stays above the rim.
+    """
+    length, width, height = look.size
+    head = min(0.045 if look.kind in ("spoon", "scoop") else 0.06, length * 0.35)
+    x = length / 2
+    kinds = {"spoon": _spoon, "scoop": _scoop, "fork": _fork, "knife": _knife}
+    kinds[look.kind](model, look, -x, -x + head)
+    model.slab((-x + head - 0.004, -0.006, height - 0.012), (x, 0.006, height), look.accent)
+    model.slab((-x + head - 0.004, -0.006, 0.0), (-x + head + 0.004, 0.006, height), look.accent)
+    model.slab((x - 0.02, -0.012, 0.0), (x - 0.012, 0.012, height - 0.012), look.accent)
+    bar_grasps(model, [(x - 0.035, 0.0, max(height - 0.006, _LOW)), (0.02, 0.0, max(height - 0.006, _LOW))], 0.012)
+    if look.kind in ("spoon", "scoop"):
+        model.link("content")
+        model.ball((-x + head / 2, 0.0, height), width * 0.42, "white", link="content")
+        model.contents = ["content"]
+
+
+def _spoon(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((low + 0.004, -width / 2 + 0.004, 0.0), (high - 0.004, width / 2 - 0.004, 0.006), look.colour)
+    model.slab((low, -width / 2, 0.006), (high, width / 2, 0.012), look.colour)
+
+
+def _scoop(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    middle = (low + high) / 2
+    model.cylinder((middle, 0.0, 0.004), width / 2 - 0.004, 0.008, look.colour)
+    model.tube(width / 2, 0.004, 0.006, 0.022, look.colour, centre=(middle, 0.0))
+
+
+def _fork(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((high - 0.02, -width / 2, 0.0), (high, width / 2, 0.008), look.colour)
+    for place in (-1.5, -0.5, 0.5, 1.5):
+        y = place * width / 4
+        model.slab((low, y - width / 12, 0.0), (high - 0.02, y + width / 12, 0.008), look.colour)
+
+
+def _knife(model: Model, look: Look, low: float, high: float) -> None:
+    width = look.size[1]
+    model.slab((low, -width / 2, 0.0), (high + 0.02, width / 2, 0.008), look.colour)
+
+
+def block(model: Model, look: Look, parts: Parts) -> None:
+    """A box: a packet, a book, a folded towel; taken across its width."""
+    depth, width, height = look.size
+    model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
+    model.box((0.0, 0.0, height), (depth * 0.62, width * 0.62, 0.002), look.accent, solid=False)
+    for side in (-1, 1):
+        model.box((0.0, side * width / 2, height / 2), (depth * 0.7, 0.002, height * 0.4), look.accent, solid=False)
+    if width <= 0.07:
+        for shift in (0.0, depth / 4):
+            grasp(model, (shift, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), width)
+        for steep in (0.0, 0.45, 0.7):
+            approach = (-math.sqrt(1 - steep * steep), 0.0, -steep)
+            grasp(model, (depth / 4, 0.0, max(height / 2, _LOW)), approach, (0.0, 1.0, 0.0), width)
+    if depth <= 0.07:
+        grasp(model, (0.0, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), depth)
+
+
+def egg(model: Model, look: Look, parts: Parts) -> None:
+    """An egg in its stand: it does not roll."""
+    _, width, height = look.size
+    radius = width / 2
+    model.cylinder((0.0, 0.0, 0.009), radius * 0.95, 0.018, look.accent)
+    model.cylinder((0.0, 0.0, (0.018 + height) / 2), radius * 0.8, height - 0.018, look.colour, seen=False)
+    model.ball((0.0, 0.0, height - radius), radius, look.colour)
+    model.ball((0.0, 0.0, height - radius * 1.35), radius * 0.98, look.colour)
+    post_grasps(model, (max(height * 0.6, _LOW),), (2 * radius, 2 * radius), height)
+
+
+def tin(model: Model, look: Look, parts: Parts) -> None:
+    """A tin, a pod: an upright cylinder."""
+    _, width, height = look.size
+    model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
+    model.cylinder((0.0, 0.0, height), width / 2 * 0.85, 0.002, look.accent, solid=False)
+    post_grasps(model, (max(height * 0.55, _LOW),), (width, width), height)
+
+
+def strapped(model: Model, look: Look, parts: Parts) -> None:
+    """Something wide and soft, or flat: a pillow, a blanket, a box of pizza; taken by a strap on top."""
+    depth, width, height = look.size
+    body = height - 0.04
+    x, y = depth / 2, width / 2
+    model.slab((-x, -y, 0.0), (x, y, body), look.colour)
+    for side in (-1, 1):
+        model.box((0.0, side * y * 0.6, body), (depth * 0.96, 0.02, 0.004), look.accent, solid=False)
+        model.box((side * 0.045, 0.0, body + 0.014), (0.014, 0.022, 0.028), look.accent)
+    model.box((0.0, 0.0, height - 0.006), (0.104, 0.022, 0.012), look.accent)
+    bar_grasps(model, [(0.0, 0.0, height - 0.006), (0.02, 0.0, height - 0.006)], 0.022)
+
+
+def remote(model: Model, look: Look, parts: Parts) -> None:
+    """A remote control: its buttons are on top, pressed from above."""
+    block(model, Look("block", look.size, look.colour, look.colour, look.mass), Parts({}))
+    depth, _, height = look.size
+    buttons = parts.of("button")
+    for index, (part, said) in enumerate(buttons):
+        column, row = index % 2, index // 2
+        place = (depth * 0.36 - 0.035 * row, 0.013 * (2 * column - 1), height + 0.006)
+        model.link(
+            part, part=part, kind="prismatic", origin=place, axis=(0.0, 0.0, -1.0), limits=(0.0, 0.004), spring=3.0,
+            mass=0.003,
+        )  # fmt: skip
+        model.box((0.0, 0.0, -0.003), (0.014, 0.014, 0.006), said.colour, link=part)
+        tool = Frame((0.0, 0.0, TIP), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))
+        model.grips.append(Grip(part, "button", part, tool, 0.0, 0.0, 0.003))
+
+
+def sack(model: Model, look: Look, parts: Parts) -> None:
+    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear in front."""
+    depth, width, height = look.size
+    ear = 0.05
+    x, y, rim = depth / 2 - ear / 2, width / 2, height - 0.012
+    model.slab((-x, -y, 0.0), (x, y, 0.008), look.colour)
+    for side in (-1, 1):
+        model.box((0.0, side * (y - 0.004), rim / 2), (2 * x, 0.008, rim), look.colour)
+        model.box((side * (x - 0.004), 0.0, rim / 2), (0.008, width - 0.016, rim), look.colour)
+    level = rim * 0.6
+    model.slab((x - 0.002, -0.011, level - 0.008), (x + ear, 0.011, level + 0.008), look.accent)
+    bar_grasps(model, [(x + ear - 0.016, 0.0, level)], 0.022)
+    model.region("in", (-x + 0.008, -y + 0.008, 0.008), (x - 0.008, y - 0.008, height + 0.15), (0.0, 0.0, -1.0),
+                 [(-0.055, 0.0, 0.0), (0.055, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.57)],
+                 overhang=math.inf, heap=True)  # fmt: skip
+    model.link(
+        "lid", kind="revolute", origin=(-x, 0.0, rim + 0.001), axis=(0.0, -1.0, 0.0), limits=(0.0, 2.0),
+        friction=0.06, mass=0.02,
+    )  # fmt: skip
+    model.slab((0.0, -y, 0.0), (2 * x, y, 0.01), look.colour, link="lid")
+    model.box((2 * x + 0.008, 0.0, 0.005), (0.016, 0.02, 0.01), look.accent, link="lid")
+    tool = Frame((2 * x + 0.008, 0.0, 0.005), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    model.grips.append(Grip("", "lid", "lid", tool, 0.04, 0.0, 1.75))

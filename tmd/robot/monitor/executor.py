@@ -1,0 +1,270 @@
+"""Carrying out a plan: do an instruction, look, compare with Φ, and mend the plan where the two differ."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
+from typing import Protocol
+
+from tmd.pddl.constraints import get_constraints
+from tmd.pddl.grounding.ground import ground
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.task import Bits, Cube, Operator, Task
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Filled, Unreachable
+from tmd.planning.search.in_process import DEFAULT_CAP
+from tmd.robot.monitor.failure_memory import Setback, Setbacks, careful, without
+from tmd.robot.monitor.observation import Mismatch, Observer
+from tmd.robot.skills.results import Execution, SkillError, Status, Step
+
+MOST_REPAIRS = 6
+"""So often a plan is mended before the robot stops."""
+_ANEW = 1000
+"""Generated states after which the search for another plan to the same end gives up."""
+
+
+class Performer(Protocol):
+    """What does instructions: a robot in a simulation."""
+
+    @property
+    def clock(self) -> int:
+        """The simulation's step."""
+        ...
+
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
+        """Do it, and give the evidence that its event happened.
+
+        Args:
+            instruction: What is to be done.
+            gains: The facts that it should bring about.
+            attempt: How often it was tried before.
+
+        Raises:
+            SkillError: It could not be done.
+        """
+        ...
+
+
+Watcher = Callable[[Step], None]
+
+
+class Executor:
+    """Executes plans and checks each step.
+
+    Args:
+        problem: The environment.
+        observer: Reads the state back.
+        performer: Does the instructions.
+        planner: Which planner mends plans.
+        most_repairs: How often.
+        watch: Is told each step when it is over.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        observer: Observer,
+        performer: Performer,
+        *,
+        planner: str = IN_PROCESS,
+        most_repairs: int = MOST_REPAIRS,
+        watch: Watcher | None = None,
+    ) -> None:
+        self.problem = problem
+        self.observer = observer
+        self.performer = performer
+        self.planner = planner
+        self.most_repairs = most_repairs
+        self.watch = watch
+
+    def execute(self, plan: Sequence[Instruction]) -> Execution:
+        """Carry out ``plan``."""
+        self._steps: list[Step] = []
+        self._repairs = 0
+        self._setbacks = Setbacks(self.observer.skills.seen)
+        self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
+        state = self.observer.now(self.problem.init)
+        wanted = self._wanted(plan, state)
+        waiting = [(instruction, False) for instruction in plan]
+        attempt = 0
+        smooth = True
+        tried: Instruction | None
+        while waiting or not _satisfied(wanted, state):
+            if waiting and first_broken(waiting[0][0], state, self.problem) is None:
+                before = state
+                done, state = self._do(*waiting[0], state, attempt)
+                if not done.mismatches and not done.failure:
+                    waiting.pop(0)
+                    attempt = 0
+                    continue
+                smooth = False
+                tried, attempt = waiting[0][0], attempt + 1
+                if not done.failure and self._did(tried, before, state):
+                    waiting.pop(0)  # it did what it is for; something else is not as it should be
+                    attempt = 0
+                    if waiting and self._goes_on(waiting, state):
+                        continue
+            else:
+                tried = waiting[0][0] if waiting else None
+            if self._repairs >= self.most_repairs:
+                return self._stopped(f"mended {self._repairs} times, and then {self._last()}", state)
+            self._repairs += 1
+            waiting = [(instruction, False) for instruction, repair in waiting if not repair]
+            mended = self._mend(state, [i for i, _ in waiting], wanted)
+            if isinstance(mended, str):
+                return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
+            waiting = mended
+        status = Status.DONE if smooth and not self._repairs else Status.RECOVERED
+        return Execution(status, "", tuple(self._steps), self._repairs, state)
+
+    def _did(self, instruction: Instruction, before: State, after: State) -> bool:
+        """Whether what an instruction changes is as it should be."""
+        predicted = apply(instruction, before, self.problem)
+        return predicted - before <= after and not (before - predicted) & after
+
+    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
+        """Whether what is waiting can be executed from here as it is: then there is nothing to mend."""
+        for instruction, _ in waiting:
+            if first_broken(instruction, state, self.problem) is not None:
+                return False
+            state = apply(instruction, state, self.problem)
+        return True
+
+    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[Step, State]:
+        predicted = apply(instruction, state, self.problem)
+        begin, failure, evidence = self.performer.clock, "", ""
+        try:
+            evidence = self.performer.perform(instruction, predicted - state, attempt)
+        except SkillError as error:
+            failure = str(error)
+            self._setbacks.failed(instruction, state, error.stage)
+        now = self.observer.after(state, instruction, happened=not failure)
+        self._setbacks.observed(now)
+        mismatches = self.observer.mismatches(predicted, now)
+        confirmed = tuple(sorted((predicted - state) & now))
+        step = Step(
+            instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock, now
+        )
+        self._steps.append(step)
+        if self.watch is not None:
+            self.watch(step)
+        return step, now
+
+    def _mend(
+        self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | str:
+        """What is to be done now, each with whether it is a repair; or why there is no way.
+
+        What could not be done is avoided where that is possible. Where it is not, it is tried again.
+        """
+        task = ground(replace(self.problem, init=state))
+        around = self._around(task, waiting, wanted)
+        if around is not None:
+            return around
+        plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
+        way = _missing(self.planner, plain, waiting, wanted)
+        return way if isinstance(way, str) else _joined(way, waiting)
+
+    def _around(
+        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | None:
+        """A way round the setbacks, if there are any and there is one.
+
+        All that is waiting is done all the same; or what comes next is left out, and others do for it; or what the
+        plan is for is brought about in quite another way. If none of that is possible, a hand is freed first.
+        """
+        question = tuple(self._setbacks.standing), tuple(waiting)
+        if not self._setbacks.standing or question in self._hopeless:
+            return None
+        # setbacks are no part of the PDDL that other planners are given
+        plain = careful(task, self.observer.skills)
+        freed = self._setbacks.with_free_hands(task.decode(task.init))
+        for setbacks in dict.fromkeys((question[0], tuple(freed))):
+            chances = without(plain, setbacks)
+            for rest in dict.fromkeys((question[1], question[1][1:], ())):
+                way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _ANEW)
+                if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
+                    return _joined(way, rest)
+        self._hopeless.add(question)
+        return None
+
+    def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
+        """What the plan is for: the facts that it brings about, and those that it ends."""
+        end = state
+        for instruction in plan:
+            end = apply(instruction, end, self.problem)
+        aside = self.observer.skills.confirmed
+        gained = frozenset(a for a in end - state if a.predicate not in aside)
+        return gained, frozenset(a for a in state - end if a.predicate not in aside)
+
+    def _stopped(self, reason: str, state: State) -> Execution:
+        return Execution(Status.STOPPED, reason, tuple(self._steps), self._repairs, state)
+
+    def _last(self) -> str:
+        """What went wrong last."""
+        for step in reversed(self._steps):
+            if step.failure:
+                return f"{step.instruction} failed: {step.failure}"
+            if step.mismatches:
+                return f"{step.instruction}: {_first(step.mismatches)}"
+        return "the environment was not as described"
+
+
+_Wanted = tuple[frozenset[GroundAtom], frozenset[GroundAtom]]
+
+
+def _missing(
+    planner: str, task: Task, waiting: Sequence[Instruction], wanted: _Wanted, cap: int = DEFAULT_CAP
+) -> Sequence[Instruction] | str:
+    """Instructions that make what is waiting executable, or bring about what is missing; or why not."""
+    operators = [task.by_instruction.get(instruction) for instruction in waiting]
+    known = [operator for operator in operators if operator is not None]
+    if len(known) < len(operators):
+        lost = next(i for i, o in zip(waiting, operators, strict=True) if o is None)
+        return f"{lost} can no longer be done"
+    if waiting and _runs(known, task.init):
+        return ()
+    if waiting:
+        goal = get_constraints(known)[0]
+    else:
+        needed, spoiled = (task.encode(frozenset(atoms)) for atoms in wanted)
+        goal = (Cube(needed, spoiled),)
+    answer = make(planner, task, cap=cap).fill(task.init, goal)
+    if isinstance(answer, Filled):
+        return answer.plan
+    if isinstance(answer, Unreachable):
+        return f"the plan cannot be mended: {answer.reason}"
+    return f"no way to mend the plan was found: {answer.limit}"
+
+
+def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
+    """Whether all that is wanted holds after a plan."""
+    state = task.init
+    for instruction in plan:
+        state = task.by_instruction[instruction].apply(state)
+    return _satisfied(wanted, task.decode(state))
+
+
+def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
+    """What mends a plan and then the rest of it, each with whether it is a repair."""
+    return [*((instruction, True) for instruction in repairs), *((instruction, False) for instruction in rest)]
+
+
+def _runs(operators: Sequence[Operator], state: Bits) -> bool:
+    """Whether a sequence can be executed as it is."""
+    for operator in operators:
+        if not operator.applicable(state):
+            return False
+        state = operator.apply(state)
+    return True
+
+
+def _first(mismatches: Sequence[Mismatch]) -> str:
+    """What was expected and is missing goes before what is there unexpectedly."""
+    return str(min(mismatches, key=lambda m: not m.expected))
+
+
+def _satisfied(wanted: _Wanted, state: State) -> bool:
+    gained, ended = wanted
+    return gained <= state and not ended & state

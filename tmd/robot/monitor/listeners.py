@@ -1,0 +1,115 @@
+"""A run as it is told: what each instruction is for, when it begins, and how it ended."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from tmd.pddl.model import GroundAtom, Instruction
+from tmd.robot.monitor.executor import Performer
+from tmd.robot.skills.results import Step
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """One instruction of a plan, and what it is for.
+
+    Attributes:
+        instruction: What to do.
+        clause: The clause that it serves, from 0; ``None`` where the plan comes from a file.
+        latent: Whether the person left it unsaid.
+        text: What the person said there.
+    """
+
+    instruction: Instruction
+    clause: int | None = None
+    latent: bool = False
+    text: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Title:
+    """An instruction that is being done.
+
+    Attributes:
+        instruction: What is done.
+        number: Its place in the plan, from 1; of a repair, the place before which it was put.
+        of: How many the plan has.
+        repair: Whether the monitor put it in.
+        order: What it is for; ``None`` for a repair.
+    """
+
+    instruction: Instruction
+    number: int
+    of: int
+    repair: bool
+    order: Order | None
+
+
+class Listener(Protocol):
+    """Who is told how a run goes."""
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins; ``expected`` is what it should bring about, sorted."""
+        ...
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over."""
+        ...
+
+
+class Recorder:
+    """Stands between an executor and a performer, and tells listeners where in the plan the run is.
+
+    Give it to :class:`tmd.robot.monitor.executor.Executor` as the performer, and :meth:`watch` as ``watch``.
+
+    Args:
+        performer: Does the instructions.
+        orders: The plan.
+        listeners: Who is told.
+    """
+
+    def __init__(self, performer: Performer, orders: Sequence[Order], listeners: Sequence[Listener]) -> None:
+        self._performer = performer
+        self._orders = tuple(orders)
+        self._listeners = tuple(listeners)
+        self._next = 0
+        self._open = False
+
+    @property
+    def clock(self) -> int:
+        """The performer's."""
+        return self._performer.clock
+
+    def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
+        """Tell that it begins, and let it be done."""
+        title = self._title(instruction, self._place(instruction))
+        for listener in self._listeners:
+            listener.begin(title, sorted(gains))
+        return self._performer.perform(instruction, gains, attempt)
+
+    def watch(self, step: Step) -> None:
+        """Tell that a step is over."""
+        place = None if step.repair else self._place(step.instruction)
+        title = self._title(step.instruction, place)
+        if place is not None:
+            done = not step.failure and not step.mismatches
+            self._next = place + 1 if done else place
+            self._open = not done and not step.failure
+        for listener in self._listeners:
+            listener.end(title, step)
+
+    def _place(self, instruction: Instruction) -> int | None:
+        """Where in the plan it stands; ``None`` for a repair.
+
+        After a step whose facts are not as predicted, the executor may try it again or go on.
+        """
+        possible = range(self._next, min(self._next + 1 + self._open, len(self._orders)))
+        return next((place for place in possible if self._orders[place].instruction == instruction), None)
+
+    def _title(self, instruction: Instruction, place: int | None) -> Title:
+        count = len(self._orders)
+        if place is None:
+            return Title(instruction, min(self._next + 1, count), count, True, None)
+        return Title(instruction, place + 1, count, False, self._orders[place])

@@ -1,0 +1,240 @@
+"""Collision-free motion of an arm: to a posture, and along a sequence of tool poses.
+
+Planners only compute; :meth:`tmd.robot.pr2.pr2.Pr2.move_arm` moves. They may ask about a base and a torso that are
+elsewhere, so that a skill can see whether all its motions exist before it makes the first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from math import pi, sin
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.pr2.base_motion import plan_base as plan_base
+from tmd.robot.pr2.collision import Checker, Held, Ignored
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.rrt import plan, shorten
+from tmd.robot.pr2.trajectory_following import exact
+from tmd.robot.pr2.urdf import ARM
+from tmd.robot.sim.pose import Pose, Quaternion
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
+
+Arm = tuple[float, ...]
+Base = tuple[float, float, float]
+
+STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
+"""How far each joint may move between two checks: 2 to 4 cm at the hand."""
+CLEARANCE = 0.01
+"""Metres that planned motions keep from things, where their start and their goal do."""
+DEEPEST = 0.01
+"""Metres: an arm may be this deep in something where it starts (contacts are soft), never deeper on its way."""
+_NEAR = 2.0
+"""Strides from the ends of a way within which what touches there may touch."""
+_ROUNDED = 0.5
+"""The part of the clearance that may be lost where corners are rounded."""
+_ENDLESS = (4, 6)
+_BRANCHES = 12
+_CHUNK = 8
+
+
+def plan_arm(
+    robot: Pr2,
+    side: str,
+    goal: Sequence[float],
+    *,
+    ignore: Ignored = (),
+    rng: np.random.Generator,
+    budget: int = 300,
+    start: Sequence[float] | None = None,
+    base: Base | None = None,
+    torso: float | None = None,
+    held: Sequence[Held] | None = None,
+    clearance: float = CLEARANCE,
+) -> list[Arm] | None:
+    """A collision-free path of one arm to joint positions.
+
+    Args:
+        robot: The robot; nothing moves.
+        side: The arm.
+        goal: Seven joint positions; the endless joints are turned the short way.
+        ignore: (body, link) that may be touched, link None: all of the body.
+        rng: For samples and shortcuts.
+        budget: Samples that are drawn before giving up.
+        start: Where the arm would start; None: where it is.
+        base: Where the base would be; None: where it is.
+        torso: How high the torso would be; None: as it is.
+        held: What would be in the hands; None: what is.
+        clearance: Metres to keep away. What is nearer at the start or at the goal may stay as near as it is there.
+
+    Returns:
+        Joint positions after the start, the last is the goal, to go through in straight lines; None: the goal touches
+        something, or no path was found.
+    """
+    kinematics = robot.arm_kinematics[side]
+    first = np.array(robot.arm(side) if start is None else start, dtype=float)
+    last = kinematics.near(np.array([goal], dtype=float), first.tolist())[0]
+    lower = np.where(np.isinf(kinematics.lower), np.minimum(first, last) - pi, kinematics.lower)
+    upper = np.where(np.isinf(kinematics.upper), np.maximum(first, last) + pi, kinematics.upper)
+
+    def sample() -> Array:
+        if rng.random() < 0.5:
+            anywhere: Array = rng.uniform(lower, upper)
+            return anywhere
+        middle = first + (last - first) * rng.random()
+        near: Array = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
+        return near
+
+    with Checker(
+        robot,
+        robot.arm_joints[side],
+        positions=robot.elsewhere(base, torso),
+        arm=side,
+        helds=held,
+        ignore=ignore,
+        margin=clearance,
+    ) as checker:
+        # what touches at an end should come off soon; where that is not possible, it may touch all the way
+        for near in (_NEAR * STRIDES, None):
+            if not checker.allow(((first, DEEPEST), (last, 1e-3)), near):
+                return None
+            path = plan(first, last, checker.free, sample, STRIDES, budget=budget)
+            if path is not None or not checker.touching():
+                break
+        if path is None:
+            return None
+        path = shorten(path, checker.free, STRIDES, rng)
+        path = exact(path, robot.arm_groups[side], lambda track: checker.free(track, _ROUNDED * clearance))
+    return [tuple(float(value) for value in row) for row in path[1:]]
+
+
+def plan_line(
+    robot: Pr2,
+    side: str,
+    start: Pose,
+    end: Pose,
+    *,
+    steps: int | None = None,
+    ignore: Ignored = (),
+    arm: Sequence[float] | None = None,
+    base: Base | None = None,
+    torso: float | None = None,
+    held: Sequence[Held] | None = None,
+) -> list[Arm] | None:
+    """A straight motion of the tool: approach, retreat, push.
+
+    Args:
+        robot: The robot; nothing moves.
+        side: The arm.
+        start: The first tool pose in the world.
+        end: The last one; the orientation turns evenly.
+        steps: Pieces; None: 1 cm or 0.05 rad each.
+        ignore: As for :func:`plan_poses`, like all that follow.
+        arm: Where the arm is at ``start``.
+        base: Where the base would be.
+        torso: How high the torso would be.
+        held: What would be in the hands.
+
+    Returns:
+        As :func:`plan_poses`.
+    """
+    pieces = steps or max(1, int(np.ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9)))
+    poses = [between(start, end, index / pieces) for index in range(pieces + 1)]
+    return plan_poses(robot, side, poses, ignore=ignore, arm=arm, base=base, torso=torso, held=held)
+
+
+def plan_poses(
+    robot: Pr2,
+    side: str,
+    poses: Sequence[Pose],
+    *,
+    ignore: Ignored = (),
+    arm: Sequence[float] | None = None,
+    base: Base | None = None,
+    torso: float | None = None,
+    held: Sequence[Held] | None = None,
+) -> list[Arm] | None:
+    """Joint positions along tool poses, without leaps between them.
+
+    Args:
+        robot: The robot; nothing moves.
+        side: The arm.
+        poses: Tool frames in the world, a few centimetres apart at most.
+        ignore: What may be touched.
+        arm: Where the arm is at the first pose. None: where it is, if its tool is there (to 1 cm and 0.05 rad);
+            else several solutions of the first pose are tried, nearest first.
+        base: Where the base would be; None: where it is.
+        torso: How high the torso would be; None: as it is.
+        held: What would be in the hands; None: what is.
+
+    Returns:
+        One row for each pose, the first included; None: a pose is out of reach, or the way to it is blocked.
+    """
+    kinematics = robot.arm_kinematics[side]
+    height = robot.torso() if torso is None else torso
+    back = robot.base_link(base).inverse()
+    seeds = [tuple(arm)] if arm is not None else _first_rows(robot, side, poses[0], base, torso)
+    with Checker(
+        robot,
+        robot.arm_joints[side],
+        positions=robot.elsewhere(base, torso),
+        arm=side,
+        helds=held,
+        ignore=ignore,
+    ) as checker:
+        for seed in seeds:
+            for collision in checker.collisions(seed):
+                if collision[3] <= DEEPEST:
+                    checker.allowed[collision[:3]] = collision[3] + 1e-3
+            rows = _along(checker, lambda pose, last: kinematics.track(back * pose, height, last), seed, poses)
+            if rows is not None:
+                return rows
+            checker.allowed.clear()
+    return None
+
+
+def _along(
+    checker: Checker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
+) -> list[Arm] | None:
+    """Free rows from ``seed`` on; what is blocked is noticed before all of them are worked out."""
+    rows, looked_at = [seed], 0
+    for number, pose in enumerate(poses[1:], 1):
+        row = track(pose, rows[-1])
+        if row is None:
+            return None
+        rows.append(row)
+        if len(rows) - looked_at == _CHUNK or number == len(poses) - 1:
+            if not checker.free(np.array(rows[looked_at:])):
+                return None
+            looked_at = len(rows)
+    return rows if len(poses) > 1 or checker.free(np.array(rows)) else None
+
+
+def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
+    """The arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
+    now = robot.arm(side)
+    tool = robot.tool_at(side, now, base=base, torso=torso)
+    if tool.distance(pose) < 0.01 and tool.angle(pose) < 0.05:
+        return [now]
+    chosen: list[Arm] = []
+    for row in robot.solve(side, pose, base=base, torso=torso):
+        if all(max(abs(a - b) for a, b in zip(row, other, strict=True)) > 0.3 for other in chosen):
+            chosen.append(row)
+    return chosen[:_BRANCHES]
+
+
+def between(start: Pose, end: Pose, part: float) -> Pose:
+    """The pose at ``part`` (0 to 1) of the way; the orientation turns evenly (slerp, Shoemake 1985)."""
+    a, b = np.array(start.orientation), np.array(end.orientation)
+    b = b if a @ b >= 0 else -b
+    angle = start.angle(end) / 2
+    mixed = a + part * (b - a)
+    if angle > 1e-6:
+        mixed = (sin((1 - part) * angle) * a + sin(part * angle) * b) / sin(angle)
+    mixed /= np.linalg.norm(mixed)
+    x, y, z = (p + part * (q - p) for p, q in zip(start.position, end.position, strict=True))
+    orientation: Quaternion = (float(mixed[0]), float(mixed[1]), float(mixed[2]), float(mixed[3]))
+    return Pose((x, y, z), orientation)

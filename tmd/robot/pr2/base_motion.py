@@ -1,0 +1,249 @@
+"""Collision-free motion of the base: straight if possible, else A* on a lattice of places and headings.
+
+The base moves in any direction at any heading, so the lattice has eight moves that keep the heading and two turns on
+the spot. Its origin and its headings are those of the goal, so the goal is one of its points.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from heapq import heappop, heappush
+from itertools import pairwise
+from math import hypot, pi, tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.pr2.collision import Checker, Ignored
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.rrt import shorten
+from tmd.robot.pr2.trajectory_following import exact
+from tmd.robot.pr2.urdf import BASE_JOINTS
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
+
+Base = tuple[float, float, float]
+Cell = tuple[int, int, int]
+
+PITCH = 0.1
+"""Metres between neighbours."""
+HEADINGS = 16
+STRIDES = np.array([0.04, 0.04, 0.08])
+"""How far the base may move between two checks."""
+CLEARANCE = 0.02
+"""Metres that the way keeps from things, where its start and its goal do."""
+DEEPEST = 0.03
+"""Metres: the robot may be this deep in something where it starts (a door that springs open leans on it)."""
+_NEAR = 3.0
+"""Strides from the ends of a way within which what touches there may touch."""
+_ROUNDED = 0.5
+"""The part of the clearance that may be lost where corners are rounded."""
+_OUTWARDS = (0.0, 0.12, -0.12, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3)
+_AWAY = (0.6, 0.4, 0.25)
+_MOST_WAYS_OUT = 3
+_BLOCK = 6
+_ATTEMPTS = 20
+_FEW = 200
+"""So many points are looked at from the start, to see whether one gets away from there at all."""
+_TURN = 0.35
+"""Metres that turning by one radian costs."""
+_MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
+
+
+def plan_base(
+    robot: Pr2,
+    goal: Base,
+    *,
+    ignore: Ignored = (),
+    rng: np.random.Generator,
+    budget: int = 4000,
+    clearance: float = CLEARANCE,
+) -> list[Base] | None:
+    """A way for the robot, as its arms are and with what it holds, to a pose of the base.
+
+    Args:
+        robot: The robot; nothing moves.
+        goal: x, y, theta.
+        ignore: (body, link) that may be touched, link None: all of the body.
+        rng: For shortcuts.
+        budget: Lattice points that are looked at before giving up.
+        clearance: Metres to keep away. What is nearer at the start or at the goal may stay as near as it is there.
+
+    Returns:
+        Poses after the start, the last is the goal; None: the goal touches something, or no way was found.
+    """
+    x, y, theta = robot.base()
+    end = np.array([goal[0], goal[1], theta + (goal[2] - theta + pi) % tau - pi])
+    start = np.array([x, y, theta])
+    with Checker(robot, BASE_JOINTS, ignore=ignore, margin=clearance) as checker:
+        for near in (_NEAR * STRIDES, None):
+            if not checker.allow(((start, DEEPEST), (end, 1e-3)), near):
+                return None
+            path = _search(checker, start, end, budget)
+            if path is not None or not checker.touching():
+                break
+        if path is None:
+            return None
+        path = shorten(path, checker.free, STRIDES, rng, tries=100)
+        path = exact(path, robot.base_group, lambda track: checker.free(track, _ROUNDED * clearance))
+    return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
+
+
+def _search(checker: Checker, start: Array, end: Array, budget: int) -> Array | None:
+    """A way from the start, or from somewhere straight away from what is close to the start."""
+    lattice = _Lattice(checker, start, end)
+    path = lattice.straight()
+    if path is not None:
+        return path
+    ways_out = [start] if checker.apart(start[None])[0] else [*_ways_out(checker, start), start]
+    for out in ways_out[:_MOST_WAYS_OUT]:
+        path = _Lattice(checker, out, end).search(budget // len(ways_out[:_MOST_WAYS_OUT]))
+        if path is not None:
+            return path if out is start else np.vstack([start[None], path])
+    return None
+
+
+def _ways_out(checker: Checker, start: Array) -> list[Array]:
+    """Places that are reached straight from the start, backwards first; the farthest free one each way."""
+    found = []
+    for turn in _OUTWARDS:
+        angle = start[2] + pi + turn
+        for away in _AWAY:
+            out = start + np.array([away * np.cos(angle), away * np.sin(angle), 0.0])
+            if free_line(checker, start, out):
+                found.append(out)
+                break
+    return found
+
+
+def free_line(checker: Checker, start: Array, end: Array) -> bool:
+    """Whether all poses from one to the other are free; the first is not looked at."""
+    count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
+    return checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
+
+
+class _Lattice:
+    """Points (i, j, k): places and headings relative to the goal, which is (0, 0, 0)."""
+
+    def __init__(self, checker: Checker, start: Array, goal: Array) -> None:
+        self._checker = checker
+        self._start, self._goal = start, goal
+        self._known: dict[Cell, bool] = {(0, 0, 0): True}
+        self._screened: dict[Cell, bool] = {}
+        self._blocked: set[tuple[Cell, Cell]] = set()
+
+    def pose(self, cell: Cell) -> Array:
+        """x, y, theta; the heading is counted on, not wrapped."""
+        i, j, k = cell
+        result: Array = self._goal + np.array([i * PITCH, j * PITCH, k * tau / HEADINGS])
+        return result
+
+    def straight(self) -> Array | None:
+        """Corners of a way with one corner at most, (n, 3), or None."""
+        if self._line(self._start, self._goal):
+            return np.array([self._start, self._goal])
+        # turning first, driving, turning at the end is what people expect, and it is often free
+        for corner in (
+            self._start * [1, 1, 0] + self._goal * [0, 0, 1],
+            self._goal * [1, 1, 0] + self._start * [0, 0, 1],
+        ):
+            if self._line(self._start, corner) and self._line(corner, self._goal):
+                return np.array([self._start, corner, self._goal])
+        return None
+
+    def search(self, budget: int) -> Array | None:
+        """Corners from start to goal, (n, 3), or None."""
+        if (path := self.straight()) is not None:
+            return path
+        entries = {cell for cell in self._entries() if self._free(cell) and self._line(self._start, self.pose(cell))}
+        if self._enclosed(entries):  # wedged in: a search from the goal would look at the whole room in vain
+            return None
+        # the search looks at points only; what lies between them is looked at once a way is found
+        for _ in range(_ATTEMPTS):
+            cells = self._astar(entries, budget)
+            if cells is None:
+                return None
+            bad = [pair for pair in pairwise(cells) if not self._line(self.pose(pair[0]), self.pose(pair[1]))]
+            if not bad:
+                return np.array([self._start, *(self.pose(cell) for cell in cells)])
+            self._blocked.update(bad, [(b, a) for a, b in bad])
+        return None
+
+    def _enclosed(self, entries: set[Cell]) -> bool:
+        """Whether few points can be reached from the start, and the goal is none of them."""
+        reached, waiting = set(entries), sorted(entries)
+        while waiting and len(reached) < _FEW:
+            for neighbour, _ in self._neighbours(waiting.pop()):
+                if neighbour not in reached and self._free(neighbour):
+                    reached.add(neighbour)
+                    waiting.append(neighbour)
+        return not waiting and (0, 0, 0) not in reached
+
+    def _astar(self, entries: set[Cell], budget: int) -> list[Cell] | None:
+        """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
+        best: dict[Cell, float] = {(0, 0, 0): 0.0}
+        before: dict[Cell, Cell] = {}
+        closed: set[Cell] = set()
+        heap = [(self._left((0, 0, 0)), 0, (0, 0, 0))]
+        pushed = 0
+        while heap and len(closed) < budget:
+            _, _, cell = heappop(heap)
+            if cell in closed:
+                continue
+            closed.add(cell)
+            if cell in entries:
+                path = [cell]
+                while cell in before:
+                    cell = before[cell]
+                    path.append(cell)
+                return path
+            for neighbour, price in self._neighbours(cell):
+                total = best[cell] + price
+                if neighbour in closed or total >= best.get(neighbour, np.inf) - 1e-12:
+                    continue
+                if (cell, neighbour) in self._blocked or not self._free(neighbour):
+                    continue
+                best[neighbour] = total
+                before[neighbour] = cell
+                pushed += 1
+                heappush(heap, (total + self._left(neighbour), pushed, neighbour))
+        return None
+
+    def _entries(self) -> Iterator[Cell]:
+        i, j, k = (self._start - self._goal) / [PITCH, PITCH, tau / HEADINGS]
+        for a in (int(np.floor(i)), int(np.ceil(i))):
+            for b in (int(np.floor(j)), int(np.ceil(j))):
+                for c in (int(np.floor(k)), int(np.ceil(k))):
+                    yield a, b, c
+
+    def _left(self, cell: Cell) -> float:
+        """A lower bound on the cost from a point to the start, slightly raised: fewer points, hardly longer ways."""
+        away = np.abs(self.pose(cell) - self._start)
+        return 1.2 * (hypot(away[0], away[1]) + _TURN * float(away[2]))
+
+    @staticmethod
+    def _neighbours(cell: Cell) -> Iterator[tuple[Cell, float]]:
+        i, j, k = cell
+        for dx, dy in _MOVES:
+            yield (i + dx, j + dy, k), PITCH * hypot(dx, dy)
+        for turn in (-1, 1):
+            if abs(k + turn) <= HEADINGS:
+                yield (i, j, k + turn), _TURN * tau / HEADINGS
+
+    def _free(self, cell: Cell) -> bool:
+        if cell not in self._known:
+            if cell not in self._screened:
+                self._screen(cell)
+            self._known[cell] = self._screened[cell] or self._checker.free(self.pose(cell)[None])
+        return self._known[cell]
+
+    def _screen(self, cell: Cell) -> None:
+        """Compare boxes for a block of places with one heading: many at once cost little more than one."""
+        i, j, k = cell[0] // _BLOCK * _BLOCK, cell[1] // _BLOCK * _BLOCK, cell[2]
+        cells = [(i + a, j + b, k) for a in range(_BLOCK) for b in range(_BLOCK)]
+        verdicts = self._checker.apart(np.array([self.pose(each) for each in cells]))
+        self._screened.update(zip(cells, verdicts, strict=True))
+
+    def _line(self, start: Array, end: Array) -> bool:
+        return free_line(self._checker, start, end)

@@ -1,0 +1,94 @@
+"""What a hand would touch somewhere, whatever the rest of the robot does.
+
+A skill knows many poses that would do, and each could be reached from many places. Where the hand itself, or what it
+holds, is in something, no place to stand helps: such poses are left out before a place is looked for.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.pr2.collision import TOUCH, Ignored, box_of, moved
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.urdf import TOOL
+from tmd.robot.sim.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
+
+
+class HandChecker:
+    """Collision checks for one hand that floats freely.
+
+    Args:
+        robot: The robot; between two calls it is where it was.
+        side: The hand.
+        ignore: What may be touched: (body, link), link None for all of the body.
+        only: Ask about this link of a body and nothing else.
+    """
+
+    def __init__(self, robot: Pr2, side: str, ignore: Ignored = (), *, only: tuple[int, int] | None = None) -> None:
+        self._robot, self._side, self._ignore = robot, side, frozenset(ignore)
+        self._links = [name for name in robot.tree.below(f"{side[0]}_wrist_roll_link") if name in robot.boxes]
+        frames = robot.tree.forward(robot.positions(), robot.tree.links, {robot.tree.root: np.eye(4)})
+        self._tool = frames[f"{side[0]}_{TOOL}"]
+        back = np.linalg.inv(self._tool)
+        self._relative = [back @ frames[name] for name in self._links]
+        self._boxes = [robot.boxes[name] for name in self._links]
+        self._held = next((held for held in robot.helds() if held.side == side), None)
+        if self._held is not None:
+            self._relative.append(self._held.grip.homogeneous())
+            self._boxes.append(box_of(robot.sim, self._held.body))
+        self._obstacles = self._find_obstacles() if only is None else [only]
+
+    def _find_obstacles(self) -> list[tuple[int, int]]:
+        taken = {self._robot.body, *(held.body for held in self._robot.helds())}  # they go where the robot goes
+        return [
+            (body, link)
+            for body in self._robot.sim.bodies()
+            if body not in taken and (body, None) not in self._ignore
+            for link in self._robot.solid_links(body)
+            if (body, link) not in self._ignore
+        ]
+
+    def depth(self, tools: Sequence[Pose]) -> list[float]:
+        """For each tool pose in the world, how deep the hand would be in something, in metres; 0 if in nothing."""
+        if not self._obstacles:
+            return [0.0] * len(tools)
+        sim, body = self._robot.sim, self._robot.body
+        extents = [sim.extents(*each) for each in self._obstacles]
+        least, most = (np.array([extent[end] for extent in extents]) for end in (0, 1))
+        place = sim.motion(body)
+        held = sim.motion(self._held.body) if self._held else None
+        try:
+            return [self._depth(tool, least, most) for tool in tools]
+        finally:
+            sim.set_motion(body, place)
+            if self._held and held is not None:
+                sim.set_motion(self._held.body, held)
+
+    def _depth(self, tool: Pose, least: Array, most: Array) -> float:
+        frames = tool.homogeneous() @ np.array(self._relative)
+        spans = [moved(box, frame[None]) for box, frame in zip(self._boxes, frames, strict=True)]
+        low, high = (np.concatenate([span[end] for span in spans]) for end in (0, 1))
+        meeting = np.all((low[:, None] <= most) & (high[:, None] >= least), axis=2)
+        if not meeting.any():
+            return 0.0
+        sim, robot = self._robot.sim, self._robot
+        # the whole robot is put where its hand is there: nothing but the hand is asked about
+        sim.set_pose(robot.body, Pose.from_matrix(tool.homogeneous() @ np.linalg.inv(self._tool)))
+        if self._held is not None:
+            sim.set_pose(self._held.body, tool * self._held.grip)
+        deepest = 0.0
+        for mover, obstacle in np.argwhere(meeting):
+            body, link = self._obstacles[obstacle]
+            if mover < len(self._links):
+                points = sim.closest(robot.body, body, 0.0, robot.index[self._links[mover]], link)
+            else:
+                assert self._held is not None
+                points = sim.closest(self._held.body, body, 0.0, other_link=link)
+            deepest = max(deepest, *(-point.distance for point in points), 0.0)
+        return deepest if deepest > TOUCH else 0.0

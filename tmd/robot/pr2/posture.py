@@ -1,0 +1,123 @@
+"""Arms out of the way: postures for driving, and how to get into them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi, tau
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.pr2.arm_motion import plan_arm, plan_line
+from tmd.robot.sim.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
+
+TUCKED = {
+    "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
+    "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
+}
+"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
+
+Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
+lie across each other, and one in the way of the other.
+"""
+_THERE = 0.03
+"""Radians: an arm that is this near to its posture need not move."""
+_SHIFTS = (-0.1, 0.1, -0.2, 0.2, -0.3, 0.3)
+_SHIFTED = 6
+_MOST_FOLDED = 2
+"""Where an arm cannot be tucked as usual, one of its first joints is turned by so many radians; so many are tried."""
+_FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
+"""Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
+_PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
+_YAWS = 8
+_MOST_CARRIED = 12
+"""So many places are tried: an arm that gets to none of them is wedged in where it is."""
+TUCK_BUDGET = 300
+"""Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
+
+
+def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
+    """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
+
+    Args:
+        robot: The robot.
+        budget: Samples for the path of an arm.
+
+    Returns:
+        Whether both arms arrived.
+    """
+    waiting = sorted(robot.arms, key=lambda side: robot.held(side) is not None)
+    for _ in robot.arms:
+        waiting = [side for side in waiting if not _tuck_arm(robot, side, budget)]
+    return not waiting
+
+
+def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
+    if robot.held(side) is not None:
+        return _in_front(robot, side) or _carry(robot, side, budget // 3)
+    return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
+
+
+def _fold(robot: Pr2, side: str, budget: int) -> bool:
+    for goal in _folded(robot, side):
+        (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
+        if np.max(np.abs(near - goal)) < _THERE:
+            return True
+        path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+        if path is not None:
+            return robot.move_arm(side, path)
+    return False
+
+
+def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
+    """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
+    usual = TUCKED[side]
+    others = [
+        tuple(value + shift * (joint == number) for number, value in enumerate(usual))
+        for shift in _SHIFTS
+        for joint in range(_SHIFTED)
+    ]
+    free, *rest = robot.clear(side, [usual, *others])
+    return [usual] if free else [other for other, clear in zip(others, rest, strict=True) if clear][:_MOST_FOLDED]
+
+
+def _carry(robot: Pr2, side: str, budget: int) -> bool:
+    """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
+    base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
+    now = base.inverse() * robot.tool(side)
+    failed = 0
+    for place in _tool_places(now, side):
+        tool = base * place
+        for goal in robot.solve(side, tool)[:2]:
+            if robot.collides(side=side, arm=goal):
+                continue
+            line = plan_line(robot, side, robot.tool(side), tool, arm=robot.arm(side))
+            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+            if path is not None:
+                return robot.move_arm(side, path)
+            failed += 1
+            if failed == _MOST_CARRIED:
+                return False
+    return False
+
+
+def _in_front(robot: Pr2, side: str) -> bool:
+    """Whether a hand is in front of the robot, where it may be for driving."""
+    base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
+    x, y, z = (base.inverse() * robot.tool(side)).position
+    inside = (x, -y if side == "right" else y, z)
+    return all(low <= value <= high for value, (low, high) in zip(inside, _FRONT, strict=True))
+
+
+def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
+    """Tool frames in the base's frame, compact ones first; at each place the least turning first."""
+    for x, y, z in _PLACES:
+        for index in range(_YAWS):
+            yaw = (index + 1) // 2 * tau / _YAWS * (1 if index % 2 else -1)
+            turn = Pose.flat(0.0, 0.0, yaw=(yaw + pi) % tau - pi)
+            yield Pose(
+                (x, -y if side == "right" else y, z), (turn * Pose((0.0, 0.0, 0.0), now.orientation)).orientation
+            )

@@ -1,0 +1,108 @@
+"""What an arm can span: the quickest of all questions about a pose, asked before inverse kinematics.
+
+The hand, the wrist and the elbow of a PR2 are links of fixed length: the wrist is a hand's length behind the tool,
+and its distance from the shoulder lies between that of the bent elbow and that of the straight one. What is refused
+here has no posture; what is not refused may have one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import cos, sqrt
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.urdf import TOOL
+from tmd.robot.sim.pose import Pose
+
+if TYPE_CHECKING:
+    from tmd.robot.pr2.pr2 import Pr2
+
+_ELBOW = 3
+_SLACK = 0.005
+"""Metres: what rounding could refuse wrongly."""
+
+
+class Span:
+    """One arm's lengths.
+
+    Args:
+        robot: The robot.
+        side: The arm.
+
+    Attributes:
+        shoulder: The pan joint in ``base_link`` with the torso at 0, (3,).
+        offset: Metres from the pan axis to the lift axis.
+        nearest: Least metres from the lift axis to the wrist, with the elbow bent as far as it goes.
+        farthest: The same with the arm straight.
+        hand: Metres from the wrist to the tool.
+    """
+
+    def __init__(self, robot: Pr2, side: str) -> None:
+        kinematics = robot.arm_kinematics[side]
+        pan, lift, _, elbow, _, wrist, _ = (_point(robot, _moved_by(robot, joint)) for joint in kinematics.joints)
+        tool = _point(robot, f"{side[0]}_{TOOL}")
+        self.shoulder = pan
+        self.offset = float(np.linalg.norm(lift - pan))
+        upper, fore = float(np.linalg.norm(elbow - lift)), float(np.linalg.norm(wrist - elbow))
+        self.hand = float(np.linalg.norm(tool - wrist))
+        bent = min(abs(float(kinematics.lower[_ELBOW])), np.pi)
+        self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - _SLACK
+        self.farthest = upper + fore + _SLACK
+
+    def holds(self, wrists: Array, torso: float) -> Array:
+        """Which of the wrists (n, 3), in ``base_link``, are in reach: (n,) of bool."""
+        away = wrists - self.shoulder - np.array([0.0, 0.0, torso])
+        level = np.abs(np.hypot(away[:, 0], away[:, 1]) - self.offset)
+        # the lift axis is on a circle round the pan axis: the nearest point of it bounds how far the wrist may be,
+        # the farthest one how near
+        far = np.hypot(np.hypot(away[:, 0], away[:, 1]) + self.offset, away[:, 2])
+        kept: Array = (np.hypot(level, away[:, 2]) <= self.farthest) & (far >= self.nearest)
+        return kept
+
+
+class Wrists:
+    """The wrists for many sequences of tool poses.
+
+    Args:
+        robot: The robot.
+        sides: The arm of each sequence.
+        poses: The sequences, in the world.
+    """
+
+    def __init__(self, robot: Pr2, sides: Sequence[str], poses: Sequence[Sequence[Pose]]) -> None:
+        self._robot = robot
+        self._spans = {side: Span(robot, side) for side in sorted(set(sides))}
+        self._sides = np.array(sides)
+        self._starts = np.cumsum([0, *(len(each) for each in poses)])[:-1]
+        self._of = np.repeat(np.arange(len(poses)), [len(each) for each in poses])
+        points = [
+            pose.apply((-self._spans[side].hand, 0.0, 0.0))
+            for side, each in zip(sides, poses, strict=True)
+            for pose in each
+        ]
+        self._points = np.array(points).reshape(-1, 3)
+
+    def within(self, base: tuple[float, float, float], torso: float) -> list[int]:
+        """The numbers of the sequences whose wrists are all in reach from a base and a torso."""
+        back = self._robot.base_link(base).inverse().homogeneous()
+        inside = self._points @ back[:3, :3].T + back[:3, 3]
+        held = np.zeros(len(inside), dtype=bool)
+        for side, span in self._spans.items():
+            of_side = self._sides[self._of] == side
+            held[of_side] = span.holds(inside[of_side], torso)
+        return [int(number) for number in np.flatnonzero(np.logical_and.reduceat(held, self._starts))]
+
+
+def _moved_by(robot: Pr2, joint: str) -> str:
+    """The link that a joint carries: its frame is at the joint."""
+    return next(link.name for link in robot.tree.links.values() if link.joint == joint)
+
+
+def _point(robot: Pr2, link: str) -> Array:
+    """Where a link is in ``base_link`` when all joints are at 0."""
+    frames = robot.tree.forward({}, robot.tree.links, {robot.tree.root: np.eye(4)})
+    point: Array = (np.linalg.inv(frames["base_link"]) @ frames[link])[:3, 3]
+    return point

@@ -1,0 +1,119 @@
+"""RRT-connect (Kuffner and LaValle 2000): a collision-free path through a space of joint positions, then shortcuts.
+
+Why an own one: OMPL's random numbers have one seed for the whole process, which must be set before the first planner
+is made, so a plan would depend on what was planned before it, and its planners stop by the clock; here every call has
+its generator and a number of samples. It is also faster, as whole edges are checked in one batch: on the same 20
+queries around a shelf a median of 0.05 s, where OMPL 2.0.1 takes 0.29 s (``experiments/bench/robot_ik.py``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.trajectory import dense
+
+Free = Callable[[Array], bool]
+"""Whether all of (n, k) configurations are free."""
+REACH = 10.0
+"""The longest edge, in strides."""
+SHORTCUTS = 60
+
+
+@dataclass
+class _Tree:
+    nodes: list[Array]
+    parents: list[int] = field(default_factory=lambda: [-1])
+
+    def nearest(self, point: Array, strides: Array) -> int:
+        away = (np.array(self.nodes) - point) / strides
+        return int(np.argmin(np.einsum("ij,ij->i", away, away)))
+
+    def path(self, node: int) -> list[Array]:
+        result = []
+        while node >= 0:
+            result.append(self.nodes[node])
+            node = self.parents[node]
+        return result[::-1]
+
+    def add(self, point: Array, parent: int) -> int:
+        self.nodes.append(point)
+        self.parents.append(parent)
+        return len(self.nodes) - 1
+
+
+def plan(
+    start: Array, goal: Array, free: Free, sample: Callable[[], Array], strides: Array, *, budget: int
+) -> Array | None:
+    """A path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
+
+    Args:
+        start: (k,), taken to be free.
+        goal: (k,), taken to be free.
+        free: The collision check.
+        sample: Draws (k,) from the space.
+        strides: (k,): motions that a check may jump over.
+        budget: How many samples to draw at most.
+
+    Returns:
+        (n, k), corners only, or None.
+    """
+    if _clear(start, goal, free, strides):
+        return np.array([start, goal])
+    trees = [_Tree([start]), _Tree([goal])]
+    for _ in range(budget):
+        here, there = trees
+        new = _extend(here, sample(), free, strides)
+        if new is not None:
+            met = _connect(there, here.nodes[new], free, strides)
+            if met is not None:
+                path = here.path(new) + there.path(met)[::-1][1:]
+                return np.array(path if here.nodes[0] is start else path[::-1])
+        trees.reverse()
+    return None
+
+
+def shorten(path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = SHORTCUTS) -> Array:
+    """The path with random pieces replaced by straight lines where these are free; never longer."""
+    for _ in range(tries):
+        if len(path) < 3:
+            break
+        lengths = np.linalg.norm(np.diff(path, axis=0) / strides, axis=1)
+        at = np.concatenate([[0.0], np.cumsum(lengths)])
+        low, high = sorted(float(value) for value in rng.uniform(0, at[-1], 2))
+        first, last = int(np.searchsorted(at, low, "right")) - 1, int(np.searchsorted(at, high, "right")) - 1
+        if last >= len(path) - 1 or first == last:
+            continue
+        start, end = (
+            path[piece] + (path[piece + 1] - path[piece]) * (where - at[piece]) / max(lengths[piece], 1e-12)
+            for piece, where in ((first, low), (last, high))
+        )
+        if _clear(start, end, free, strides):
+            path = np.vstack([path[: first + 1], start, end, path[last + 1 :]])
+    return path
+
+
+def _clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
+    """Whether the line is free, ``start`` not asked."""
+    return free(dense(np.array([start, end]), strides.tolist())[1:])
+
+
+def _extend(tree: _Tree, target: Array, free: Free, strides: Array) -> int | None:
+    near = tree.nearest(target, strides)
+    step = (target - tree.nodes[near]) / strides
+    length = float(np.linalg.norm(step))
+    point = target if length <= REACH else tree.nodes[near] + step * strides * REACH / length
+    return tree.add(point, near) if _clear(tree.nodes[near], point, free, strides) else None
+
+
+def _connect(tree: _Tree, target: Array, free: Free, strides: Array) -> int | None:
+    """Extend towards ``target`` until it is reached or something is in the way."""
+    while True:
+        new = _extend(tree, target, free, strides)
+        if new is None:
+            return None
+        if tree.nodes[new] is target:
+            return new

@@ -1,0 +1,107 @@
+"""Joints that move together along a path: under physics by their motors, kinematically by setting them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from tmd.robot.pr2.kinematics import Array
+from tmd.robot.pr2.trajectory import dense, timed
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
+
+GAIN = 0.2
+"""The part of a position error that a motor removes in one step."""
+_YIELDING = 0.1
+_LOOKED_AT = 8
+"""Steps between two checks of a track."""
+STALLED = 120
+"""Steps without getting nearer after which a motion is given up."""
+
+
+@dataclass(frozen=True, slots=True)
+class Group:
+    """Some joints of a body.
+
+    Attributes:
+        joints: Their numbers.
+        speeds: Greatest speeds, m/s or rad/s.
+        forces: Greatest motor forces, N or N·m.
+        strides: Greatest motions between two kinematic ticks.
+        tolerance: How near all must be to their goals for a motion to have succeeded.
+        window: Steps to reach full speed.
+    """
+
+    joints: tuple[int, ...]
+    speeds: tuple[float, ...]
+    forces: tuple[float, ...]
+    strides: tuple[float, ...]
+    tolerance: float
+    window: int = 48
+
+
+def exact(path: Array, group: Group, free: Callable[[Array], bool]) -> Array:
+    """The path with a rest at each corner, if what comes of rounding them under physics is not free."""
+    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[::_LOOKED_AT]
+    if len(path) == 2 or free(track):
+        return path
+    return np.repeat(path, [1, *[2] * (len(path) - 2), 1], axis=0)
+
+
+def hold(sim: Simulator, body: int, group: Group, positions: Sequence[float]) -> None:
+    """Let the motors keep the joints where ``positions`` says."""
+    zeros = [0.0] * len(group.joints)
+    sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, GAIN)
+
+
+def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
+    """Move along ``path`` under physics.
+
+    The budget is twice the planned time and one second. A motion that no longer gets nearer for half a second, after
+    its planned time, ends before that. The motors then hold the joints at their goals or, after a failure, where
+    they are once they have yielded to what is in the way for a quarter of a second.
+
+    Returns:
+        Whether all joints are within the group's tolerance of the last row.
+    """
+    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)
+    speeds = np.diff(np.vstack([path[:1], track]), axis=0) * STEPS_PER_SECOND
+    for position, speed in zip(track.tolist(), speeds.tolist(), strict=True):
+        sim.drive_joints(body, group.joints, position, speed, group.forces, GAIN)
+        sim.step()
+    goal = track[-1]
+    hold(sim, body, group, goal.tolist())
+    best, since = np.inf, 0
+    for _ in range(len(track) + STEPS_PER_SECOND):
+        positions, velocities = sim.joint_states(body, group.joints)
+        away = float(np.max(np.abs(np.array(positions) - goal)))
+        if away <= group.tolerance and np.max(np.abs(velocities)) <= 10 * group.tolerance:
+            return True
+        best, since = (away, 0) if away < best - 1e-4 else (best, since + 1)
+        if since > STALLED:
+            break
+        sim.step()
+    positions, _ = sim.joint_states(body, group.joints)
+    if np.max(np.abs(np.array(positions) - goal)) <= group.tolerance:
+        return True
+    _yield(sim, body, group)
+    return False
+
+
+def _yield(sim: Simulator, body: int, group: Group) -> None:
+    """Let what is in the way push back for a moment, then stay there: no motor pushes on after a failure."""
+    weak = replace(group, forces=tuple(_YIELDING * force for force in group.forces))
+    for _ in range(STEPS_PER_SECOND // 4):
+        hold(sim, body, weak, sim.joint_states(body, group.joints)[0])
+        sim.step()
+    hold(sim, body, group, sim.joint_states(body, group.joints)[0])
+
+
+def jump(sim: Simulator, body: int, group: Group, path: Array, carry: Callable[[], None]) -> None:
+    """Set the joints along ``path``, one tick a row; ``carry`` moves along what is held."""
+    for row in dense(path, group.strides)[1:].tolist():
+        sim.set_joints(body, group.joints, row)
+        carry()
+        sim.tick()
+    hold(sim, body, group, path[-1].tolist())

@@ -1,0 +1,286 @@
+"""The PR2's URDF: where it is, what is wrong with it, and a repaired copy in the user's cache directory.
+
+The package ``example-robot-data`` holds the robot with its meshes. pybullet loads it as it is, and then the arms are
+black (their meshes have no normals), the robot is 14 kg too heavy (frames without ``<inertial>`` get 1 kg each) and it
+cannot drive (the wheels are fixed, and the base has no joints). The copy is made once for each content of the source.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import os
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.files import make_directory, write_bytes
+
+BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
+TORSO = "torso_lift_joint"
+HEAD = ("head_pan_joint", "head_tilt_joint")
+ARM = (
+    "shoulder_pan_joint",
+    "shoulder_lift_joint",
+    "upper_arm_roll_joint",
+    "elbow_flex_joint",
+    "forearm_roll_joint",
+    "wrist_flex_joint",
+    "wrist_roll_joint",
+)
+FINGERS = (
+    "gripper_l_finger_joint",
+    "gripper_r_finger_joint",
+    "gripper_l_finger_tip_joint",
+    "gripper_r_finger_tip_joint",
+)
+TOOL = "gripper_tool_frame"
+_DISTRIBUTION = "example-robot-data"
+_ADVICE = "pip install 'tmd[robot]'"
+_FRAME_MASS = 1e-3
+_HALL = 100.0
+"""Metres: the range of the base's two sliding joints, more than any room."""
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A PR2 that pybullet can load.
+
+    Attributes:
+        urdf: The repaired file.
+        root: Its parsed ``<robot>``.
+        disabled: Pairs of links, in both orders, that never collide or always do (the SRDF's list, and neighbours).
+    """
+
+    urdf: Path
+    root: ET.Element
+    disabled: frozenset[tuple[str, str]]
+
+
+def prepare(urdf: Path | None = None) -> Model:
+    """Repair a PR2's URDF, or the packaged one.
+
+    Raises:
+        MissingToolError: The package or its meshes are not there.
+        TmdError: ``urdf`` cannot be read, is no PR2, or lacks a mesh.
+    """
+    source = packaged("urdf/pr2.urdf") if urdf is None else urdf
+    root = _read(source, "robot")
+    check(source, root)
+    meshes = {}
+    for mesh in root.iter("mesh"):
+        name = mesh.get("filename", "")
+        path = _find_mesh(source, name)
+        if path is None:
+            if urdf is None:
+                raise MissingToolError(f"the PR2's mesh {name} is missing", hint=f"{_ADVICE} --force-reinstall")
+            raise TmdError(f"{source}: its mesh {name} is missing", hint="put the meshes where the URDF names them")
+        meshes[name] = path
+    contents = {path: path.read_bytes() for path in sorted(set(meshes.values()))}
+    folder = _cache() / _digest(source.read_bytes(), *contents.values(), *(str(p).encode() for p in contents))
+    names = {path: f"{index:02d}-{path.name}" for index, path in enumerate(contents)}
+    repair(root, {name: str(folder / names[path]) for name, path in meshes.items()})
+    target = folder / "pr2.urdf"
+    files = {folder / names[path]: with_normals(data) for path, data in contents.items()}
+    files[target] = ET.tostring(root, encoding="utf-8")  # last: where it is, everything is
+    if not all(file.is_file() for file in files):
+        make_directory(folder)
+        for file, data in files.items():
+            write_bytes(file, data)
+    return Model(target, root, _disabled(root))
+
+
+def packaged(name: str) -> Path:
+    """A file of the PR2 in ``example-robot-data``.
+
+    Raises:
+        MissingToolError: The package, or the file in it, is not there.
+    """
+    try:
+        files = importlib.metadata.files(_DISTRIBUTION) or []
+    except importlib.metadata.PackageNotFoundError as error:
+        raise MissingToolError(f"the PR2's model is missing: no package {_DISTRIBUTION}", hint=_ADVICE) from error
+    found = [file for file in files if file.as_posix().endswith(f"pr2_description/{name}")]
+    path = Path(str(found[0].locate())) if found else None
+    if path is None or not path.is_file():
+        raise MissingToolError(f"{_DISTRIBUTION} has no pr2_description/{name}", hint=f"{_ADVICE} --force-reinstall")
+    return path
+
+
+def check(source: Path, root: ET.Element) -> None:
+    """See that a URDF is a PR2's.
+
+    Raises:
+        TmdError: Joints are missing; the message names some of them.
+    """
+    movable = {joint.get("name") for joint in root.findall("joint") if joint.get("type") != "fixed"}
+    wanted = [TORSO, *HEAD, *(f"{side}_{joint}" for side in "rl" for joint in (*ARM, *FINGERS))]
+    missing = [joint for joint in wanted if joint not in movable]
+    links = {link.get("name") for link in root.findall("link")}
+    frames = ["base_footprint", "base_link", *(f"{side}_{TOOL}" for side in "rl")]
+    missing_links = [frame for frame in frames if frame not in links]
+    if missing or missing_links:
+        parts = [_lacks(kind, names) for kind, names in (("joint", missing), ("link", missing_links)) if names]
+        raise TmdError(f"{source} is no PR2: {'; '.join(parts)}", hint="leave --urdf out for the packaged PR2")
+    if _root_link(root) != "base_footprint":
+        raise TmdError(
+            f"{source}: its root is {_root_link(root)}, not base_footprint",
+            hint="take the joints in front of base_footprint out: the base gets its own",
+        )
+
+
+def _lacks(kind: str, names: list[str]) -> str:
+    plural = "s" if len(names) > 1 else ""
+    return f"{len(names)} {kind}{plural} missing: {', '.join(names[:4])}{', …' if len(names) > 4 else ''}"
+
+
+def repair(root: ET.Element, meshes: dict[str, str]) -> None:
+    """Mend a parsed URDF in place.
+
+    Frames that carry nothing are left out, except the tool frames: fewer links are faster. What remains without
+    ``<inertial>`` gets a gram. The base gets joints: x and y slide, theta turns.
+
+    Args:
+        root: ``<robot>``.
+        meshes: What to write for every mesh file name.
+    """
+    for extra in [child for child in root if child.tag not in ("link", "joint", "material")]:
+        root.remove(extra)
+    while idle := _idle_leaves(root):
+        for child in list(root):
+            name = child.get("name", "") if child.tag == "link" else _end(child, "child")
+            if name in idle:
+                root.remove(child)
+    for mesh in root.iter("mesh"):
+        mesh.set("filename", meshes[mesh.get("filename", "")])
+    for link in root.findall("link"):
+        if link.find("inertial") is None:
+            link.append(_inertial(_FRAME_MASS))
+    kinds = (("prismatic", "1 0 0"), ("prismatic", "0 1 0"), ("continuous", "0 0 1"))
+    frames = ("base_origin", "base_x_link", "base_y_link", "base_footprint")
+    for frame in frames[:-1]:
+        ET.SubElement(root, "link", name=frame).append(_inertial(1.0))
+    for joint_name, (kind, axis), before, after in zip(BASE_JOINTS, kinds, frames[:-1], frames[1:], strict=True):
+        joint = ET.SubElement(root, "joint", name=joint_name, type=kind)
+        ET.SubElement(joint, "parent", link=before)
+        ET.SubElement(joint, "child", link=after)
+        ET.SubElement(joint, "axis", xyz=axis)
+        limits = {} if kind == "continuous" else {"lower": str(-_HALL), "upper": str(_HALL)}
+        ET.SubElement(joint, "limit", limits, effort="1e5", velocity="2")
+
+
+def with_normals(data: bytes) -> bytes:
+    """A binary STL with the normals of its facets; any other file as it is."""
+    facets = int.from_bytes(data[80:84], "little")
+    if len(data) != 84 + 50 * facets:
+        return data
+    kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("rest", "<u2")])
+    mesh = np.frombuffer(data, kind, offset=84).copy()
+    corners = mesh["corners"].astype(float)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    mesh["normal"] = np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0)
+    return data[:84] + mesh.tobytes()
+
+
+def _read(path: Path, tag: str) -> ET.Element:
+    try:
+        root = ET.fromstring(path.read_bytes())
+    except OSError as error:
+        raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
+    except ET.ParseError as error:
+        raise TmdError(f"{path} is no XML: {error}", hint="name a URDF file; xacro files must be expanded") from error
+    if root.tag != tag:
+        raise TmdError(f"{path} is no URDF: its root is <{root.tag}>, not <{tag}>", hint="name a URDF file")
+    return root
+
+
+def _find_mesh(source: Path, name: str) -> Path | None:
+    """A mesh file: beside the URDF, or anywhere above it for ``package://`` names."""
+    path = Path(name.removeprefix("file://"))
+    if not name.startswith("package://"):
+        found = path if path.is_absolute() else source.resolve().parent / path
+        return found if found.is_file() else None
+    whole = Path(name.removeprefix("package://"))
+    shorter = Path(*whole.parts[1:])
+    candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
+    return next((candidate for candidate in candidates if candidate.is_file()), None)
+
+
+def _end(joint: ET.Element, end: str) -> str:
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")
+
+
+def _root_link(root: ET.Element) -> str:
+    children = {_end(joint, "child") for joint in root.findall("joint")}
+    return next((link.get("name", "") for link in root.findall("link") if link.get("name") not in children), "")
+
+
+def _idle_leaves(root: ET.Element) -> set[str]:
+    """Links without children that are neither seen nor met: sensor frames, and helpers of the gripper."""
+    parents = {_end(joint, "parent") for joint in root.findall("joint")}
+    return {
+        link.get("name", "")
+        for link in root.findall("link")
+        if link.get("name") not in parents
+        and not link.get("name", "").endswith(TOOL)
+        and link.find("collision") is None
+        and link.find("visual/geometry/mesh") is None
+    }
+
+
+def _inertial(mass: float) -> ET.Element:
+    """A small ball of 2 cm, so that the tensor is positive."""
+    inertial = ET.Element("inertial")
+    ET.SubElement(inertial, "mass", value=repr(mass))
+    moment = repr(0.4 * mass * 0.02**2)
+    ET.SubElement(inertial, "inertia", ixx=moment, iyy=moment, izz=moment, ixy="0", ixz="0", iyz="0")
+    return inertial
+
+
+def _disabled(root: ET.Element) -> frozenset[tuple[str, str]]:
+    """Pairs that need no check: the SRDF's, and links that are joined by one joint."""
+    pairs = {(_end(joint, "parent"), _end(joint, "child")) for joint in root.findall("joint")}
+    srdf = _read(packaged("srdf/pr2.srdf"), "robot")
+    pairs |= {(pair.get("link1", ""), pair.get("link2", "")) for pair in srdf.findall("disable_collisions")}
+    return frozenset(pairs | {(b, a) for a, b in pairs})
+
+
+@cache
+def _cache() -> Path:
+    """The user's cache directory, or a temporary one where that cannot be written."""
+    if sys.platform == "win32":
+        home = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        home = Path.home() / "Library" / "Caches"
+    else:
+        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    try:
+        folder = make_directory(home / "tmd" / "pr2")
+        if os.access(folder, os.W_OK):
+            return folder
+    except OutputError:
+        pass
+    return Path(tempfile.mkdtemp(prefix="tmd-pr2-"))
+
+
+def _digest(*parts: bytes) -> str:
+    """A name for the contents and for the present text of this module, whose repairs are in the copy."""
+    total = hashlib.sha256()
+    for part in _lengths((*parts, Path(__file__).read_bytes())):
+        total.update(part)
+    return total.hexdigest()[:20]
+
+
+def _lengths(parts: Iterable[bytes]) -> Iterable[bytes]:
+    for part in parts:
+        yield len(part).to_bytes(8, "little")
+        yield part

@@ -1,0 +1,89 @@
+"""What there is in a scene by name: objects, their parts, how they are built. No simulator is needed to know that."""
+
+from __future__ import annotations
+
+from tmd.diagnostics import TmdError
+from tmd.robot.assets.features import Region
+from tmd.robot.assets.shapes import Blueprint
+from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.furniture_layout import Footprint
+from tmd.robot.sim.pose import Vector
+from tmd.world.environment import Environment
+
+FLOOR = "floor"
+
+
+class Catalogue:
+    """The objects of an environment, and the names of their parts.
+
+    Args:
+        environment: What there is.
+        blueprints: How each object is built.
+        parts: The parts of each object.
+    """
+
+    def __init__(self, environment: Environment, blueprints: dict[str, Blueprint], parts: dict[str, list[str]]) -> None:
+        self.environment = environment
+        self.blueprints = blueprints
+        self._spelled = {meant: said for said, meant in environment.called.items()}
+        self._places: dict[str, tuple[str, str]] = {FLOOR: (FLOOR, ROOT)}
+        for name in blueprints:
+            self._places[name] = (name, ROOT)
+            for part in parts[name]:
+                self._places[self.named(name, part)] = (name, part)
+        for said, meant in environment.called.items():
+            if said not in self._places:
+                self._places[said] = self.where(meant)
+
+    def named(self, whole: str, part: str) -> str:
+        """The name of a part of an object; of the object itself where no part is given."""
+        usual = f"{whole}_{part}"
+        return self._spelled.get(usual, usual) if part else whole
+
+    def whole(self, name: str) -> str:
+        """The object that an object or part belongs to."""
+        return self.where(name)[0]
+
+    def where(self, name: str) -> tuple[str, str]:
+        """The object, and the part of it (``ROOT``: the whole), that a name means.
+
+        Raises:
+            TmdError: There is no such thing.
+        """
+        if name not in self._places:
+            raise TmdError(f"there is no '{name}' in the scene of {self.environment.name}")
+        return self._places[name]
+
+    def is_item(self, name: str) -> bool:
+        """Whether it can be carried."""
+        return name in self.blueprints and self.blueprints[name].sort == "item"
+
+    def items(self) -> list[str]:
+        """All items, in file order."""
+        return [name for name in self.blueprints if self.is_item(name)]
+
+    def names(self) -> list[str]:
+        """All objects and parts, in file order."""
+        return [name for name in self._places if name != FLOOR]
+
+    def holds_contents(self, item: str) -> bool:
+        """Whether it is a vessel: what is in it is seen."""
+        return bool(self.blueprints[item].model.contents)
+
+    def size(self, item: str) -> tuple[Vector, Vector]:
+        """The item's box, lower and upper corner, in its own frame."""
+        model = self.blueprints[item].model
+        return (model.low[0], model.low[1], model.low[2]), (model.high[0], model.high[1], model.high[2])
+
+    def footprint(self, item: str) -> Footprint:
+        """The item's rectangle on what it stands on."""
+        low, high = self.size(item)
+        return (low[0], low[1], high[0], high[1])
+
+    def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
+        """The regions of an object or part, each with the object; those of one relation if it is given."""
+        whole, part = self.where(name)
+        if whole == FLOOR:
+            return []
+        regions = self.blueprints[whole].model.regions
+        return [(whole, r) for r in regions if r.part == part and relation in (None, r.relation)]

@@ -1,0 +1,147 @@
+"""Where things stand: fixtures along three walls, items on free spots of what they are at.
+
+The robot starts in the middle, at the origin, and looks along +x at the far wall. Fixtures stand in file order along
+the left wall, the far wall and the right wall. Everything is plain geometry: no physics, nothing random.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from tmd.robot.sim.pose import Pose, Vector
+
+FREE_FLOOR = 1.75
+"""From the middle of the room to the fronts, at least."""
+GAP = 0.12
+"""Between neighbours."""
+CORNER = 0.35
+"""Beside the outermost fixture of a wall."""
+Footprint = tuple[float, float, float, float]
+"""x and y of the lower and of the upper corner, in the thing's own frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class Room:
+    """The room around the fixtures.
+
+    Attributes:
+        poses: Where the fixtures stand.
+        low: x and y of the lower corner.
+        high: x and y of the upper corner.
+    """
+
+    poses: dict[str, Pose]
+    low: tuple[float, float]
+    high: tuple[float, float]
+
+
+def arrange(sizes: dict[str, tuple[float, float]]) -> Room:
+    """Stand fixtures along the walls of a room.
+
+    Args:
+        sizes: Depth and width of each, in file order.
+    """
+    groups = _thirds(sizes)
+    lengths = [_length([sizes[n][1] for n in group]) for group in groups]
+    across = max(FREE_FLOOR, lengths[1] / 2 + CORNER)
+    ahead = max(FREE_FLOOR, max(lengths[0], lengths[2]) / 2 + CORNER)
+    poses: dict[str, Pose] = {}
+    for group, length, (yaw, front) in zip(
+        groups, lengths, ((-math.pi / 2, across), (math.pi, ahead), (math.pi / 2, across)), strict=True
+    ):
+        # a wall is read from its left to its right by who stands before it: along the fixtures' own +y
+        along = -length / 2
+        for name in group:
+            depth, width = sizes[name]
+            away, side = front + depth / 2, along + width / 2
+            c, s = math.cos(yaw), math.sin(yaw)
+            poses[name] = Pose.flat(_round(-c * away - s * side), _round(-s * away + c * side), 0.0, yaw)
+            along += width + GAP
+    deepest = max((depth for depth, _ in sizes.values()), default=0.5)
+    reach_x, reach_y = ahead + deepest + 0.05, across + deepest + 0.05
+    return Room(poses, (-max(2.2, reach_x), -reach_y), (reach_x, reach_y))
+
+
+def _round(value: float) -> float:
+    return round(value, 6)
+
+
+def _length(widths: Sequence[float]) -> float:
+    return sum(widths) + GAP * max(len(widths) - 1, 0)
+
+
+def _thirds(sizes: dict[str, tuple[float, float]]) -> list[list[str]]:
+    """The names in order, cut into three groups whose greatest length is least."""
+    names = list(sizes)
+    best: tuple[float, int, int] | None = None
+    for first in range(len(names) + 1):
+        for second in range(first, len(names) + 1):
+            groups = (names[:first], names[first:second], names[second:])
+            longest = max(_length([sizes[n][1] for n in group]) for group in groups)
+            if best is None or longest < best[0] - 1e-9:
+                best = (longest, first, second)
+    _, first, second = best or (0.0, 0, 0)
+    return [names[:first], names[first:second], names[second:]]
+
+
+def apart(one: Pose, own: Footprint, other: Pose, its: Footprint, gap: float) -> bool:
+    """Whether two upright things stand at least ``gap`` from each other (by separating axes of their rectangles)."""
+    corners = [_corners(one, own, gap / 2), _corners(other, its, gap / 2)]
+    for pose in (one, other):
+        yaw = pose.yaw()
+        for angle in (yaw, yaw + math.pi / 2):
+            c, s = math.cos(angle), math.sin(angle)
+            spans = [[x * c + y * s for x, y in four] for four in corners]
+            if max(spans[0]) <= min(spans[1]) or max(spans[1]) <= min(spans[0]):
+                return True
+    return False
+
+
+def inside(pose: Pose, own: Footprint, low: Vector, high: Vector, frame: Pose, beyond: float) -> bool:
+    """Whether an upright thing's footprint is within the box ``low`` to ``high`` of ``frame``.
+
+    Args:
+        pose: Of the thing in the world.
+        own: Its footprint.
+        low: Lower corner.
+        high: Upper corner.
+        frame: The box's frame in the world.
+        beyond: How far it may stick out at the front (+x); ``inf``: anywhere, only its origin must be within.
+    """
+    if math.isinf(beyond):
+        own = (0.0, 0.0, 0.0, 0.0)
+    back = frame.inverse()
+    for x, y in _corners(pose, own, 0.0):
+        px, py, _ = back.apply((x, y, pose.position[2]))
+        if not (low[0] - 1e-6 <= px <= high[0] + beyond + 1e-6 and low[1] - 1e-6 <= py <= high[1] + 1e-6):
+            return False
+    return True
+
+
+def _corners(pose: Pose, own: Footprint, more: float) -> list[tuple[float, float]]:
+    points = []
+    for x in (own[0] - more, own[2] + more):
+        for y in (own[1] - more, own[3] + more):
+            px, py, _ = pose.apply((x, y, 0.0))
+            points.append((px, py))
+    return points
+
+
+def floor_spots(room: Room, taken: Iterable[tuple[Pose, Footprint]], own: Footprint) -> list[Pose]:
+    """Free places on the floor, those behind the robot first; the ways in front of the fixtures stay wide."""
+    spots = []
+    standing = list(taken)
+    robot = (Pose.flat(0.0, 0.0), (-0.45, -0.45, 0.45, 0.45))
+    reach = min(room.high[1] - 1.6, 1.6)
+    steps = range(-int(max(reach, 0.0) / 0.4), int(max(reach, 0.0) / 0.4) + 1)
+    for row in range(6):
+        for column in sorted(steps, key=lambda s: (abs(s), s)):
+            pose = Pose.flat(-0.8 - 0.4 * row, 0.4 * column)
+            if pose.position[0] - 0.3 < room.low[0]:
+                continue
+            if apart(pose, own, *robot, 0.1) and all(apart(pose, own, *other, 0.15) for other in standing):
+                spots.append((row % 2 + abs(column) % 2, pose))
+    # what lies close together is hard to drive up to: every other place is taken first
+    return [pose for _, pose in sorted(spots, key=lambda spot: spot[0])]

@@ -1,0 +1,173 @@
+"""Where every object of an environment goes: positions that it gives, else places that are found."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from numpy.random import Generator
+
+from tmd.diagnostics import TmdError
+from tmd.robot.assets.features import Region
+from tmd.robot.assets.shapes import Blueprint
+from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.furniture_layout import Footprint, Room, apart, arrange, floor_spots, inside
+from tmd.robot.sim.pose import Pose
+from tmd.world.environment import Environment
+
+GAPS = (0.1, 0.07, 0.05)
+"""Between items, the first that fits."""
+TURNS = (0.0, 0.8, -0.8, 1.57, -1.57)
+"""How things may be turned where they do not fit with their front to the front."""
+TALL = 0.12
+"""Items from this height on stand behind the lower ones."""
+JITTER = 0.003
+_OPEN = "opened"
+
+
+class Placing:
+    """The poses of all objects.
+
+    Args:
+        environment: What there is, and where.
+        blueprints: How each object is built.
+        rng: Moves items by millimetres; None: not at all.
+
+    Attributes:
+        room: The fixtures' poses and the walls.
+        poses: Of every object.
+
+    Raises:
+        TmdError: Something does not fit where it should be; with its place in the environment's file.
+    """
+
+    def __init__(self, environment: Environment, blueprints: Mapping[str, Blueprint], rng: Generator | None) -> None:
+        self._environment = environment
+        self._blueprints = blueprints
+        self._rng = rng
+        self.room = self._room()
+        self.poses: dict[str, Pose] = dict(self.room.poses)
+        self._footprints: dict[str, Footprint] = {n: _footprint(b) for n, b in blueprints.items()}
+        self._standing: list[tuple[str, str]] = []
+        for tall in (True, False):
+            for name, blueprint in blueprints.items():
+                if blueprint.sort == "item" and (blueprint.model.high[2] >= TALL) == tall:
+                    self._place(name)
+        self.poses = {name: self.poses[name] for name in blueprints}
+
+    def _room(self) -> Room:
+        sizes: dict[str, tuple[float, float]] = {}
+        given: dict[str, Pose] = {}
+        for name, blueprint in self._blueprints.items():
+            if blueprint.sort == "item":
+                continue
+            position = self._environment.objects[name].position
+            if position is None:
+                sizes[name] = (blueprint.look.size[0], blueprint.look.size[1])
+            else:
+                given[name] = _facing_the_middle(position[0], position[1])
+        room = arrange(sizes)
+        if not given:
+            return room
+        xs = [abs(p.position[0]) for p in given.values()]
+        ys = [abs(p.position[1]) for p in given.values()]
+        low = (min(room.low[0], -max(xs) - 0.6), min(room.low[1], -max(ys) - 0.6))
+        high = (max(room.high[0], max(xs) + 0.6), max(room.high[1], max(ys) + 0.6))
+        return Room({**room.poses, **given}, low, high)
+
+    def _place(self, name: str) -> None:
+        entry = self._environment.objects[name]
+        if entry.position is not None:
+            x, y, z = entry.position
+            self.poses[name] = Pose.flat(x, y, z)
+            self._standing.append((name, ""))
+            return
+        relation, where = (entry.at or "on floor").split()
+        own = self._footprints[name]
+        if where == "floor":
+            taken = [(self.poses[n], self._footprints[n]) for n, w in self._standing if w == "floor"]
+            taken += [(p, self._footprints[n]) for n, p in self.room.poses.items()]
+            spots = floor_spots(self.room, taken, own)
+            if not spots:
+                raise self._error(name, f"there is no room left on the floor for '{name}'", None)
+            self.poses[name] = self._shifted(spots[0])
+            self._standing.append((name, where))
+            return
+        whole, part = self._split(name, where)
+        for gap in GAPS:
+            pose = self._free(name, whole, part, relation, gap)
+            if pose is not None:
+                self.poses[name] = self._shifted(pose)
+                self._standing.append((name, where))
+                return
+        if not any(r.part == part and r.relation == relation for r in self._blueprints[whole].model.regions):
+            message = f"nothing can be {relation} '{where}': its shape has no such place"
+            raise self._error(name, message, "say a fitting `shape:` in objects.yaml (docs/scenes.md)")
+        hint = "make it larger by `size:` in objects.yaml, or put things elsewhere"
+        raise self._error(name, f"'{name}' finds no room {relation} '{where}'", hint)
+
+    def _free(self, name: str, whole: str, part: str, relation: str, gap: float) -> Pose | None:
+        """The first free spot; tall things take the rear row first, low ones the front row."""
+        blueprint, own = self._blueprints[name], self._footprints[name]
+        high = blueprint.model.high[2]
+        for region in self._blueprints[whole].model.regions:
+            if region.part != part or region.relation != relation or region.low[2] + high > region.high[2]:
+                continue
+            frame = self._frame(whole, region)
+            spots = list(region.spots)
+            if high >= TALL:
+                spots.sort(key=lambda spot: spot[0])
+            for turned in TURNS:
+                for x, y, z, yaw in spots:
+                    pose = frame * Pose.flat(x, y, z, yaw + turned)
+                    if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
+                        apart(pose, own, self.poses[other], self._footprints[other], gap)
+                        for other, _ in self._standing
+                        if abs(self.poses[other].position[2] - pose.position[2]) < 0.25
+                    ):
+                        return pose
+        return None
+
+    def _frame(self, whole: str, region: Region) -> Pose:
+        """The region's frame as the fixture stands at the start: a drawer may be open."""
+        model, pose = self._blueprints[whole].model, self.poses[whole]
+        frame = pose * Pose(model.offset(region.link))
+        link = model.links[region.link]
+        if link.kind == "prismatic" and self._environment.objects[whole].states.get(_OPEN) is True:
+            way = next((g.open for g in model.grips if g.link == region.link), 0.0)
+            x, y, z = link.axis
+            frame = frame * Pose((x * way, y * way, z * way))
+        return frame
+
+    def _shifted(self, pose: Pose) -> Pose:
+        if self._rng is None:
+            return pose
+        dx, dy = (float(value) for value in self._rng.uniform(-JITTER, JITTER, 2))
+        x, y, z = pose.position
+        return Pose((x + dx, y + dy, z), pose.orientation)
+
+    def _split(self, name: str, where: str) -> tuple[str, str]:
+        for whole in self._blueprints:
+            if where == whole:
+                return whole, ROOT
+            if where.startswith(f"{whole}_") and where[len(whole) + 1 :] in self._parts(whole):
+                return whole, where[len(whole) + 1 :]
+        raise self._error(name, f"there is no '{where}' that '{name}' could be at", None)
+
+    def _parts(self, whole: str) -> set[str]:
+        model = self._blueprints[whole].model
+        return set(model.part_links) | {region.part for region in model.regions}
+
+    def _error(self, name: str, message: str, hint: str | None) -> TmdError:
+        return self._environment.source.error(("objects", name, "at"), message, hint)
+
+
+def _footprint(blueprint: Blueprint) -> Footprint:
+    model = blueprint.model
+    return (model.low[0], model.low[1], model.high[0], model.high[1])
+
+
+def _facing_the_middle(x: float, y: float) -> Pose:
+    """A fixture at a given place looks along the axis that leads most straight to the middle of the room."""
+    if abs(x) >= abs(y):
+        return Pose.flat(x, y, 0.0, 3.141592653589793 if x > 0 else 0.0)
+    return Pose.flat(x, y, 0.0, -1.5707963267948966 if y > 0 else 1.5707963267948966)

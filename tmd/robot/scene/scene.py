@@ -1,0 +1,238 @@
+"""An environment as a physical world: what stands where, what can be taken, opened and put on, and what it shows."""
+
+from __future__ import annotations
+
+import math
+import tempfile
+from collections.abc import Collection, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from numpy.random import Generator
+
+from tmd.diagnostics import TmdError
+from tmd.robot.assets.colours import mixed
+from tmd.robot.assets.features import Grasp
+from tmd.robot.assets.room import build_room
+from tmd.robot.assets.shapes import Shapes
+from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.furniture_layout import Room
+from tmd.robot.scene.handles import Handle, grip_of, handle_of
+from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.placement import Placing
+from tmd.robot.scene.support_relations import Spot, boxes_meet, free_spots, supported
+from tmd.robot.sim.box_mesh import CUBE, cube
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.world.classes import ROOT as CLASS_ROOT
+from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
+
+if TYPE_CHECKING:
+    from tmd.robot.sim.simulator import Simulator
+
+__all__ = ["FLOOR", "OVERLAP", "SETTLE", "Handle", "Scene", "Spot"]
+
+SETTLE = 240
+"""Steps of physics before the scene is ready."""
+OVERLAP = 0.002
+"""Metres that two things may be in each other."""
+_OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
+
+
+class Scene(Inventory):
+    """All objects of an environment in a simulator, settled.
+
+    Args:
+        sim: An empty simulator.
+        environment: What there is and where.
+        folder: Its domain, with the shapes of its classes.
+        rng: Moves things by millimetres, so that no two seeds see quite the same scene; None: exact places.
+        settle: Steps of physics before the scene is ready.
+
+    Attributes:
+        bodies: The body of every object (parts are links of it), and of the floor.
+        room: Where the fixtures and walls are.
+        placed: Where every object was put before physics began.
+
+    Raises:
+        TmdError: A shape makes no sense, something does not fit where it should be, or things are in each other.
+    """
+
+    def __init__(
+        self,
+        sim: Simulator,
+        environment: Environment,
+        folder: DomainFolder,
+        *,
+        rng: Generator | None = None,
+        settle: int = SETTLE,
+    ) -> None:
+        shapes = Shapes(folder)
+        blueprints = {name: shapes.blueprint(entry.class_name) for name, entry in environment.objects.items()}
+        self._states = {
+            name: {
+                vertex.name: dict(vertex.states) for vertex in folder.classes.get(entry.class_name).vertices.values()
+            }
+            for name, entry in environment.objects.items()
+        }
+        parts = {name: [v for v in states if v != CLASS_ROOT] for name, states in self._states.items()}
+        super().__init__(sim, environment, blueprints, parts)
+        self._shown: dict[str, tuple[str, ...]] = {}
+        with tempfile.TemporaryDirectory(prefix="tmd-scene-") as directory:
+            self._load(Path(directory), rng)
+        self.index()
+        for name in self.bodies:
+            if name != FLOOR:
+                self._start(name)
+        self._refuse_overlaps()
+        if settle:
+            sim.step(settle)
+
+    # ------------------------------------------------------------------ building
+
+    def _load(self, directory: Path, rng: Generator | None) -> None:
+        placing = Placing(self.environment, self.blueprints, rng)
+        self.room: Room = placing.room
+        self.placed: dict[str, Pose] = placing.poses
+        (directory / CUBE).write_text(cube())
+        floor = directory / "room.urdf"
+        floor.write_text(build_room(self.room))
+        self.keep(FLOOR, self.sim.load(floor, Pose((0.0, 0.0, 0.0)), fixed=True))
+        for name, blueprint in self.blueprints.items():
+            path = directory / f"{blueprint.class_name}.urdf"
+            if not path.exists():
+                path.write_text(blueprint.urdf)
+            pose = self.placed[name]
+            if blueprint.sort == "item":
+                # a hair above what it stands on, so that nothing starts inside it
+                x, y, z = pose.position
+                pose = Pose((x, y, z + 0.001), pose.orientation)
+            self.keep(name, self.sim.load(path, pose, fixed=blueprint.sort != "item", own_inertia=True))
+
+    def _start(self, name: str) -> None:
+        """Joints, contents and signs as the environment says."""
+        body, model, entry = self.bodies[name], self.blueprints[name].model, self.environment.objects[name]
+        for link in model.links.values():
+            if link.spring:
+                self.sim.drive_joint(body, link.name, 0.0, link.spring)
+            elif link.kind in ("revolute", "prismatic"):
+                self.sim.brake_joint(body, link.name, link.friction)
+        for vertex, usual in self._states[name].items():
+            part = ROOT if vertex == CLASS_ROOT else vertex
+            states = {**usual, **(entry.states if part == ROOT else entry.parts.get(part, {}))}
+            grip = grip_of(self, name, part)
+            if grip is not None and grip.kind != "button":
+                setting = dict(grip.settings).get(str(states.get(_SET_TO)))
+                position = setting if setting is not None else grip.open if states.get(_OPENED) is True else grip.closed
+                self.sim.set_joint(body, grip.link, position)
+            whole = self.named(name, part)
+            for predicate, value in states.items():
+                self.sign(whole, predicate, value is True)
+            contained = states.get(_CONTAINS, [])
+            if part == ROOT and model.contents:
+                several = (
+                    contained if isinstance(contained, list) else [contained] if isinstance(contained, str) else []
+                )
+                self.show(name, several)
+
+    def _refuse_overlaps(self) -> None:
+        names = list(self.bodies)
+        extents = {name: self.sim.extents(self.bodies[name]) for name in names}
+        for index, one in enumerate(names):
+            for other in names[index + 1 :]:
+                if not boxes_meet(extents[one], extents[other]):
+                    continue
+                near = self.sim.closest(self.bodies[one], self.bodies[other], 0.0)
+                depth = max((-c.distance for c in near), default=0.0)
+                if depth > OVERLAP:
+                    self._overlap(one, other, depth)
+
+    def _overlap(self, one: str, other: str, depth: float) -> None:
+        guilty = other if self.environment.objects[other].position or one == FLOOR else one
+        path = ("objects", guilty, "position")
+        raise self.environment.source.error(
+            path,
+            f"'{one}' and '{other}' are in each other by {depth * 1000:.0f} mm",
+            "give other positions, or leave them out: then places are found",
+        )
+
+    # ------------------------------------------------------------------ where things may stand, and stand
+
+    def support(self, name: str, relation: str, item: str | None = None, held: Collection[str] = ()) -> list[Spot]:
+        """Free places on, in or next to something as it is now, best first.
+
+        Args:
+            name: An object or part, or the floor.
+            relation: ``on``, ``in`` or ``next_to``.
+            item: What is to stand there; without it, a thing 7 cm wide is meant.
+            held: What is in a hand, and takes no place away.
+        """
+        return free_spots(self, self.room, name, relation, item, held)
+
+    def supported(self, item: str) -> tuple[str, str] | None:
+        """What the item physically is on, in or next to now, and how; None while it is in the air or in a hand.
+
+        Where the middle of its underside is decides, together with what it touches: itself or, in a vessel or on
+        another item, through that.
+        """
+        return supported(self, item)
+
+    # ------------------------------------------------------------------ what can be taken and worked
+
+    def grasps(self, item: str) -> Sequence[Grasp]:
+        """How an item can be taken: ``Grasp.tool.pose()`` is in the item's frame."""
+        return self.blueprints[item].model.grasps
+
+    def handle(self, name: str) -> Handle | None:
+        """What opens, turns or presses an object or part now; None where nothing does."""
+        return handle_of(self, name)
+
+    def spring_open(self, name: str) -> None:
+        """Let a door that has been unlatched swing open by itself."""
+        handle = self.handle(name)
+        if handle is None:
+            raise TmdError(f"'{name}' has no joint")
+        self.sim.drive_joint(handle.body, handle.joint, handle.open, 2.0, 1.2)
+
+    def calm(self, name: str) -> None:
+        """Leave a joint to its own friction again, after :meth:`spring_open` or a drive."""
+        whole, part = self.where(name)
+        grip = grip_of(self, whole, part)
+        if grip is not None:
+            self.sim.brake_joint(self.bodies[whole], grip.link, self.blueprints[whole].model.links[grip.link].friction)
+
+    # ------------------------------------------------------------------ what it shows
+
+    def show(self, name: str, substances: Sequence[str]) -> None:
+        """Let a vessel be seen to contain this: the first substance fills it, the others lie on top."""
+        whole, _ = self.where(name)
+        model, body = self.blueprints[whole].model, self.bodies[whole]
+        groups = [list(substances[:1]), list(substances[1:])]
+        self._shown[name] = tuple(substances)
+        for link, group in zip(model.contents, groups, strict=False):
+            colour = mixed(group) if group else (0.0, 0.0, 0.0, 0.0)
+            self.sim.colour(body, self.link(whole, link), colour)
+
+    def shown(self, name: str) -> tuple[str, ...]:
+        """What a vessel is seen to contain."""
+        return self._shown.get(name, ())
+
+    def sign(self, name: str, predicate: str, on: bool) -> None:
+        """Let a state be seen: a burner glows, the tap runs, the microwave is lit; nothing where there is no sign."""
+        whole, part = self.where(name)
+        if whole == FLOOR:
+            return
+        for lamp in self.blueprints[whole].model.lamps:
+            if lamp.part == part and lamp.predicate == predicate:
+                self.sim.colour(self.bodies[whole], self.link(whole, lamp.link), lamp.on if on else lamp.off)
+
+    def viewpoint(self, around: Sequence[str] = ()) -> tuple[Vector, Vector]:
+        """Eye and target of a camera that sees some things (or the whole room) and the robot before them."""
+        if not around:
+            return (self.room.low[0] - 0.9, 0.0, 3.4), (0.5, 0.0, 0.4)
+        points = [self.sim.pose(*self.place(name)).position for name in around]
+        x, y, z = (sum(values) / len(points) for values in zip(*points, strict=True))
+        away = math.hypot(x, y) or 1.0
+        side = 0.75 if y <= 0 else -0.75
+        eye = (x - x / away * 1.9 - side * y / away, y - y / away * 1.9 + side * x / away, max(z, 0.7) + 1.1)
+        return eye, (x, y, max(z, 0.5))

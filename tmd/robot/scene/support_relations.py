@@ -1,0 +1,187 @@
+"""Where things may stand in a scene as it is now, and what they stand on, in or next to."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import dataclass
+from typing import Protocol
+
+from tmd.robot.assets.features import Region
+from tmd.robot.scene.furniture_layout import Footprint, Room, apart, floor_spots, inside
+from tmd.robot.scene.inventory import FLOOR, Inventory
+from tmd.robot.scene.placement import TURNS
+from tmd.robot.sim.pose import Pose, Vector
+
+GAP = 0.05
+"""Between two items that stand side by side, at least."""
+HEAP_GAP = 0.01
+"""The same in a basket or a bag, which nothing is to be taken out of in order."""
+APART = 0.15
+"""Between spots that count as different."""
+_TOUCH = 0.004
+_ON_TOP = 0.004
+"""Above what lies in a heap already."""
+
+
+@dataclass(frozen=True, slots=True)
+class Spot:
+    """A free place: the pose that an item's frame would have, in the world, now."""
+
+    pose: Pose
+
+
+class Things(Protocol):
+    """What has to be known of a scene to find free places in it."""
+
+    def items(self) -> list[str]:
+        """All items."""
+        ...
+
+    def whole(self, name: str) -> str:
+        """The object that an object or part belongs to."""
+        ...
+
+    def footprint(self, item: str) -> Footprint:
+        """The item's rectangle on what it stands on."""
+        ...
+
+    def size(self, item: str) -> tuple[Vector, Vector]:
+        """The item's box in its own frame."""
+        ...
+
+    def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
+        """The regions of an object or part, each with the object."""
+        ...
+
+    def frame(self, whole: str, link: str) -> Pose:
+        """Where a link of an object is now."""
+        ...
+
+    def pose_of(self, item: str) -> Pose:
+        """Where an object is now."""
+        ...
+
+    def top_of(self, item: str) -> float:
+        """The height of its highest point now."""
+        ...
+
+
+def free_spots(
+    things: Things, room: Room, name: str, relation: str, item: str | None, held: Collection[str] = ()
+) -> list[Spot]:
+    """Free places on, in or next to something, best first; see :meth:`tmd.robot.scene.scene.Scene.support`."""
+    own = things.footprint(item) if item is not None else (-0.035, -0.035, 0.035, 0.035)
+    names = [other for other in things.items() if other not in (item, things.whole(name), *held)]
+    others = {other: (things.pose_of(other), things.footprint(other)) for other in names}
+    if name == FLOOR:
+        return [Spot(pose) for pose in floor_spots(room, others.values(), own)]
+    tall = 0.0 if item is None else things.size(item)[1][2]
+    spots: list[Spot] = []
+    heaped: list[Spot] = []
+    for whole, region in things.regions(name, relation):
+        if region.low[2] + tall > region.high[2]:
+            continue
+        frame = things.frame(whole, region.link)
+        low, high = region.low[2] + frame.position[2], region.high[2] + frame.position[2]
+        near = {o: at for o, at in others.items() if low - 0.05 < at[0].position[2] < high}
+        for turned in TURNS:
+            fitting = _fitting(frame, region, turned, own)
+            gap = HEAP_GAP if region.heap else GAP
+            free = [pose for pose in fitting if all(apart(pose, own, *at, gap) for at in near.values())]
+            spots += map(Spot, free)
+            if region.heap:
+                taken = [pose for pose in fitting if pose not in free]
+                heaped += (Spot(pose) for pose in _heaped(things, taken, own, near, high))
+            if free:
+                break
+    # beside what lies in a heap there may be room for a thing, and none for the hand
+    return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
+
+
+def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list[Pose]:
+    """The spots of a region in which a thing does not stick out."""
+    poses = [frame * Pose.flat(x, y, z, yaw + turned) for x, y, z, yaw in region.spots]
+    return [pose for pose in poses if inside(pose, own, region.low, region.high, frame, region.overhang)]
+
+
+def _heaped(
+    things: Things, poses: list[Pose], own: Footprint, near: dict[str, tuple[Pose, Footprint]], rim: float
+) -> list[Pose]:
+    """The same spots, on top of what lies there."""
+    found = []
+    for pose in poses:
+        below = [other for other, at in near.items() if not apart(pose, own, *at, 0.0)]
+        top = max((things.top_of(other) for other in below), default=pose.position[2])
+        if top + _ON_TOP < rim:
+            found.append(Pose((pose.position[0], pose.position[1], top + _ON_TOP), pose.orientation))
+    return found
+
+
+def supported(things: Inventory, item: str) -> tuple[str, str] | None:
+    """What an item is on, in or next to, and how; see :meth:`tmd.robot.scene.scene.Scene.supported`."""
+    touched = _touched(things, item)
+    if not touched:
+        return None
+    point = things.sim.pose(things.bodies[item]).position
+    best: tuple[float, str, str] | None = None
+    for whole in things.blueprints:
+        if whole not in touched:
+            continue
+        for region in things.blueprints[whole].model.regions:
+            if _reaches(region, things.frame(whole, region.link).inverse().apply(point)):
+                volume = math.prod(high - low for low, high in zip(region.low, region.high, strict=True))
+                if best is None or volume < best[0]:
+                    best = (volume, things.named(whole, region.part), region.relation)
+    if best is not None:
+        return best[1], best[2]
+    return (FLOOR, "on") if FLOOR in touched else None
+
+
+def _reaches(region: Region, local: Vector) -> bool:
+    """Whether a point of the region's frame is in it, or a little below."""
+    deep = 0.03 if region.relation != "in" else 0.015
+    return all(
+        low - (deep if axis == 2 else 0.005) <= value <= high + (0.0 if axis == 2 else 0.005)
+        for axis, (low, value, high) in enumerate(zip(region.low, local, region.high, strict=True))
+    )
+
+
+def _touched(things: Inventory, item: str) -> set[str]:
+    """The objects that carry an item, directly or through other items."""
+    found: set[str] = set()
+    waiting = [item]
+    while waiting:
+        current = waiting.pop()
+        for other in _neighbours(things, current):
+            if other not in found and other != item:
+                found.add(other)
+                if things.is_item(other):
+                    waiting.append(other)
+    return found
+
+
+def _neighbours(things: Inventory, item: str) -> list[str]:
+    body = things.bodies[item]
+    box = things.sim.extents(body)
+    names = []
+    for other, its in things.bodies.items():
+        if other == item or not boxes_meet(box, things.sim.extents(its), _TOUCH):
+            continue
+        if any(c.distance < _TOUCH for c in things.sim.closest(body, its, _TOUCH)):
+            names.append(other)
+    return names
+
+
+def _spread(spots: list[Spot]) -> list[Spot]:
+    """The same spots with those first that are not beside an earlier one: a few tries then reach far."""
+    first: list[Spot] = []
+    for spot in spots:
+        if all(spot.pose.distance(other.pose) >= APART for other in first):
+            first.append(spot)
+    return [*first, *(spot for spot in spots if spot not in first)]
+
+
+def boxes_meet(one: tuple[Vector, Vector], other: tuple[Vector, Vector], gap: float = 0.0) -> bool:
+    """Whether two boxes along the axes are less than ``gap`` from each other."""
+    return all(one[0][axis] - gap <= other[1][axis] and other[0][axis] - gap <= one[1][axis] for axis in range(3))

@@ -1,0 +1,158 @@
+"""A simulation that is ready for a plan: the room, the robot in it, and what sees whether the plan works."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Self
+
+import numpy as np
+
+from tmd.pddl.model import GroundAtom, Problem
+from tmd.planning.backends import IN_PROCESS
+from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
+from tmd.robot.monitor.faults import Fault, FaultyPerformer, Happening
+from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
+from tmd.robot.monitor.observation import Observer
+from tmd.robot.pr2.pr2 import Pr2
+from tmd.robot.scene.scene import Scene
+from tmd.robot.setup import show_state
+from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import Simulator
+from tmd.robot.skills.performer import RobotPerformer
+from tmd.robot.skills.results import Execution, Step
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.skill_file import load_skills
+from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
+
+TICK = 1 / 15
+"""Seconds that a kinematic tick is shown for: it is a stride of a few centimetres."""
+
+
+class Stage:
+    """An environment with a PR2 in it.
+
+    Args:
+        environment: What there is and where.
+        folder: Its domain, with shapes and skills.
+        problem: The environment as PDDL.
+        kinematic: Set joints along their paths instead of driving motors.
+        seed: Of everything random. With 0 all things stand exactly where they are said to be; other seeds move them
+            by millimetres.
+        urdf: Another PR2 than the packaged one.
+        gui: Open a window, and go no faster than real time.
+        pictures: Pictures will be taken.
+
+    Attributes:
+        sim: The simulation.
+        cell: Robot and scene.
+        skills: The domain's.
+        happenings: The faults that came about.
+
+    Raises:
+        MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
+        TmdError: The domain has no skills or no shapes, the scene cannot be built, or ``urdf`` is no PR2.
+    """
+
+    def __init__(
+        self,
+        environment: Environment,
+        folder: DomainFolder,
+        problem: Problem,
+        *,
+        kinematic: bool = False,
+        seed: int = 0,
+        urdf: Path | None = None,
+        gui: bool = False,
+        pictures: bool = False,
+    ) -> None:
+        self.problem = problem
+        self._seed = seed
+        self.skills = load_skills(folder)
+        self.happenings: list[Happening] = []
+        self.sim = Simulator(gui=gui, pictures=pictures)
+        try:
+            scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
+            rng = np.random.default_rng(seed)
+            robot = Pr2(self.sim, urdf=urdf, kinematic=kinematic, rng=rng)
+            self.cell = Cell(self.sim, robot, scene, rng)
+            self._observer = Observer(problem, folder, self.skills, self.cell)
+        except BaseException:
+            self.sim.close()
+            raise
+        if gui:
+            self.sim.add_watcher(_Pace(self.sim))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.sim.close()
+
+    def execute(
+        self,
+        orders: Sequence[Order],
+        listeners: Sequence[Listener] = (),
+        *,
+        planner: str = IN_PROCESS,
+        repairs: int = MOST_REPAIRS,
+        fault: Fault | None = None,
+    ) -> Execution:
+        """Carry out a plan.
+
+        Args:
+            orders: The plan.
+            listeners: Who is told how it goes.
+            planner: Mends it.
+            repairs: How often.
+            fault: Goes wrong once on the way; where is drawn by the stage's seed.
+
+        Returns:
+            How it went; listeners were told where in the plan each step stands.
+        """
+        plan = [order.instruction for order in orders]
+        robot = RobotPerformer(self.cell, self.skills)
+        performer: Performer = robot
+        if fault is not None:
+            performer = faulty = FaultyPerformer(robot, fault, np.random.default_rng([self._seed, 1]), plan)
+            self.happenings = faulty.log
+        recorder = Recorder(performer, orders, (_Signs(self), *listeners))
+        executor = Executor(
+            self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
+        )
+        return executor.execute(plan)
+
+
+class _Signs:
+    """Lets contents and signs look as the state that was observed."""
+
+    def __init__(self, stage: Stage) -> None:
+        self._stage = stage
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """Nothing has changed yet."""
+
+    def end(self, title: Title, step: Step) -> None:
+        """What was poured is there now, a burner glows."""
+        show_state(self._stage.cell.scene, self._stage.skills, step.state)
+
+
+class _Pace:
+    """Lets a simulation go no faster than real time: people watch it."""
+
+    def __init__(self, sim: Simulator) -> None:
+        self._steps, self._due = sim.steps, time.monotonic()
+
+    def __call__(self, sim: Simulator) -> None:
+        self._due += 1 / STEPS_PER_SECOND if sim.steps > self._steps else TICK
+        self._steps = sim.steps
+        ahead = self._due - time.monotonic()
+        if ahead > 0:
+            time.sleep(ahead)
+        else:
+            self._due = time.monotonic()  # what took long is not made up for

@@ -1,0 +1,165 @@
+"""A pybullet world before anything is in it: the connection, its clock, its camera, its saved states."""
+
+from __future__ import annotations
+
+import importlib.util
+from collections.abc import Callable, Sequence
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.diagnostics import MissingToolError
+from tmd.robot.sim.rendering import egl_starts, pybullet, quiet, window_opens
+
+STEPS_PER_SECOND = 240
+ITERATIONS = 50
+GRAVITY = 9.81
+
+
+class Engine:
+    """A world with gravity, empty at first.
+
+    Args:
+        gui: Open a window. Needs a display.
+        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
+            drawn by pybullet's own slower renderer.
+
+    Attributes:
+        steps: Physics steps so far.
+        ticks: Steps and kinematic ticks so far: how often the watchers were called.
+        renderer: ``window``, ``egl`` or ``tiny``.
+
+    Raises:
+        MissingToolError: pybullet is not installed, or a window was asked for and cannot be opened.
+    """
+
+    def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
+        self._bullet = bullet = pybullet()
+        if gui and not window_opens():
+            raise MissingToolError(
+                "no window can be opened: there is no display, or it has no OpenGL",
+                hint="leave --gui out and ask for a film with --video FILE.mp4",
+            )
+        self.steps = 0
+        self.ticks = 0
+        self.gui = gui
+        self._watchers: list[Callable[[Any], None]] = []
+        with quiet():
+            self._client: int = bullet.connect(bullet.GUI if gui else bullet.DIRECT)
+            self.renderer = "window" if gui else "egl" if pictures and egl_starts() else "tiny"
+            if self.renderer == "egl":
+                self._load_egl()
+        if gui:
+            bullet.configureDebugVisualizer(bullet.COV_ENABLE_GUI, 0, physicsClientId=self._client)
+        bullet.setGravity(0, 0, -GRAVITY, physicsClientId=self._client)
+        bullet.setPhysicsEngineParameter(
+            fixedTimeStep=1 / STEPS_PER_SECOND,
+            numSolverIterations=ITERATIONS,
+            deterministicOverlappingPairs=1,
+            physicsClientId=self._client,
+        )
+
+    def _load_egl(self) -> None:
+        spec = importlib.util.find_spec("eglRenderer")
+        if spec is None or spec.origin is None:
+            raise AssertionError("the probe found the plugin")
+        self._bullet.loadPlugin(spec.origin, "_eglRendererPlugin", physicsClientId=self._client)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """End the world; nothing else can be called afterwards, except this."""
+        if self._client >= 0:
+            with quiet():
+                self._bullet.disconnect(physicsClientId=self._client)
+            self._client = -1
+
+    # time
+
+    def add_watcher(self, watcher: Callable[[Self], None]) -> None:
+        """Call ``watcher(self)`` after every step and tick."""
+        self._watchers.append(watcher)
+
+    def remove_watcher(self, watcher: Callable[[Self], None]) -> None:
+        """Call it no more."""
+        self._watchers.remove(watcher)
+
+    def step(self, count: int = 1) -> None:
+        """Let ``count`` 240ths of a second pass."""
+        for _ in range(count):
+            self._bullet.stepSimulation(physicsClientId=self._client)
+            self.steps += 1
+            self.tick()
+
+    def tick(self) -> None:
+        """Call the watchers without letting time pass: something was moved kinematically."""
+        self.ticks += 1
+        for watcher in tuple(self._watchers):
+            watcher(self)
+
+    # pictures and states
+
+    def picture(
+        self,
+        eye: Sequence[float],
+        target: Sequence[float],
+        width: int,
+        height: int,
+        *,
+        fov: float = 60.0,
+        shadow: bool = True,
+    ) -> NDArray[np.uint8]:
+        """What a camera at ``eye`` that looks at ``target`` sees, z up.
+
+        Args:
+            eye: Where the camera is.
+            target: Where it looks.
+            width: Pixels.
+            height: Pixels.
+            fov: Vertical angle of view in degrees.
+            shadow: Draw shadows.
+
+        Returns:
+            (height, width, 3), RGB.
+        """
+        bullet = self._bullet
+        view = bullet.computeViewMatrix(eye, target, (0, 0, 1))
+        projection = bullet.computeProjectionMatrixFOV(fov, width / height, 0.05, 30.0)
+        with quiet():  # EGL says hello at the first picture
+            image = bullet.getCameraImage(
+                width,
+                height,
+                view,
+                projection,
+                shadow=int(shadow),
+                lightDirection=(2.0, -3.0, 6.0),
+                lightAmbientCoeff=0.55,
+                lightDiffuseCoeff=0.5,
+                lightSpecularCoeff=0.05,
+                renderer=bullet.ER_TINY_RENDERER if self.renderer == "tiny" else bullet.ER_BULLET_HARDWARE_OPENGL,
+                flags=bullet.ER_NO_SEGMENTATION_MASK,
+                physicsClientId=self._client,
+            )
+        pixels = np.asarray(image[2], dtype=np.uint8).reshape(height, width, 4)
+        return np.ascontiguousarray(pixels[:, :, :3])
+
+    def save(self) -> int:
+        """Keep positions, velocities and contacts in memory (8 ms). Constraints and motor targets are not in it."""
+        token: int = self._bullet.saveState(physicsClientId=self._client)
+        return token
+
+    def restore(self, token: int) -> None:
+        """Make the world as it was when ``token`` was given; bodies must be the same."""
+        self._bullet.restoreState(token, physicsClientId=self._client)
+
+    def forget(self, token: int) -> None:
+        """Free the memory of a saved state."""
+        self._bullet.removeState(token, physicsClientId=self._client)

@@ -1,0 +1,90 @@
+"""pybullet itself: importing it without its chatter, and finding out what it can draw with on this machine."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib
+import importlib.util
+import os
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from typing import Any
+
+from tmd.diagnostics import MissingToolError
+
+_EGL = """
+import importlib.util, pybullet as p
+p.connect(p.DIRECT)
+plugin = p.loadPlugin(importlib.util.find_spec("eglRenderer").origin, "_eglRendererPlugin")
+assert plugin >= 0
+p.getCameraImage(16, 16, renderer=p.ER_BULLET_HARDWARE_OPENGL)
+"""
+_WINDOW = "import pybullet as p; assert p.connect(p.GUI) >= 0"
+_PATIENCE = 60.0
+
+
+@cache
+def pybullet() -> Any:  # noqa: ANN401 - it has no types
+    """The module ``pybullet``.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    try:
+        with quiet():
+            return importlib.import_module("pybullet")
+    except ImportError as error:
+        raise MissingToolError("the simulator pybullet is not installed", hint=_advice()) from error
+
+
+def _advice() -> str:
+    if sys.version_info >= (3, 12):
+        return "pip install 'tmd[robot]' with Python 3.11: pybullet has no wheels for newer ones"
+    return "pip install 'tmd[robot]'"
+
+
+@contextmanager
+def quiet() -> Iterator[None]:
+    """Drop what C code prints: standard output belongs to the results, standard error to the remarks of the program."""
+    sys.stdout.flush()
+    sys.stderr.flush()
+    library = ctypes.CDLL(None)
+    library.fflush(None)
+    kept = [os.dup(stream) for stream in (1, 2)]
+    sink = os.open(os.devnull, os.O_WRONLY)
+    try:
+        for stream in (1, 2):
+            os.dup2(sink, stream)
+        yield
+    finally:
+        library.fflush(None)  # what C still buffers would come out later
+        for stream, copy in zip((1, 2), kept, strict=True):
+            os.dup2(copy, stream)
+            os.close(copy)
+        os.close(sink)
+
+
+@cache
+def egl_starts() -> bool:
+    """Whether pictures can be drawn by EGL.
+
+    It is tried in a process of its own: where EGL cannot start, the plugin ends its process.
+    """
+    return importlib.util.find_spec("eglRenderer") is not None and _succeeds(_EGL)
+
+
+@cache
+def window_opens() -> bool:
+    """Whether pybullet can open its window; without a display it may end its process, so this is tried in another."""
+    return _succeeds(_WINDOW)
+
+
+def _succeeds(code: str) -> bool:
+    try:
+        run = subprocess.run([sys.executable, "-c", code], capture_output=True, timeout=_PATIENCE, check=False)
+    except (OSError, subprocess.TimeoutExpired):
+        return False
+    return run.returncode == 0

@@ -1,0 +1,261 @@
+"""One pybullet world: the only class that knows how pybullet is called (in three layers: engine, bodies, this one).
+
+Metres, kilograms, radians, seconds; the floor is z = 0 and z is up. A *body* is a number that :meth:`Simulator.load`
+gives, a *link* is the number of the joint that carries it, and −1 is the root. Poses are those of the frames in the
+URDF, never those of the centres of mass, which pybullet gives by default for the root.
+
+The world is deterministic: the same calls in the same order give the same floats on one machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tmd.robot.sim.bodies import Bodies
+from tmd.robot.sim.bodies import Joint as Joint
+from tmd.robot.sim.engine import STEPS_PER_SECOND as STEPS_PER_SECOND
+from tmd.robot.sim.pose import Pose as Pose
+from tmd.robot.sim.pose import Vector as Vector
+
+WELD_FORCE = 500.0
+"""Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""
+
+
+@dataclass(frozen=True, slots=True)
+class Contact:
+    """Two links that touch, or that are near each other.
+
+    Attributes:
+        body: The body asked about.
+        link: Its link.
+        other: The other body.
+        other_link: Its link.
+        distance: Between the surfaces; negative where they are in each other.
+        force: Of the contact along its normal, in newtons; 0 for distances.
+        position: On ``body``, in the world.
+    """
+
+    body: int
+    link: int
+    other: int
+    other_link: int
+    distance: float
+    force: float
+    position: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Hit:
+    """What a ray met first."""
+
+    body: int
+    link: int
+    position: Vector
+
+
+class Simulator(Bodies):
+    """A world with bodies that move, meet and are held.
+
+    Args:
+        gui: Open a window. Needs a display.
+        pictures: Draw by EGL where it starts. This must be known before anything is loaded; without it, pictures are
+            drawn by pybullet's own slower renderer.
+    """
+
+    def __init__(self, *, gui: bool = False, pictures: bool = False) -> None:
+        super().__init__(gui=gui, pictures=pictures)
+        self._joined: dict[int, tuple[int, int]] = {}
+
+    # joints
+
+    def _index(self, body: int, joint: int | str) -> int:
+        return joint if isinstance(joint, int) else self.joints(body)[joint].index
+
+    def joint_position(self, body: int, joint: int | str) -> float:
+        """Radians or metres."""
+        state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self._client)
+        return float(state[0])
+
+    def joint_states(self, body: int, joints: Sequence[int]) -> tuple[list[float], list[float]]:
+        """Positions and velocities of several joints."""
+        states = self._bullet.getJointStates(body, joints, physicsClientId=self._client)
+        return [state[0] for state in states], [state[1] for state in states]
+
+    def set_joint(self, body: int, joint: int | str, position: float) -> None:
+        """Put a joint there, at rest: never while physics runs."""
+        self.wake(body)
+        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self._client)
+
+    def set_joints(
+        self, body: int, joints: Sequence[int], positions: Sequence[float], velocities: Sequence[float] | None = None
+    ) -> None:
+        """Put several joints there at once: never while physics runs."""
+        speeds = [0.0] * len(joints) if velocities is None else velocities
+        self._bullet.resetJointStatesMultiDof(
+            body,
+            joints,
+            [[position] for position in positions],
+            [[speed] for speed in speeds],
+            physicsClientId=self._client,
+        )
+
+    def drive_joint(
+        self, body: int, joint: int | str, target: float, force: float, velocity: float | None = None
+    ) -> None:
+        """Let the joint's motor go to ``target`` and stay there, with at most ``force`` (N or N·m) and ``velocity``."""
+        self.wake(body)
+        limit = {} if velocity is None else {"maxVelocity": velocity}
+        self._bullet.setJointMotorControl2(
+            body,
+            self._index(body, joint),
+            self._bullet.POSITION_CONTROL,
+            targetPosition=target,
+            force=force,
+            physicsClientId=self._client,
+            **limit,
+        )
+
+    def drive_joints(
+        self,
+        body: int,
+        joints: Sequence[int],
+        targets: Sequence[float],
+        velocities: Sequence[float],
+        forces: Sequence[float],
+        gain: float,
+    ) -> None:
+        """Let several motors follow a trajectory: where to be now, and how fast to move.
+
+        Args:
+            body: Whose joints.
+            joints: Their numbers.
+            targets: Positions.
+            velocities: Velocities at the targets.
+            forces: The most that each motor may use.
+            gain: The part of a position error that a motor removes in one step.
+        """
+        self._bullet.setJointMotorControlArray(
+            body,
+            joints,
+            self._bullet.POSITION_CONTROL,
+            targetPositions=targets,
+            targetVelocities=velocities,
+            forces=forces,
+            positionGains=[gain] * len(joints),
+            velocityGains=[1.0] * len(joints),
+            physicsClientId=self._client,
+        )
+
+    def brake_joint(self, body: int, joint: int | str, force: float) -> None:
+        """Switch the joint's motor off; ``force`` (N or N·m) of friction is left, 0 lets it swing."""
+        self.wake(body)
+        self._bullet.setJointMotorControl2(
+            body,
+            self._index(body, joint),
+            self._bullet.VELOCITY_CONTROL,
+            targetVelocity=0.0,
+            force=force,
+            physicsClientId=self._client,
+        )
+
+    def set_friction(
+        self, body: int, link: int, lateral: float, *, spinning: float = 0.0, rolling: float = 0.0
+    ) -> None:
+        """Set the friction coefficients of a link's surface."""
+        self._bullet.changeDynamics(
+            body,
+            link,
+            lateralFriction=lateral,
+            spinningFriction=spinning,
+            rollingFriction=rolling,
+            physicsClientId=self._client,
+        )
+
+    def ignore_pair(self, body: int, link: int, other: int, other_link: int) -> None:
+        """Let two links pass through each other from now on."""
+        self._bullet.setCollisionFilterPair(body, other, link, other_link, 0, physicsClientId=self._client)
+
+    # constraints
+
+    def weld(self, body: int, link: int, other: int, force: float = WELD_FORCE) -> int:
+        """Fix the root of ``other`` to a link as the two are now; returns a handle for :meth:`unweld`."""
+        held = self._mass_frame(body, link).inverse() * self._mass_frame(other, -1)
+        return self._constrain(body, link, other, -1, self._bullet.JOINT_FIXED, held, Pose((0.0, 0.0, 0.0)), force)
+
+    def pin(self, body: int, link: int, other: int, other_link: int, point: Vector, force: float = WELD_FORCE) -> int:
+        """Hold two links together at a point of the world, free to turn: a hand at a handle."""
+        here = Pose(point)
+        mine, theirs = (self._mass_frame(b, k).inverse() * here for b, k in ((body, link), (other, other_link)))
+        return self._constrain(body, link, other, other_link, self._bullet.JOINT_POINT2POINT, mine, theirs, force)
+
+    def unweld(self, handle: int) -> None:
+        """Undo a weld or a pin."""
+        for body in self._joined.pop(handle):
+            self.wake(body)  # what hung asleep falls now
+        self._bullet.removeConstraint(handle, physicsClientId=self._client)
+
+    def _constrain(
+        self, body: int, link: int, other: int, other_link: int, kind: int, mine: Pose, theirs: Pose, force: float
+    ) -> int:
+        handle: int = self._bullet.createConstraint(
+            body, link, other, other_link, kind, (0, 0, 0),
+            mine.position, theirs.position, mine.orientation, theirs.orientation,
+            physicsClientId=self._client,
+        )  # fmt: skip
+        self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self._client)
+        self._joined[handle] = body, other
+        return handle
+
+    def _mass_frame(self, body: int, link: int) -> Pose:
+        """The frame at the centre of mass, which constraints are given in."""
+        if link == -1:
+            return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self._client))
+        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self._client)
+        return Pose(state[0], state[1])
+
+    # what touches, what is near, what is seen
+
+    def contacts(
+        self, body: int, other: int | None = None, link: int | None = None, other_link: int | None = None
+    ) -> list[Contact]:
+        """What ``body`` touched in the last step."""
+        return self._contacts(self._bullet.getContactPoints, {}, body, other, link, other_link)
+
+    def closest(
+        self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None
+    ) -> list[Contact]:
+        """What is not farther away than ``distance`` now; no step is needed."""
+        return self._contacts(self._bullet.getClosestPoints, {"distance": distance}, body, other, link, other_link)
+
+    def _contacts(
+        self,
+        query: Callable[..., Sequence[Sequence[Any]] | None],
+        options: dict[str, float],
+        body: int,
+        other: int | None,
+        link: int | None,
+        other_link: int | None,
+    ) -> list[Contact]:
+        asked = {"bodyB": other, "linkIndexA": link, "linkIndexB": other_link}
+        chosen = {name: value for name, value in asked.items() if value is not None}
+        points = query(bodyA=body, **chosen, **options, physicsClientId=self._client) or ()
+        return [_contact(point, body) for point in points]
+
+    def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
+        """What a straight line from ``start`` to ``end`` meets first."""
+        body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self._client)[0]
+        return None if body < 0 else Hit(body, link, position)
+
+    def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
+        """Paint a link; each value in [0, 1]."""
+        self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self._client)
+
+
+def _contact(point: Sequence[Any], body: int) -> Contact:
+    """A row of getContactPoints or getClosestPoints, seen from ``body``."""
+    _, first, second, link, other_link, on_first, on_second, _, distance, force, *_ = point
+    if first != body:
+        first, second, link, other_link, on_first = second, first, other_link, link, on_second
+    return Contact(first, link, second, other_link, distance, force, on_first)

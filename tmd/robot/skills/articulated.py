@@ -1,0 +1,335 @@
+"""Skills that work joints: doors, drawers, lids, knobs and buttons."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from math import copysign, cos, pi, sin
+
+from tmd.robot.assets.fittings import TIP
+from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.scene.scene import Handle
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.simulator import Simulator
+from tmd.robot.skills.bimanual import reach_for
+from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
+
+BEFORE = 0.09
+TRAVEL = 0.012
+"""Metres that a finger goes on beyond the surface of a button."""
+_ROUND = 0.02
+"""Metres from the fingers to the lid between them."""
+PRESSED = 0.5
+"""A button is pressed from this share of its way on."""
+_WAYPOINTS = 8
+_PUSHES = ((0.5, 1.0), (0.75, 1.0), (0.3, 1.0), (1.0, 1.0), (0.0, 0.5))
+"""How a flap, or a door that is to be shut, is pushed."""
+_OPEN = (1.0, 0.8, 0.65)
+"""How far a door is opened, as a part of its way."""
+_PIECES = (0.4, 0.25)
+"""How far it is moved where it cannot be moved all the way at once."""
+_STAGES = 4
+_PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
+"""How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
+_LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0), (1.0, 1.0))
+"""The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
+_STRUCK = 0.004
+"""Metres that a lid may be in a hand on its way."""
+_PULLED, _PUSHED = 0, 1
+_SIDES = (
+    Pose((0.0, 0.0, 0.0)),
+    Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
+    Pose((0.0, 0.0, 0.0), (0.5, -0.5, -0.5, 0.5)),
+)
+"""A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls."""
+_ASIDE = 0.45
+"""Radians off its front from which a door is opened: it comes towards the robot."""
+
+
+def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
+    """Open or close a door, a drawer or a lid by its handle.
+
+    Raises:
+        SkillError: It has none, cannot be reached, or does not move.
+    """
+    if not cell.free():
+        raise SkillError(Stage.PRECONDITION, "both hands are full")
+    for _ in range(_STAGES):
+        _swing_somehow(cell, name, attempt, _goals(cell, name, opened))
+        if cell.is_open(name) == opened:
+            return cell.how_open(name)
+    raise SkillError(Stage.EFFECT, f"{cell.how_open(name)} after it was moved")
+
+
+def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:
+    """Move it as far as the first of the goals that is possible."""
+    last = SkillError(Stage.STANCE, f"{name} cannot be moved any farther")
+    for each in goals:
+        try:
+            _swing(cell, name, attempt, each)
+        except SkillError as error:
+            if error.stage not in (Stage.STANCE, Stage.PATH):
+                raise
+            last = error
+        else:
+            return
+    raise last
+
+
+def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
+    """How far open a thing may be at the end, best first.
+
+    From no one place may a hand get all the way: then a part of it is done from here, and the rest from elsewhere.
+    """
+    now, door = cell.way(name), _handle(cell, name).kind == "door"
+    if not opened:
+        return [(0.0,), *([tuple(now - piece for piece in _PIECES if now > piece)] if door else [])]
+    wide: list[tuple[float, ...]] = [(part,) for part in _OPEN]
+    return [*wide, tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])] if door else wide
+
+
+def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
+    handle = _handle(cell, name)
+    for side in cell.free():
+        cell.robot.open_gripper(side, handle.opening)
+    chosen = reach_for(
+        cell,
+        name,
+        lambda: swing_options(cell, name, goals),
+        handle.grasp,
+        attempt,
+        stop=2,
+        front=_aside(cell, name, handle),
+        accept=_out_of_its_way(cell, name, handle),
+    )
+    _pull(cell, name, _handle(cell, name), chosen)
+    cell.retire(chosen.side, chosen.ignore, lid=handle.kind == "lid")
+
+
+def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
+    """The heading from which a door is best opened: its front, and somewhat off the side of its hinges."""
+    front = cell.front(name)
+    if front is None or handle.kind != "door":
+        return front
+    x, y, _ = (a - b for a, b in zip(_closed_grasp(cell, name, handle), handle.origin, strict=True))
+    across = -sin(front) * x + cos(front) * y
+    return front + copysign(_ASIDE, across)
+
+
+def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
+    """Where the handle of a door is when it is shut."""
+    start = cell.sim.joint_position(handle.body, handle.index)
+    cell.sim.set_joint(handle.body, handle.index, handle.closed)
+    shut = _handle(cell, name).grasp.position
+    cell.sim.set_joint(handle.body, handle.index, start)
+    return shut
+
+
+def _out_of_its_way(cell: Cell, name: str, handle: Handle) -> Accept:
+    """Asks whether a door passes the robot; the same place is asked about once."""
+    known: dict[tuple[Base, float, str], bool] = {}
+
+    def accept(option: Option, base: Base) -> bool:
+        key = base, option.part, option.side
+        if key not in known:
+            known[key] = not cell.sweeps(name, base, goal=_end(handle, option.part), side=option.side)
+        return known[key]
+
+    return accept
+
+
+def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]:
+    """Ways to open or close something with a free hand; the spot of an option says whether it is pulled or pushed.
+
+    Args:
+        cell: Robot and scene.
+        name: The door, drawer or lid.
+        goals: How far open it may be at the end (1 is as far as it goes), best first.
+    """
+    handle, hands = _handle(cell, name), cell.free()
+    start = cell.sim.joint_position(handle.body, handle.index)
+    ignore: Links = frozenset({(handle.body, handle.index)})
+    options = []
+    for part in goals:
+        goal = _end(handle, part)
+        tools = _tools(cell, name, handle, start, goal)
+        ways = list(_ways(handle, tools, goal - start))
+        if handle.kind == "door" and part < cell.way(name):
+            pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
+            ways += _ways(handle, pushed, goal - start, _PUSHES)
+        found = [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
+        options += _beside(cell, handle, goal, found) if handle.kind == "lid" else found
+    return options
+
+
+def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) -> list[Option]:
+    """The ways along which a lid does not swing into the hand that lifts it."""
+    start = cell.sim.joint_position(handle.body, handle.index)
+    kept = list(options)
+    for side in sorted({option.side for option in options}):
+        checker = HandChecker(cell.robot, side, only=(handle.body, handle.index))
+        for number in range(_WAYPOINTS + 1):
+            cell.sim.set_joint(handle.body, handle.index, start + number / _WAYPOINTS * (goal - start))
+            mine = [option for option in kept if option.side == side]
+            depths = checker.depth([option.poses[1 + number] for option in mine])
+            struck = [option for option, depth in zip(mine, depths, strict=True) if depth > _STRUCK]
+            kept = [option for option in kept if all(option is not other for other in struck)]
+    cell.sim.set_joint(handle.body, handle.index, start)
+    return kept
+
+
+def _end(handle: Handle, part: float) -> float:
+    """The joint's position when it is open for a part of its way."""
+    return handle.closed + part * (handle.open - handle.closed)
+
+
+def _ways(
+    handle: Handle, tools: Mapping[float, Pose], way: float, headings: Sequence[tuple[float, float]] | None = None
+) -> Iterator[tuple[int, tuple[Pose, ...]]]:
+    """Tool poses that move a handle, each with whether it is pushed: before it, at it, and along."""
+    pushes = handle.kind == "flap" or headings is not None
+    if headings is None:
+        headings = _PUSHES if pushes else _PULLS if handle.turns else _PULLS[:1]
+    held = (
+        [(side, heading) for heading in _LIFTS for side in _SIDES]
+        if handle.kind == "lid"
+        else [(_SIDES[0], heading) for heading in headings]
+    )
+    for side, (lead, follows) in held:
+        turned = [_turned(tool * side, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
+        yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-BEFORE, 0.0, 0.0)), *turned)
+
+
+def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> dict[float, Pose]:
+    """The tool at the handle for shares of the way, if the hand turned with it."""
+    found = {}
+    for number in range(_WAYPOINTS + 1):
+        share = number / _WAYPOINTS
+        cell.sim.set_joint(handle.body, handle.index, start + share * (goal - start))
+        found[share] = _handle(cell, name).grasp
+    cell.sim.set_joint(handle.body, handle.index, start)
+    return found
+
+
+def _turned(tool: Pose, handle: Handle, angle: float, pushes: bool) -> Pose:
+    """``tool`` turned back about the joint's axis: through the handle, or through the finger tips that push."""
+    x, y, z = handle.axis
+    half = -angle / 2
+    back = Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
+    turned = (back * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation
+    tips = TIP if pushes else 0.0
+    return Pose(tool.apply((tips, 0.0, 0.0)), turned) * Pose((-tips, 0.0, 0.0))
+
+
+def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
+    """Close the hand on the handle and move it along."""
+    side = option.side
+    if option.spot == _PUSHED:
+        with cell.pushed(side, handle):
+            follow(cell, side, option.poses[2:], option.ignore)
+        return
+    if handle.kind == "lid":  # on a thing that nothing holds: the fingers stand round its edge and do not press
+        if cell.gap(side, name) > _ROUND:
+            raise SkillError(Stage.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
+    else:
+        cell.robot.close_gripper(side)
+        if not cell.robot.touches(side, handle.body, handle.index):
+            raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
+    try:
+        with cell.gripped(side, handle):
+            follow(cell, side, option.poses[2:], option.ignore)
+    finally:
+        cell.robot.open_gripper(side, handle.opening)
+
+
+def push(cell: Cell, name: str, attempt: int) -> str:
+    """Press a button with closed fingers.
+
+    Raises:
+        SkillError: It cannot be reached, or does not go down.
+    """
+    handle = _handle(cell, name)
+    hands = cell.free()
+    if not hands:
+        raise SkillError(Stage.PRECONDITION, "both hands are full")
+    ignore: Links = frozenset({(handle.body, handle.index)})
+    touch = handle.grasp
+    before, beyond = touch * Pose((-BEFORE, 0.0, 0.0)), touch * Pose((TRAVEL, 0.0, 0.0))
+    options = [
+        Option(side, (_rolled(before, roll), _rolled(touch, roll)), ignore) for roll in (0.0, pi / 2) for side in hands
+    ]
+    for side in hands:
+        cell.robot.open_gripper(side, 0.0)
+    farthest = _Farthest(handle)
+    chosen = reach(cell, options, touch, cell.front(name), attempt)
+    roll = 0.0 if chosen.poses[-1].angle(touch) < 0.1 else pi / 2
+    cell.sim.add_watcher(farthest)
+    try:
+        with cell.pushed(chosen.side, handle):
+            follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
+        touched = cell.robot.touches(chosen.side, handle.body, handle.index)
+    finally:
+        cell.sim.remove_watcher(farthest)
+    cell.come_back(handle)
+    cell.retire(chosen.side, ignore)
+    if not touched:
+        raise SkillError(Stage.CONTACT, f"the finger does not touch {name}")
+    if farthest.share < PRESSED:
+        raise SkillError(Stage.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
+    return f"{name} went down {100 * farthest.share:.0f} % of its way"
+
+
+class _Farthest:
+    """Remembers how far a joint was moved at most."""
+
+    def __init__(self, handle: Handle) -> None:
+        self.handle = handle
+        self.share = 0.0
+
+    def __call__(self, sim: Simulator) -> None:
+        at = sim.joint_position(self.handle.body, self.handle.index)
+        self.share = max(self.share, (at - self.handle.closed) / (self.handle.open - self.handle.closed))
+
+
+def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
+    """Turn a knob to a setting.
+
+    Raises:
+        SkillError: It has no such setting, cannot be reached, or does not turn.
+    """
+    handle = _handle(cell, name)
+    if setting not in handle.settings:
+        raise SkillError(Stage.PRECONDITION, f"{name} has no setting {setting}")
+    hands = cell.free()
+    if not hands:
+        raise SkillError(Stage.PRECONDITION, "both hands are full")
+    ignore: Links = frozenset({(handle.body, handle.index)})
+    start = cell.sim.joint_position(handle.body, handle.index)
+    goal = handle.settings[setting]
+    tools = _tools(cell, name, handle, start, goal)
+    options = []
+    for number, roll in enumerate((0.0, pi)):
+        poses = [_rolled(tool, roll) for tool in tools.values()]
+        before = poses[0] * Pose((-BEFORE, 0.0, 0.0))
+        options += [Option(side, (before, *poses), ignore, number) for side in hands]
+    for side in hands:
+        cell.robot.open_gripper(side, handle.opening)
+    chosen = reach(cell, options, handle.grasp, cell.front(name), attempt, stop=2)
+    _pull(cell, name, handle, chosen)
+    cell.retire(chosen.side, ignore)
+    if cell.setting(name) != setting:
+        raise SkillError(Stage.EFFECT, f"{name} was turned, and is at {cell.setting(name) or 'no setting'}")
+    return f"{name} is at {setting}"
+
+
+def _handle(cell: Cell, name: str) -> Handle:
+    handle = cell.scene.handle(name)
+    if handle is None:
+        raise SkillError(Stage.PRECONDITION, f"{name} has nothing to work it by")
+    return handle
+
+
+def _rolled(tool: Pose, angle: float) -> Pose:
+    """The tool turned about the way it points."""
+    return tool * Pose((0.0, 0.0, 0.0), (sin(angle / 2), 0.0, 0.0, cos(angle / 2)))

@@ -1,0 +1,146 @@
+"""Holding a thing out for the other hand: what is in one hand can be opened, filled and emptied by the other.
+
+The base stays where it is. The arm that holds the thing brings it to places in front of the robot, upright, with
+different sides to the front, until the other arm can do what it is to do with it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from itertools import islice, product
+from math import cos, pi, sin, tau
+
+from tmd.robot.pr2.arm_motion import plan_arm
+from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import Accept, Option, candidates, get_to, reach, with_room
+
+_TURNS = 8
+_PLACES = tuple(product(product((0.8, 1.1, 0.95), (0.5, 0.6), (0.1, 0.22, 0.0)), range(_TURNS)))
+"""Where the thing is held out: metres up, ahead, and to the side of the arm that holds it; and how it is turned."""
+_STRIDE = 29
+"""Places that follow each other are not alike."""
+_POSTURES = 4
+_MOST_ASKED = 16
+"""So many places are thought through at one stand."""
+_STANDS = ((0.0, 0.0), *product((0.4, 0.6, 0.0), (pi / 2, -pi / 2, pi, 0.0)))
+"""Metres that the robot goes back, and radians that it turns."""
+_MOST_HERE, _MOST = 4, 24
+"""So many places are tried from one stand, and in all."""
+
+
+def reach_for(
+    cell: Cell,
+    name: str,
+    options: Callable[[], Sequence[Option]],
+    focus: Pose,
+    attempt: int,
+    *,
+    stop: int | None = None,
+    front: float | None = None,
+    accept: Accept | None = None,
+) -> Option:
+    """Bring a hand through the poses of an option that has to do with ``name``; if that is held, it is held out.
+
+    Args:
+        cell: Robot and scene.
+        name: What the options are about.
+        options: Makes them for where it is now.
+        focus: Where to stand round, if it is not held.
+        attempt: How often it was tried before.
+        stop: Go only to so many of the poses.
+        front: The heading of the side it is reached from; None: that of what it is a part of.
+        accept: As for :func:`tmd.robot.skills.stance_search.reach`; what is held out is not asked about.
+
+    Raises:
+        SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
+    """
+    item = cell.whole(name)
+    side = cell.side_of(item)
+    if side is None:
+        return reach(
+            cell, options(), focus, cell.front(name) if front is None else front, attempt, stop=stop, accept=accept
+        )
+    home, torso = cell.robot.base(), cell.robot.torso()
+    last = SkillError(Stage.STANCE, f"the {side} hand cannot hold {item} out for the other one")
+    for _ in islice(_held_out(cell, side, item, options), 2 * attempt, 2 * attempt + _MOST):
+        try:
+            return reach(cell, options(), focus, None, 0, stop=stop, stay=True)
+        except SkillError as error:
+            last = error
+    with suppress(SkillError):  # another try begins from here as well, and not from wherever this one ended
+        get_to(cell, home, torso)
+    raise last
+
+
+def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[None]:
+    """Hold a thing out here, then with the robot turned away from what it stands before, then farther back."""
+    x, y, theta = cell.robot.base()
+    for back, turn in dict.fromkeys(_STANDS):
+        base = (x - back * cos(theta), y - back * sin(theta), theta + turn)
+        if (back or turn) and cell.robot.collides(base=base):
+            continue
+        try:
+            get_to(cell, base, cell.robot.torso())
+        except SkillError:
+            continue
+        for goal in islice(_places(cell, side, item, options), _MOST_HERE):
+            if _bring(cell, side, goal):
+                yield
+
+
+def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Option]]) -> Iterator[tuple[float, ...]]:
+    """Positions of the arm that holds a thing from which the other arm can do what it is to do."""
+    robot = cell.robot
+    grip, start = cell.in_tool(side, item), cell.sim.pose(cell.scene.bodies[item])
+    base, torso = robot.base(), robot.torso()
+    now = options()
+    asked = 0
+    for number in range(len(_PLACES)):
+        (up, ahead, aside), turn = _PLACES[number * _STRIDE % len(_PLACES)]
+        x, y, _ = robot.base_link().apply((ahead, aside if side == "left" else -aside, 0.0))
+        there = Pose.flat(x, y, up + torso / 2, turn * tau / _TURNS)
+        shift = there * start.inverse()
+        moved = [tuple(shift * pose for pose in option.poses) for option in now]
+        near = Wrists(robot, [option.side for option in now], moved).within(base, torso)
+        if not any(robot.solve(now[i].side, moved[i][-1]) for i in near):
+            continue
+        goals = [
+            g for g in robot.solve(side, there * grip.inverse())[:_POSTURES] if not robot.collides(side=side, arm=g)
+        ]
+        for goal in goals[:1]:
+            asked += 1
+            with _as_if(cell, side, item, goal):
+                fitting = with_room(cell, options())
+                possible = next(candidates(cell, fitting, there, None, stay=True), None)
+            if possible is not None:
+                yield goal
+        if asked > _MOST_ASKED:
+            return
+
+
+@contextmanager
+def _as_if(cell: Cell, side: str, item: str, arm: Sequence[float]) -> Iterator[None]:
+    """As if an arm, and what it holds, were elsewhere; afterwards all is where it was, to the bit."""
+    sim, robot, body = cell.sim, cell.robot, cell.scene.bodies[item]
+    grip = cell.in_tool(side, item)
+    joints = [robot.joint_index[name] for name in robot.arm_joints[side]]
+    positions, velocities = sim.joint_states(robot.body, robot.movable)
+    motion = sim.motion(body)
+    try:
+        sim.set_joints(robot.body, joints, list(arm))
+        sim.set_pose(body, robot.tool(side) * grip)
+        yield
+    finally:
+        sim.set_joints(robot.body, robot.movable, positions, velocities)
+        sim.set_motion(body, motion)
+
+
+def _bring(cell: Cell, side: str, goal: Sequence[float]) -> bool:
+    """Move the arm that holds the thing; whether it got there."""
+    robot = cell.robot
+    path = plan_arm(robot, side, goal, rng=cell.rng, budget=200)
+    return path is not None and robot.move_arm(side, path)

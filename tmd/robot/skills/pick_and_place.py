@@ -1,0 +1,246 @@
+"""Skills that take things and put them down."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import product
+from math import pi
+
+from tmd.robot.pr2.pr2 import FULL_GAP
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
+
+BEFORE = 0.10
+"""Metres from which a hand goes straight to what it takes."""
+OUTSIDE = 0.18
+"""The same for what is in a niche or a cupboard."""
+_PASSING = 0.3
+"""Fingers that open more along a direction than this do not pass a thing in it."""
+_AWAY = 0.06
+"""Metres that a hand should get straight away from what it has put down."""
+_ALONG = 0.85
+"""The cosine of the angle within which a hand points the way that it goes in."""
+LIFT = 0.10
+"""Metres that a thing is lifted, or drawn out, before the arm moves freely."""
+CLEAR = (0.006, 0.03)
+"""Metres above a surface at which a thing is let go of, best first: the fingers do not fit into every slot."""
+_TALL = 0.12
+"""Metres from which a thing is no small one."""
+_TURNS = 8
+"""So many headings are tried for a thing that is put down."""
+
+
+def pick(cell: Cell, item: str, attempt: int) -> str:
+    """Take ``item`` into a free hand.
+
+    Raises:
+        SkillError: It cannot be reached, or the fingers close on nothing.
+    """
+    options = pick_options(cell, item)
+    if not cell.free():
+        raise SkillError(Stage.PRECONDITION, "both hands are full")
+    body = cell.scene.bodies[item]
+    for side in cell.free():
+        cell.robot.open_gripper(side)
+    chosen = reach(cell, options, cell.sim.pose(body), cell.front(item), attempt)
+    side = chosen.side
+    cell.robot.close_gripper(side)
+    if not cell.robot.touches(side, body):
+        _let_off(cell, side, chosen)
+        raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch {item}")
+    below = cell.support(item)
+    cell.robot.hold(side, body)
+    cell.in_hand[side] = item
+    away = _out(cell, below)
+    _leave(cell, side, away, _links(cell, item))
+    cell.fold()
+    if cell.gap(side, item) > 0.03:
+        raise SkillError(Stage.EFFECT, f"{item} slipped out of the {side} hand")
+    return f"{item} is in the {side} hand"
+
+
+def pick_options(cell: Cell, item: str) -> list[Option]:
+    """Ways to take an item with a free hand, the nearest hand first."""
+    here = cell.sim.pose(cell.scene.bodies[item])
+    links = _links(cell, item)
+    _, high = cell.scene.size(item)
+    # a vessel or a bottle is taken from the side before from above, for it will be tipped; a small thing from above
+    upright = 1.0 if cell.scene.holds_contents(item) or high[2] > _TALL else -1.0
+    ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
+    poses = [here * grasp.tool.pose() for grasp in ordered]
+    entry = _sideways(cell, item)
+    return [
+        Option(side, (start, tool), links, number)
+        for number, tool in enumerate(poses)
+        for start in _starts(tool, entry)
+        for side in _nearest_first(cell, here)
+    ]
+
+
+def _sideways(cell: Cell, item: str) -> Vector | None:
+    """The direction in which the hand enters the niche or the cupboard that an item is in."""
+    place = cell.support(item)
+    entry = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
+    return None if abs(entry[2]) > 0.5 else entry
+
+
+def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
+    """Where a hand begins to go straight to a thing: outside of what that is in if the fingers pass it, or close."""
+    close = tool * Pose((-BEFORE, 0.0, 0.0))
+    if entry is None:
+        return [close]
+    across = sum(a * b for a, b in zip(tool.rotate((0.0, 1.0, 0.0)), entry, strict=True))
+    outside = _moved(tool, tuple(-OUTSIDE * value for value in entry))
+    return [close] if abs(across) > _PASSING else [outside, close]
+
+
+def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> str:
+    """Put ``item`` down on, in or next to ``target``.
+
+    Raises:
+        SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere.
+    """
+    side = cell.side_of(item)
+    if side is None:
+        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+    options = place_options(cell, side, item, target, relation)
+    if not options:
+        raise SkillError(Stage.PRECONDITION, f"there is no room for {item} {relation} {target}")
+    focus = options[0].poses[-1] * cell.in_tool(side, item)
+    _reach_best(cell, item, options, focus, target, relation, attempt)
+    _release(cell, side, item)
+    _leave(cell, side, None, _links(cell, item))
+    cell.fold()
+    now = cell.support(item)
+    if now != (target, relation):
+        where = f"{now[1]} {now[0]}" if now else "nowhere"
+        raise SkillError(Stage.EFFECT, f"{item} was put down, and is {where}")
+    return f"{item} is {relation} {target}"
+
+
+def _reach_best(
+    cell: Cell, item: str, options: Sequence[Option], focus: Pose, target: str, relation: str, attempt: int
+) -> None:
+    """Bring a thing to where it is let go of: best is where the empty hand gets away, and gets at it again.
+
+    Raises:
+        SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
+    """
+    fitting = with_room(cell, options)
+    again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
+    away = [replace(option, poses=(*option.poses, option.poses[-1] * Pose((-_AWAY, 0.0, 0.0)))) for option in again]
+    for chosen in (away, again, fitting):
+        try:
+            reach(cell, chosen, focus, cell.front(target), attempt, stop=2)
+        except SkillError as error:
+            if error.stage is not Stage.STANCE or chosen is fitting:
+                raise
+        else:
+            return
+
+
+def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
+    """Ways to put an item down with the hand that holds it."""
+    grip = cell.in_tool(side, item).inverse()
+    back = tuple(-value * BEFORE for value in cell.scene.entry(target, relation))
+    links = _links(cell, item)
+    found = []
+    spots = cell.scene.support(target, relation, item, cell.in_hand.values())[:6]
+    for fall, (number, spot), turn in product(CLEAR, enumerate(spots), range(_TURNS)):
+        stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / _TURNS)
+        tool = stood * grip
+        found.append(Option(side, (_moved(tool, back), tool), links, number))
+    return found
+
+
+def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: Vector) -> list[Option]:
+    """Of ways to put a thing into a niche or a cupboard, those after which a grasp points the way the hand goes in."""
+    if abs(entry[2]) > 0.5:
+        return []
+    grasps = [grasp.tool.pose().rotate((1.0, 0.0, 0.0)) for grasp in cell.scene.grasps(item)]
+
+    def along(option: Option) -> float:
+        stood = option.poses[-1] * cell.in_tool(option.side, item)
+        return max(sum(a * b for a, b in zip(stood.rotate(each), entry, strict=True)) for each in grasps)
+
+    return [option for option in options if along(option) > _ALONG]
+
+
+def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
+    """Let go of ``item`` over ``target``: it is put down where that can be reached, and falls on the floor else.
+
+    Raises:
+        SkillError: As :func:`place`.
+    """
+    if target != "floor":
+        return place(cell, item, target, "on", attempt)
+    side = cell.side_of(item)
+    if side is None:
+        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+    cell.robot.raise_torso(0.0)
+    _release(cell, side, item)
+    cell.settle(item)
+    cell.fold()
+    now = cell.support(item)
+    if now != (target, "on"):
+        raise SkillError(Stage.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}")
+    return f"{item} is on the floor"
+
+
+def _release(cell: Cell, side: str, item: str) -> None:
+    cell.robot.let_go(side)
+    cell.in_hand.pop(side, None)
+    cell.robot.open_gripper(side, FULL_GAP)  # a finger that still touches it would drag it along
+    cell.settle(item)
+
+
+def _let_off(cell: Cell, side: str, chosen: Option) -> None:
+    """Open the hand and go back to where it came from, if it can."""
+    cell.robot.open_gripper(side)
+    _leave(cell, side, None, chosen.ignore)
+    cell.fold()
+
+
+def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
+    """Draw the hand back: along ``away``, or the way it points; a little where there is no room for more.
+
+    What cannot be drawn back straight is left to the planner of the next motion.
+    """
+    here = cell.robot.tool(side)
+    for share in (1.0, 0.5):
+        goal = (
+            here * Pose((-BEFORE * share, 0.0, 0.0))
+            if away is None
+            else _moved(here, (away[0] * LIFT * share, away[1] * LIFT * share, away[2] * LIFT * share))
+        )
+        try:
+            follow(cell, side, (goal,), ignore)
+        except SkillError:
+            continue
+        return
+
+
+def _out(cell: Cell, below: tuple[str, str] | None) -> Vector:
+    """The direction in which a thing is taken from where it is."""
+    x, y, z = cell.scene.entry(*below) if below is not None else (0.0, 0.0, -1.0)
+    return (-x, -y, -z)
+
+
+def _moved(pose: Pose, by: tuple[float, ...]) -> Pose:
+    x, y, z = (a + b for a, b in zip(pose.position, by, strict=True))
+    return Pose((x, y, z), pose.orientation)
+
+
+def _links(cell: Cell, *names: str) -> Links:
+    """All links of the bodies of some things."""
+    return frozenset((cell.scene.place(name)[0], None) for name in names)
+
+
+def _nearest_first(cell: Cell, pose: Pose) -> list[str]:
+    """The free arms, the one on whose side a thing is first."""
+    _, left, _ = cell.robot.base_link().inverse().apply(pose.position)
+    order = ("left", "right") if left > 0 else ("right", "left")
+    return [side for side in order if side in cell.free()]

@@ -1,0 +1,315 @@
+"""Skills that hold one thing over another: tip, dip, squeeze."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from math import acos, cos, degrees, hypot, pi, sin
+
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.skills.bimanual import reach_for
+from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import Links, Option, follow, with_room
+
+ABOVE = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.02), (0.03, 0.03), (0.01, 0.03))
+"""Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth on the
+hand's side. The best is first: under a spout there is little room."""
+TIPPED = (1.8, 1.3)
+"""Radians by which a thing is tipped, best first; a right angle is 1.57."""
+_SHAKEN = 0.5
+"""Radians by which what hangs from the hand is swung."""
+_ABOVE = (0.05, 0.02)
+"""Metres above a rim from which a spoon goes down."""
+DEEP = 0.02
+"""Metres that a spoon goes below a rim."""
+_WET = 0.005
+"""Metres from which it is in."""
+_INWARDS = 0.01
+"""Metres from where it pours to the middle of its head."""
+_LEANS = (0.9, 0.6, 0.3, 1.2, 0.0)
+"""Radians by which a spoon is dipped with its end down, best first."""
+_GRAZED = 0.003
+"""Metres that it may be in the rim."""
+_POURED = (0.6, 0.8, 1.0)
+"""How far an open thing is tipped before a niche, as a part of the whole: a half full one keeps what is in it."""
+_ENOUGH = 1.2
+"""Radians from which contents run out."""
+_RIM = 0.85
+"""The height of a rim, as a part of the height of the vessel with its handle."""
+_OUTSIDE = 0.18
+"""Metres in front of a niche."""
+_BESIDE = 0.04
+"""Metres that the mouth may be beside the rim of what it is held over."""
+_ENOUGH_WAYS = 6
+_HEADINGS = 8
+_STAGES = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Mouth:
+    """Where contents leave a thing that is tipped.
+
+    Attributes:
+        at: In the thing's frame.
+        out: The direction that must point down for contents to leave, in the thing's frame.
+        turn: The axis about which it is tipped, in the thing's frame.
+        both: It may be tipped either way.
+    """
+
+    at: Vector
+    out: Vector
+    turn: Vector
+    both: bool = False
+
+
+def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
+    """The mouths of what is held, best first.
+
+    It is the far end of a long flat thing, the underside of a packet that hangs from the hand, and else the rim: on
+    either side of the wrist, towards the hand and away from it.
+    """
+    low, high = cell.scene.size(item)
+    size = [b - a for a, b in zip(low, high, strict=True)]
+    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+    longest = max(range(3), key=lambda axis: size[axis])
+    tool = cell.in_tool(side, item).inverse()
+    if longest == 2 or size[longest] < 2.2 * size[2]:
+        hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
+        if hangs:
+            return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
+        top = high[2] * (_RIM if cell.scene.holds_contents(item) else 1.0)
+        return [_rim(low, high, top, axis) for axis in _axes(tool, middle)]
+    far = high if tool.position[longest] < middle[longest] else low
+    at, turn = list(middle), [0.0, 0.0, 0.0]
+    at[longest] = far[longest] - 0.015 * (1 if far is high else -1)
+    turn[longest] = 1.0
+    return [Mouth((at[0], at[1], high[2]), (0.0, 0.0, 1.0), (turn[0], turn[1], turn[2]), both=True)]
+
+
+def _rim(low: Vector, high: Vector, top: float, axis: Vector) -> Mouth:
+    """The point of the rim that is lowest when a vessel is tipped about ``axis``."""
+    x, y = axis[1], -axis[0]
+    at = ((high if x > 0 else low)[0] * abs(x), (high if y > 0 else low)[1] * abs(y), top)
+    return Mouth(at, (0.0, 0.0, 1.0), axis)
+
+
+def _axes(tool: Pose, middle: Sequence[float]) -> list[Vector]:
+    """To either side by a roll of the wrist, then away from the hand and towards it."""
+    x, y = middle[0] - tool.position[0], middle[1] - tool.position[1]
+    if hypot(x, y) < 0.01:  # the hand is above: how it is turned decides
+        x, y, _ = tool.rotate((0.0, 1.0, 0.0))
+    size = hypot(x, y) or 1.0
+    x, y = x / size, y / size
+    return [(x, y, 0.0), (-x, -y, 0.0), (-y, x, 0.0), (y, -x, 0.0)]
+
+
+def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = False) -> str:
+    """Hold ``item`` over ``target`` and tip it.
+
+    Raises:
+        SkillError: It is not held, cannot be held there, or its mouth was not over the target.
+    """
+    side = _side(cell, item)
+    known = mouths(cell, item, side)
+
+    def options() -> list[Option]:
+        found: list[Option] = []
+        for room in ABOVE:
+            found += with_room(cell, tip_options(cell, item, target, known, *room, closed=squeezed))
+            if len(found) >= _ENOUGH_WAYS:
+                break
+        return found
+
+    chosen = reach_for(cell, target, options, Pose(_over(cell, target, ABOVE[0][0])), attempt)
+    how = known[chosen.spot]
+    if squeezed:
+        cell.robot.close_gripper(side, _SQUEEZE)
+    here = cell.sim.pose(cell.scene.bodies[item])
+    tilt = _tilt(here, how)
+    beside = _beside(cell, here.apply(how.at), target)
+    _go_back(cell, chosen)
+    said = (
+        f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
+    )
+    if tilt < _ENOUGH or beside > _BESIDE:
+        raise SkillError(Stage.EFFECT, said)
+    return said.replace("its mouth 0.0 cm beside the rim of", "its mouth over")
+
+
+def tip_options(
+    cell: Cell, item: str, target: str, known: Sequence[Mouth], height: float, near: float, *, closed: bool
+) -> list[Option]:
+    """Ways to tip what is held over a rim, and as near to its edge; the spot of an option is the number of its mouth.
+
+    Before a niche a thing is tipped outside, as far as nothing runs out: what is ``closed`` until it is squeezed all
+    the way.
+    """
+    side = _side(cell, item)
+    grip = cell.in_tool(side, item).inverse()
+    over = _over(cell, target, height)
+    options = []
+    for angle, (index, how), number in product(TIPPED, enumerate(known), range(_HEADINGS)):
+        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+        x, y, _ = stood.rotate(how.at)
+        nearer = near / max(hypot(x, y), 0.01)
+        at = (over[0] - x * nearer, over[1] - y * nearer, over[2])
+        for turned in (angle, -angle) if how.both else (angle if how.out[2] > 0 else _SHAKEN,):
+            poses = tuple(_over_rim(stood, how, at, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
+            outside = before(cell, target, poses[0])
+            options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
+            if outside:
+                inside = [_over_rim(stood, how, at, turned * k) * grip for k in ((1.0,) if closed else _POURED)]
+                (end,) = before(cell, target, inside[0])
+                start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
+                options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
+    return options
+
+
+def _moved_up(pose: Pose, by: float) -> Pose:
+    x, y, z = pose.position
+    return Pose((x, y, z + by), pose.orientation)
+
+
+def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
+    """Where the hand begins to go straight to ``first``: outside of the niche or the cupboard that a thing is in."""
+    place = cell.support(target)
+    x, y, z = cell.scene.entry(*place) if place is not None else (0.0, 0.0, -1.0)
+    if abs(z) > 0.5:
+        return ()
+    a, b, c = first.position
+    return (Pose((a - x * _OUTSIDE, b - y * _OUTSIDE, c), first.orientation),)
+
+
+_SQUEEZE = 40.0
+
+
+def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
+    """Dip ``item`` into ``target`` and bring it out again.
+
+    Raises:
+        SkillError: It is not held, cannot be brought there, or did not get in.
+    """
+    how = _head(cell, item, _side(cell, item))
+    focus = Pose(_over(cell, target, _ABOVE[0]))
+    chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
+    at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
+    beside, below = _beside(cell, at, target), cell.top(target) - at[2]
+    _go_back(cell, chosen)
+    said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
+    if below < _WET or beside > 0.0:
+        raise SkillError(Stage.EFFECT, said)
+    return said
+
+
+def _head(cell: Cell, item: str, side: str) -> Mouth:
+    """What is dipped of a thing that is held: the underside of its far end."""
+    mouth = mouths(cell, item, side)[0]
+    low, _ = cell.scene.size(item)
+    x, y, _ = mouth.at
+    short = 1.0 - _INWARDS / max(hypot(x, y), _INWARDS)
+    return replace(mouth, at=(x * short, y * short, low[2]))
+
+
+def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
+    """Ways to bring the end of what is held below a rim and not through it."""
+    side = _side(cell, item)
+    how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
+    ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
+    inside = [
+        _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -DEEP), 0.0)
+        for lean, number in product(_LEANS, range(_HEADINGS))
+    ]
+    touched = _depths(cell, item, target, inside)
+    options = []
+    for height, (number, there) in product(_ABOVE, enumerate(inside)):
+        if touched[number] <= _GRAZED:
+            poses = tuple(_moved_up(pose * grip, by) for pose, by in ((there, height + DEEP), (there, 0.0)))
+            options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
+    return options
+
+
+def _heading(number: int) -> Pose:
+    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+
+
+def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:
+    """How deep a thing would be in another one at some poses, in metres; it stays where it is, to the bit."""
+    body, other = cell.scene.bodies[item], cell.scene.place(target)[0]
+    motion = cell.sim.motion(body)
+    found = []
+    try:
+        for pose in poses:
+            cell.sim.set_pose(body, pose)
+            found.append(max((-each.distance for each in cell.sim.closest(body, other, 0.0)), default=0.0))
+    finally:
+        cell.sim.set_motion(body, motion)
+    return found
+
+
+def _go_back(cell: Cell, chosen: Option) -> None:
+    """Bring what was tipped or dipped back the way it came, or any way that there is, and tuck the arms.
+
+    Raises:
+        SkillError: There is none.
+    """
+    try:
+        follow(cell, chosen.side, tuple(reversed(chosen.poses[:-1])), chosen.ignore)
+    except SkillError:
+        if not cell.fold():
+            raise
+    else:
+        cell.fold()
+
+
+def _side(cell: Cell, item: str) -> str:
+    side = cell.side_of(item)
+    if side is None:
+        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+    return side
+
+
+def _over(cell: Cell, target: str, height: float) -> Vector:
+    x, y, _ = cell.centre(target)
+    return (x, y, cell.top(target) + height)
+
+
+def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
+    """The thing's frame when it is turned by ``angle`` about its tipping axis, with its mouth at a point."""
+    half = angle / 2
+    x, y, z = how.turn
+    turned = stood * Pose((0.0, 0.0, 0.0), (x * sin(half), y * sin(half), z * sin(half), cos(half)))
+    offset = turned.rotate(how.at)
+    return Pose((at[0] - offset[0], at[1] - offset[1], at[2] - offset[2]), turned.orientation)
+
+
+def _over_rim(stood: Pose, how: Mouth, over: Vector, angle: float) -> Pose:
+    """As :func:`_held_at`, but as much higher as the thing reaches below its mouth: it comes down as it is tipped."""
+    below = max(0.0, how.at[2] * cos(angle))
+    return _held_at(stood, how, (over[0], over[1], over[2] + below), angle)
+
+
+def _leaning(stood: Pose, how: Mouth, angle: float) -> Pose:
+    """The frame with the mouth's end lower than the rest, by ``angle``."""
+    x, y, _ = how.turn
+    # across the long side; towards the mouth
+    towards = 1.0 if x * how.at[0] + y * how.at[1] > 0 else -1.0
+    axis = (-y * towards, x * towards, 0.0)
+    half = angle / 2
+    return stood * Pose((0.0, 0.0, 0.0), (axis[0] * sin(half), axis[1] * sin(half), 0.0, cos(half)))
+
+
+def _tilt(here: Pose, how: Mouth) -> float:
+    """Radians between the mouth's direction and straight up."""
+    return acos(max(-1.0, min(1.0, here.rotate(how.out)[2])))
+
+
+def _beside(cell: Cell, point: Vector, target: str) -> float:
+    """How far outside of the box round ``target`` a point is, on the floor plan."""
+    low, high = cell.sim.extents(*cell.scene.place(target))
+    return max(low[0] - point[0], point[0] - high[0], low[1] - point[1], point[1] - high[1], 0.0)
+
+
+def _hands(cell: Cell, *names: str) -> Links:
+    return frozenset((cell.scene.place(name)[0], None) for name in names)

@@ -1,0 +1,349 @@
+"""Robot and scene together: what skills act in, and what the monitor measures."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from math import cos, hypot, sin
+
+import numpy as np
+
+from tmd.pddl.model import GroundAtom
+from tmd.robot.pr2.arm_motion import plan_base, plan_line
+from tmd.robot.pr2.collision import Ignored
+from tmd.robot.pr2.pr2 import ARMS, Pr2
+from tmd.robot.scene.scene import Handle, Scene
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.simulator import WELD_FORCE, Simulator
+
+OPEN_SHARE = 0.6
+"""A joint is open from this share of its way on."""
+_SETTING_SHARE = 0.25
+"""A knob is at a setting when it is not farther from it than this share of the way to the next one."""
+
+_BACK = (0.1, 0.05, 0.025)
+"""Metres that a hand is drawn back from what it worked, best first."""
+_PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
+"""Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
+_LONG = 2000
+"""Samples for a way of the arm where there is no other place to tuck it."""
+_STEPS_BACK = (0.12, 0.25, 0.4)
+"""Metres that the base goes back where the arms have no room."""
+_NEARBY = 300
+_SWEEP, _SWEEP_MARGIN = 0.05, 0.015
+"""A door is looked at every so many radians (a drawer: metres), and must stay so many metres away: its edge then
+passes nothing unseen, not even a spoon in the other hand."""
+_LIGHTLY = 1.0
+"""Newtons that the lid of a thing is lifted with, so that what it is on neither slides nor tips over."""
+_PINS = 0.015
+"""Metres from the middle of a knob to the two points that the fingers hold it at."""
+
+
+@dataclass(eq=False)
+class Cell:
+    """One robot in one scene.
+
+    Attributes:
+        sim: The simulation.
+        robot: The PR2.
+        scene: The furniture and the things.
+        rng: Of everything random.
+        in_hand: For each arm the item in it.
+    """
+
+    sim: Simulator
+    robot: Pr2
+    scene: Scene
+    rng: np.random.Generator
+    in_hand: dict[str, str] = field(default_factory=dict)
+
+    # what the monitor measures
+
+    def held(self) -> Sequence[str]:
+        """The items in the hands that are really there: each is still where the gripper is."""
+        return [self.in_hand[side] for side in ARMS if side in self.in_hand and self._still_held(side)]
+
+    def _still_held(self, side: str) -> bool:
+        body = self.scene.bodies[self.in_hand[side]]
+        return self.robot.held(side) == body and self.gap(side, self.in_hand[side]) < 0.03
+
+    def gap(self, side: str, item: str) -> float:
+        """How far the item is from the gripper's surface, in metres; at most 1."""
+        found = self.sim.closest(self.robot.body, self.scene.place(item)[0], 1.0)
+        hand = {self.robot.index[name] for name in self.robot.tree.below(f"{side[0]}_gripper_palm_link")}
+        return min((c.distance for c in found if c.link in hand), default=1.0)
+
+    def support(self, item: str) -> tuple[str, str] | None:
+        """What an item stands on, in or next to; ``None`` for what is no item."""
+        return self.scene.supported(item) if self.scene.is_item(item) else None
+
+    def is_open(self, name: str) -> bool | None:
+        """Whether a door, a drawer or a lid is open."""
+        handle = self.scene.handle(name)
+        if handle is None or handle.kind in ("knob", "button"):
+            return None
+        return self.way(name) >= OPEN_SHARE
+
+    def way(self, name: str) -> float:
+        """How far a joint is on its way from closed (0) to open (1)."""
+        handle = self.scene.handle(name)
+        assert handle is not None
+        at = self.sim.joint_position(handle.body, handle.joint)
+        return (at - handle.closed) / (handle.open - handle.closed)
+
+    def setting(self, name: str) -> str | None:
+        """The setting that a knob is at."""
+        handle = self.scene.handle(name)
+        if handle is None or not handle.settings:
+            return None
+        at = self.sim.joint_position(handle.body, handle.joint)
+        angles = sorted(handle.settings.values())
+        step = min((b - a for a, b in itertools.pairwise(angles)), default=1.0)
+        name_, angle = min(handle.settings.items(), key=lambda pair: (abs(pair[1] - at), pair[0]))
+        return name_ if abs(angle - at) <= _SETTING_SHARE * step else None
+
+    def reach(self, name: str) -> float:
+        """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres.
+
+        What is in something is as near as that.
+        """
+        x, y, _ = self.robot.base()
+        low, high = self.sim.extents(self.scene.place(name)[0])
+        own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
+        place = self.support(self.whole(name))
+        return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
+
+    def measured(self, atom: GroundAtom, sensor: str) -> str:
+        """The numbers behind a fact."""
+        name = atom.args[-1] if sensor in ("held", "reach") else atom.args[0]
+        match sensor:
+            case "held":
+                gaps = ", ".join(f"{side} {100 * self.gap(side, name):.1f} cm" for side in ARMS)
+                return f"{name} is this far from the hands: {gaps}"
+            case "one_hand" | "two_hands":
+                return f"{len(self.held())} hands hold something"
+            case "support":
+                place, at = self.support(name), self.sim.pose(self.scene.bodies[name]).position
+                where = f"{place[1]} {place[0]}" if place else "nowhere"
+                return f"{name} is {where}, at {at[0]:.2f} {at[1]:.2f} {at[2]:.2f}"
+            case "joint":
+                return self.how_open(name)
+            case "setting":
+                handle = self.scene.handle(name)
+                assert handle is not None
+                return (
+                    f"{name} is turned by {np.degrees(self.sim.joint_position(handle.body, handle.joint)):.0f} degrees"
+                )
+            case _:
+                return f"{name} is {self.reach(name):.2f} m away"
+
+    # what hands do
+
+    def settle(self, item: str) -> None:
+        """Let time pass until a thing lies still, for at most a second."""
+        body = self.scene.bodies[item]
+        before = self.sim.pose(body)
+        for _ in range(10):
+            self.sim.step(24)
+            now = self.sim.pose(body)
+            if now.distance(before) < 2e-4:
+                return
+            before = now
+
+    def fold(self) -> bool:
+        """Tuck the arms; where there is no room for that, step back as far as is needed. Whether they are tucked."""
+        if self.robot.tuck():
+            return True
+        x, y, theta = self.robot.base()
+        pressed = {(body, link) for _, body, link, _ in self.robot.collides() if body != self.robot.body}
+        for away in _STEPS_BACK:
+            back = (x - away * cos(theta), y - away * sin(theta), theta)
+            path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
+            if path is not None and self.robot.drive(path) and self.robot.tuck():
+                return True
+        return self.robot.tuck(_LONG)
+
+    def retire(self, side: str, ignore: Ignored, *, lid: bool = False) -> None:
+        """Draw a hand back the way it points, and tuck the arms.
+
+        A hand that let go of a ``lid`` may as well leave it across: any other way would take along what it stands on.
+        """
+        here = self.robot.tool(side)
+        back: list[tuple[Vector, Ignored]] = [((-away, 0.0, 0.0), ignore) for away in _BACK]
+        across: list[tuple[Vector, Ignored]] = [(away, ()) for away in _PAST]  # without pushing the lid
+        for away, touched in (*back[:2], *(across if lid else ()), *back[2:]):
+            path = plan_line(self.robot, side, here, here * Pose(away), ignore=touched)
+            if path is not None:
+                self.robot.move_arm(side, path)
+                break
+        self.fold()
+
+    @contextmanager
+    def gripped(self, side: str, handle: Handle) -> Iterator[None]:
+        """While a hand holds a handle: two pins under physics; in the kinematic mode the joint follows the hand."""
+        if self.robot.kinematic:
+            with self._following(handle, lambda: self.robot.tool(side)):
+                yield
+            return
+        palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
+        apart = (-_PINS, _PINS) if handle.kind == "knob" else (0.0,)
+        points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
+        loose = handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
+        force = _LIGHTLY if loose else WELD_FORCE
+        pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point, force) for point in points]
+        try:
+            yield
+        finally:
+            for pin in pins:
+                self.sim.unweld(pin)
+
+    @contextmanager
+    def pushed(self, side: str, handle: Handle) -> Iterator[None]:
+        """While a finger pushes: contact under physics; in the kinematic mode the joint goes with the finger."""
+        if not self.robot.kinematic:
+            yield
+            return
+        with self._following(handle, lambda: self.robot.tool(side)):
+            yield
+
+    def come_back(self, handle: Handle) -> None:
+        """In the kinematic mode, let a button that is pushed no longer come back, as its spring does it else."""
+        if self.robot.kinematic:
+            self.sim.set_joint(handle.body, handle.index, handle.closed)
+
+    @contextmanager
+    def _following(self, handle: Handle, tool: Callable[[], Pose]) -> Iterator[None]:
+        start, at = tool(), self.sim.joint_position(handle.body, handle.index)
+        frame = self.sim.pose(handle.body, handle.index)
+        inside = [
+            (self.scene.bodies[item], frame.inverse() * self.sim.pose(self.scene.bodies[item]))
+            for item in self.scene.items()
+            if handle.kind == "drawer"
+            and (place := self.scene.supported(item))
+            and self.scene.place(place[0])[0] == handle.body
+        ]
+        low, high = sorted((handle.closed, handle.open, *handle.settings.values()))[:: max(1, len(handle.settings) + 1)]
+
+        def follow(sim: Simulator) -> None:
+            moved = at + _along(handle, start, tool())
+            sim.set_joint(handle.body, handle.index, min(max(moved, low), high))
+            for body, pose in inside:
+                sim.set_pose(body, sim.pose(handle.body, handle.index) * pose)
+
+        self.sim.add_watcher(follow)
+        try:
+            yield
+        finally:
+            self.sim.remove_watcher(follow)
+
+    def spring(self, name: str) -> None:
+        """Let a door that has been unlatched swing open, for at most two seconds."""
+        if self.is_open(name) is None:
+            return
+        self.scene.spring_open(name)
+        for _ in range(20):
+            self.sim.step(24)
+            if self.way(name) > 0.98:
+                break
+        self.scene.calm(name)
+
+    def sweeps(
+        self, name: str, base: tuple[float, float, float], *, goal: float | None = None, side: str | None = None
+    ) -> bool:
+        """Whether a door would touch the robot, if that stood at ``base``, on its way from where it is.
+
+        Args:
+            name: The door.
+            base: x, y, theta.
+            goal: The position of its joint at the end of its way; None: open.
+            side: An arm that is not looked at, because it moves the door.
+        """
+        handle = self.scene.handle(name)
+        if handle is None:
+            return False
+        start = self.sim.joint_position(handle.body, handle.index)
+        end = handle.open if goal is None else goal
+        arm = self.robot.tree.below(f"{side[0]}_shoulder_pan_link") if side else ()
+        own = {self.robot.index[link] for link in arm}
+        helds = [held for held in self.robot.helds() if held.side != side]
+        with self.robot.as_if(base):
+            try:
+                for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / _SWEEP)):
+                    self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
+                    for body in (self.robot.body, *(held.body for held in helds)):
+                        near = self.sim.closest(body, handle.body, _SWEEP_MARGIN, other_link=handle.index)
+                        if any(body != self.robot.body or each.link not in own for each in near):
+                            return True
+            finally:
+                self.sim.set_joint(handle.body, handle.index, start)
+        return False
+
+    def how_open(self, name: str) -> str:
+        """For people."""
+        return f"{name} is {100 * self.way(name):.0f} % open"
+
+    # what skills ask
+
+    def side_of(self, item: str) -> str | None:
+        """The arm that holds an item."""
+        self._forget_lost()
+        return next((side for side in ARMS if self.in_hand.get(side) == item), None)
+
+    def free(self) -> list[str]:
+        """The arms that hold nothing."""
+        self._forget_lost()
+        return [side for side in ARMS if side not in self.in_hand]
+
+    def _forget_lost(self) -> None:
+        """What slipped out of a hand is no longer in it."""
+        for side in [side for side in self.in_hand if not self._still_held(side)]:
+            self.robot.let_go(side)
+            del self.in_hand[side]
+
+    def whole(self, name: str) -> str:
+        """The object that a part belongs to; an object itself."""
+        body, _ = self.scene.place(name)
+        return self.scene.owner(body) or name
+
+    def centre(self, name: str) -> Vector:
+        """The middle of the box round a thing."""
+        low, high = self.sim.extents(*self.scene.place(name))
+        return ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+
+    def top(self, name: str) -> float:
+        """The height of the highest point of a thing."""
+        _, high = self.sim.extents(*self.scene.place(name))
+        return high[2]
+
+    def front(self, name: str) -> float | None:
+        """The heading of the side from which a thing is reached, in the world; ``None`` for what is held or free."""
+        item = self.whole(name)
+        seen = set()
+        while self.scene.is_item(item) and item not in seen:
+            seen.add(item)
+            place = self.scene.supported(item)
+            if place is None:
+                return None
+            item = self.whole(place[0])
+        if item not in self.scene.bodies:
+            return None
+        return self.sim.pose(self.scene.bodies[item]).yaw()
+
+    def in_tool(self, side: str, item: str) -> Pose:
+        """The item's frame in the tool's."""
+        return self.robot.tool(side).inverse() * self.sim.pose(self.scene.bodies[item])
+
+
+def _along(handle: Handle, start: Pose, now: Pose) -> float:
+    """How far a joint moves when the hand at its handle moves from ``start`` to ``now``."""
+    axis = np.array(handle.axis)
+    shift = np.array(now.position) - np.array(start.position)
+    if not handle.turns:
+        return float(axis @ shift)
+    arms = [np.array(pose.position) - np.array(handle.origin) for pose in (start, now)]
+    if handle.kind == "knob":  # the hand is on the axis: what turns is its y axis
+        arms = [np.array(pose.rotate((0.0, 1.0, 0.0))) for pose in (start, now)]
+    before, after = (arm - axis * (axis @ arm) for arm in arms)
+    return float(np.arctan2(axis @ np.cross(before, after), before @ after))

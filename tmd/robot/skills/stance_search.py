@@ -1,0 +1,360 @@
+"""Getting a hand somewhere: where to stand, how high, with which arm, and the way there.
+
+A skill offers *options*: sequences of tool poses any of which would do. Each is tried from where the robot stands,
+then from places round what is to be reached, nearest to its front first; the first one that has postures for all
+its poses and a way to the first of them is taken.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain, islice, pairwise, product
+from math import atan2, ceil, cos, hypot, pi, sin
+
+from tmd.robot.pr2.arm_motion import DEEPEST, between, plan_arm, plan_base, plan_poses
+from tmd.robot.pr2.gripper_clearance import HandChecker
+from tmd.robot.pr2.reach_bounds import Wrists
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.robot_context import Cell
+
+Base = tuple[float, float, float]
+Links = frozenset[tuple[int, int | None]]
+Accept = Callable[["Option", Base], bool]
+
+DISTANCES = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90, 1.0)
+"""Metres from the base to what is to be reached, best first."""
+SWINGS = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
+"""Radians off the front."""
+TURNS = (0.0, 0.35, -0.35)
+"""Radians that the base is turned away from what it faces, so that a shoulder does."""
+_FINE_DISTANCES = (0.44, 0.51, 0.58, 0.66, 0.74, 0.82, 0.90, 0.98)
+_FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
+_FINE_TURNS = (0.0, 0.35, -0.35, 0.7, -0.7)
+"""Of the places that are looked at where furniture leaves little room."""
+ABOVE_HAND = (0.10, 0.32, -0.1)
+"""Metres from the hand's height to the shoulder's, best first."""
+PATIENCE = 6000
+"""What a search may cost before it ends: about so many milliseconds."""
+_PRICES = (3, 15, 40)
+"""Of asking about a pose that has no posture, one whose postures touch something, and a motion."""
+_ALIKE = 0.15
+"""Metres between places that are as good as one."""
+MOST_TRIES = 6
+"""So many stances are driven to before a skill gives up."""
+_WAYS = ((0.05, 1.0), (0.02, 0.4), (0.008, 0.4))
+"""Metres that the base keeps from things, best first, and its pace there: where it keeps less, it drives exactly."""
+_COARSE = 4.0
+_SHORT, _LONG = 300, 2000
+"""Samples for a way of the arm: where there are other stances to try, and where there is none."""
+_POSTURES = 8
+"""So many postures of one pose are looked at."""
+_SHOULDER_HEIGHT = 0.790675
+_RISE = 0.04
+"""Metres that the torso moves between two checks."""
+
+
+@dataclass(frozen=True, slots=True)
+class Option:
+    """One way to do something with a hand.
+
+    Attributes:
+        side: The arm.
+        poses: Of the tool in the world: the first is reached freely, the others one after the other in straight lines.
+        ignore: (body, link) that the hand may touch at the first pose and on the way along the others.
+        spot: What was chosen with it, for the skill.
+        part: How far open something is at the end.
+    """
+
+    side: str
+    poses: tuple[Pose, ...]
+    ignore: Links
+    spot: int = 0
+    part: float = 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """An option from a place to stand."""
+
+    option: Option
+    base: Base
+    torso: float
+
+
+def reach(
+    cell: Cell,
+    options: Sequence[Option],
+    focus: Pose,
+    front: float | None,
+    attempt: int,
+    *,
+    stop: int | None = None,
+    stay: bool = False,
+    accept: Accept | None = None,
+) -> Option:
+    """Bring a hand through the poses of one of the ``options``.
+
+    Args:
+        cell: Robot and scene.
+        options: What would do, best first.
+        focus: What is to be reached.
+        front: The heading of the side it is reached from, where it has one.
+        attempt: How often this was tried before; later tries begin farther down the list.
+        stop: Go only to so many of the poses; the others must be possible from there.
+        stay: Neither the base nor the torso may move.
+        accept: Says of an option from a base whether it will do.
+
+    Raises:
+        SkillError: None can be reached (stance), there is no way (path), or the robot did not get there (execution).
+    """
+    if not options:
+        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}")
+    fitting = with_room(cell, options)
+    if not fitting:
+        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
+    found = candidates(cell, fitting, focus, front, stay=stay, accept=accept)
+    last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
+    failed: list[Candidate] = []
+    closed: list[Base] = []
+    tried_before = list(islice(found, 2 * attempt))
+    for candidate in chain(found, tried_before):
+        if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
+            continue
+        try:
+            get_to(cell, candidate.base, candidate.torso)
+        except SkillError as error:
+            last = error
+            closed.append(candidate.base)
+        else:
+            try:
+                _take(cell, candidate.option, stop)
+            except SkillError as error:
+                last = error
+                failed.append(candidate)
+            else:
+                return candidate.option
+        if len(failed) + len(closed) >= MOST_TRIES:
+            break
+    if last.stage is Stage.PATH and failed:
+        return _insist(cell, failed[0], stop)
+    raise last
+
+
+def _insist(cell: Cell, candidate: Candidate, stop: int | None) -> Option:
+    """Look longer for a way from the best stance, once nothing else is left."""
+    get_to(cell, candidate.base, candidate.torso)
+    _take(cell, candidate.option, stop, budget=_LONG)
+    return candidate.option
+
+
+def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
+    """The options whose poses have room for the hand and for what it holds, wherever the robot stands."""
+    checkers: dict[tuple[str, Links], HandChecker] = {}
+    found = []
+    for option in options:
+        key = option.side, option.ignore
+        if key not in checkers:
+            checkers[key] = HandChecker(cell.robot, *key)
+        depths = checkers[key].depth(option.poses)
+        if not depths[-1] and max(depths) <= DEEPEST:
+            found.append(option)
+    return found
+
+
+def candidates(
+    cell: Cell,
+    options: Sequence[Option],
+    focus: Pose,
+    front: float | None,
+    patience: int = PATIENCE,
+    *,
+    stay: bool = False,
+    accept: Accept | None = None,
+) -> Iterator[Candidate]:
+    """Options from places to stand for which all poses have postures without collisions.
+
+    The search ends when its questions have cost more than ``patience``.
+    """
+    if not options:
+        return
+    here = cell.robot.base()
+    left = patience
+    hand = sum(option.poses[-1].position[2] for option in options) / len(options)
+    heights = [cell.robot.torso()] if stay else _heights(cell, hand)
+    wrists = Wrists(cell.robot, [o.side for o in options], [o.poses for o in options])
+    for base in [here] if stay else _free(cell, focus, front):
+        near = {torso: wrists.within(base, torso) for torso in heights}
+        for torso, numbers in near.items():
+            for option in (options[number] for number in numbers):
+                if accept is not None and not accept(option, base):
+                    continue
+                possible, price = _possible(cell, option, base, torso)
+                left -= price
+                if possible:
+                    yield Candidate(option, base, torso)
+                    break
+        if left < 0:
+            return
+
+
+def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
+    """Places to stand where the robot touches nothing: the usual ones, then many more between them."""
+    here = cell.robot.base()
+    usual = list(stances(cell, focus, front))
+    yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
+    closer = list(_round(cell, focus, front, _FINE_DISTANCES, _FINE_SWINGS, _FINE_TURNS))
+    yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
+
+
+def _alike(one: Candidate, other: Candidate) -> bool:
+    """Whether what failed there will fail here: the same arm in nearly the same place."""
+    return one.option is other.option and _close(one.base, other.base)
+
+
+def _close(one: Base, other: Base) -> bool:
+    return hypot(one[0] - other[0], one[1] - other[1]) < _ALIKE
+
+
+def stances(cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = DISTANCES) -> Iterator[Base]:
+    """Where to stand: here, then round the focus."""
+    x, y, _ = focus.position
+    here = cell.robot.base()
+    if hypot(here[0] - x, here[1] - y) < 1.05:
+        yield here
+    swings = SWINGS if front is not None else (*SWINGS, 1.6, -1.6, 2.2, -2.2, pi)
+    yield from _round(cell, focus, front, distances, swings, TURNS)
+
+
+def _round(
+    cell: Cell,
+    focus: Pose,
+    front: float | None,
+    distances: Sequence[float],
+    swings: Sequence[float],
+    turns: Sequence[float],
+) -> Iterator[Base]:
+    """Places round the focus; without a front, the robot's own side is the front."""
+    x, y, _ = focus.position
+    here = cell.robot.base()
+    middle = front if front is not None else atan2(here[1] - y, here[0] - x)
+    for swing, distance, turn in product(swings, distances, turns):
+        angle = middle + swing
+        yield x + distance * cos(angle), y + distance * sin(angle), _wrapped(angle + pi + turn)
+
+
+def get_to(cell: Cell, base: Base, torso: float) -> None:
+    """Drive to ``base`` with the arms tucked.
+
+    Raises:
+        SkillError: There is no way, or the robot did not get there.
+    """
+    here = cell.robot.base()
+    if hypot(base[0] - here[0], base[1] - here[1]) > 0.01 or abs(_wrapped(base[2] - here[2])) > 0.01:
+        cell.fold()
+        if abs(cell.robot.torso() - torso) > 0.005 and not _sticks(cell, torso):
+            _lift(cell, torso)  # there it may be below a shelf
+        _drive(cell, base)
+    if abs(cell.robot.torso() - torso) > 0.005:
+        _lift(cell, torso)
+
+
+def _drive(cell: Cell, base: Base) -> None:
+    """Drive; slowly where there is little room, for there the robot must be exact.
+
+    Raises:
+        SkillError: There is no way, or the robot did not get there.
+    """
+    for away, pace in _WAYS:
+        path = plan_base(cell.robot, base, rng=cell.rng, clearance=away)
+        if path is None:
+            continue
+        if not cell.robot.drive(path, pace=pace):
+            raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
+        return
+    raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
+
+
+def _lift(cell: Cell, torso: float) -> None:
+    """Move the torso, with tucked arms if they would be in something there."""
+    if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
+        raise SkillError(Stage.PATH, f"something is in the way of the arms with the torso at {torso:.2f} m")
+    if not cell.robot.raise_torso(torso):
+        raise SkillError(Stage.EXECUTION, f"the torso did not get to {torso:.2f} m")
+
+
+def _sticks(cell: Cell, torso: float) -> bool:
+    """Whether the arms, or what they hold, would be in something on the way of the torso."""
+    here = cell.robot.torso()
+    steps = ceil(abs(torso - here) / _RISE)
+    heights = [here + (torso - here) * step / steps for step in range(1, steps + 1)]
+    return any(depth > DEEPEST for height in heights for *_, depth in cell.robot.collides(torso=height))
+
+
+def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
+    """Move the tool through ``poses`` in straight lines.
+
+    Raises:
+        SkillError: The arm cannot, or did not.
+    """
+    path = plan_poses(cell.robot, side, dense([cell.robot.tool(side), *poses]), ignore=ignore)
+    if path is None:
+        raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(poses[-1])}")
+    if not cell.robot.move_arm(side, path):
+        raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}")
+
+
+def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
+    """``poses`` with others in between, ``pitch`` cm and 0.05 ``pitch`` rad apart at most."""
+    found = [poses[0]]
+    for start, end in pairwise(poses):
+        pieces = max(1, ceil(max(start.distance(end) / (0.01 * pitch), start.angle(end) / (0.05 * pitch)) - 1e-9))
+        found += [between(start, end, k / pieces) for k in range(1, pieces + 1)]
+    return found
+
+
+def _take(cell: Cell, option: Option, stop: int | None, budget: int = _SHORT) -> None:
+    side = option.side
+    rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
+    if rows is None:
+        raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
+    path = plan_arm(cell.robot, side, rows[0], rng=cell.rng, budget=budget)
+    if path is None:
+        raise SkillError(Stage.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
+    if not cell.robot.move_arm(side, path):
+        raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(option.poses[0])}")
+    if option.poses[1:stop]:
+        follow(cell, side, option.poses[1:stop], option.ignore)
+
+
+def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
+    """Whether there is a posture for the last pose, and a motion through all of them; and what it cost to ask."""
+    robot, side = cell.robot, option.side
+    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[:_POSTURES]
+    if not found:
+        return False, _PRICES[0]
+    if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
+        return False, _PRICES[1]
+    poses = dense(option.poses, _COARSE)  # what lies in between is looked at once the robot is there
+    rows = plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso)
+    return rows is not None, _PRICES[2]
+
+
+def _heights(cell: Cell, hand: float) -> list[float]:
+    """Torso heights: as it is, then those that suit a hand at a height."""
+    here = cell.robot.torso()
+    found = [here]
+    for above in ABOVE_HAND:
+        height = min(max(hand + above - _SHOULDER_HEIGHT, 0.012), 0.3)
+        if all(abs(height - other) > 0.04 for other in found):
+            found.append(height)
+    return found
+
+
+def _wrapped(angle: float) -> float:
+    return (angle + pi) % (2 * pi) - pi
+
+
+def _place(pose: Pose) -> str:
+    return " ".join(f"{value:.2f}" for value in pose.position)

@@ -1,0 +1,171 @@
+"""Where the camera of a film stands: it looks for an angle that shows the hands and the thing, and glides there.
+
+Angles round the subject are compared by what rays from there meet: a point that something hides counts nothing.
+Rays move nothing, so a run is the same with and without a film.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+from tmd.robot.pr2.pr2 import ARMS
+from tmd.robot.sim.pose import Vector
+from tmd.robot.skills.robot_context import Cell
+
+FOV = 50.0
+"""Vertical angle of view in degrees."""
+_TURNS = tuple(math.radians(15.0 * step) for step in range(24))
+_HEIGHTS = tuple(map(math.radians, (28.0, 40.0, 54.0)))
+_CLOSE, _WIDE = 0.5, 1.0
+"""Metres round the subject that are in the picture, at least."""
+_NEAR_HAND = 0.9
+"""A hand that is farther from the thing than this has nothing to do with it."""
+_SEEN = 0.1
+"""A ray that gets this near to its goal has met it."""
+_GLIDE = 0.45
+"""Seconds in which the camera makes about two thirds of its way."""
+_PERIOD = 0.6
+"""Seconds after which a better angle is looked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A camera round its target: radians and metres; a turn of 0 is the side of +x."""
+
+    target: Vector
+    turn: float
+    height: float
+    distance: float
+
+    @property
+    def eye(self) -> Vector:
+        """Where the camera is."""
+        x, y, z = self.target
+        flat = self.distance * math.cos(self.height)
+        return (
+            x + flat * math.cos(self.turn),
+            y + flat * math.sin(self.turn),
+            z + self.distance * math.sin(self.height),
+        )
+
+    def towards(self, other: View, share: float) -> View:
+        """On the way to another view, the shorter way round."""
+        turned = math.remainder(other.turn - self.turn, math.tau)
+        x, y, z = (a + share * (b - a) for a, b in zip(self.target, other.target, strict=True))
+        return View(
+            (x, y, z),
+            self.turn + share * turned,
+            self.height + share * (other.height - self.height),
+            self.distance + share * (other.distance - self.distance),
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class _Point:
+    """Something that should be seen: the bodies whose surface it is on, and how much it matters."""
+
+    place: Vector
+    bodies: tuple[int, ...]
+    weight: float
+
+
+class Camera:
+    """The camera of one film.
+
+    Args:
+        cell: Robot and scene.
+    """
+
+    def __init__(self, cell: Cell) -> None:
+        self._cell = cell
+        self._names: tuple[str, ...] = ()
+        self._wide = True
+        self._goal = self._view = _overview(cell)
+        self._since = math.inf
+
+    def follow(self, names: Sequence[str], *, wide: bool) -> None:
+        """What to look at from now on.
+
+        Args:
+            names: Objects and parts; none: what it was before.
+            wide: Show the whole robot on its way there, not its hands.
+        """
+        self._names = tuple(dict.fromkeys(names)) or self._names
+        self._wide = wide
+        self._since = math.inf
+
+    def glide(self, seconds: float) -> View:
+        """The view after this much more time."""
+        self._since += seconds
+        if self._since >= _PERIOD:
+            self._goal, self._since = self.best(), 0.0
+        self._view = self._view.towards(self._goal, 1.0 - math.exp(-seconds / _GLIDE))
+        return self._view
+
+    def best(self) -> View:
+        """The angle that shows most now."""
+        if not self._names:
+            return _overview(self._cell)
+        points = self._points()
+        target, around = _ball([p.place for p in points if p.weight >= 1.0])
+        around = max(around + 0.3, _WIDE) if self._wide else max(around + 0.2, _CLOSE)
+        distance = around / math.sin(math.radians(FOV / 2))
+        views = [View(target, turn, height, distance) for turn, height in product(_TURNS, _HEIGHTS)]
+        return max(views, key=lambda view: self._worth(view, points))
+
+    def _points(self) -> list[_Point]:
+        cell, points = self._cell, []
+        for name in self._names:
+            low, high = cell.sim.extents(*cell.scene.place(name))
+            body, _ = cell.scene.place(name)
+            x, y, z = cell.centre(name)
+            points.append(_Point((x, y, z), (body,), 2.0))
+            points.append(_Point((x, y, high[2]), (body,), 1.0))
+            points += [_Point((a, b, high[2]), (body,), 0.25) for a, b in product((low[0], high[0]), (low[1], high[1]))]
+        own = (cell.robot.body, *(cell.scene.bodies[item] for item in cell.in_hand.values()))
+        x, y, _ = cell.robot.base()
+        if self._wide:
+            return [*points, _Point((x, y, 1.2), own, 1.5), _Point((x, y, 0.5), own, 1.0)]
+        things = [p.place for p in points]
+        for side in ARMS:
+            hand = cell.robot.tool(side).position
+            if min(math.dist(hand, thing) for thing in things) < _NEAR_HAND:
+                points.append(_Point(hand, own, 2.0))
+        return [*points, _Point((x, y, 1.2), own, 0.5)]
+
+    def _worth(self, view: View, points: Sequence[_Point]) -> float:
+        if self._inside(view.eye):
+            return -math.inf
+        seen = sum(point.weight for point in points if self._sees(view.eye, point))
+        turned = abs(math.remainder(view.turn - self._view.turn, math.tau)) / math.pi
+        return seen - 1.2 * turned - 0.8 * abs(view.height - _HEIGHTS[1])
+
+    def _sees(self, eye: Vector, point: _Point) -> bool:
+        hit = self._cell.sim.ray(eye, point.place)
+        return hit is None or hit.body in point.bodies or math.dist(hit.position, point.place) < _SEEN
+
+    def _inside(self, eye: Vector) -> bool:
+        """Whether the camera would stand in something, or so near that it fills the picture."""
+        for name, body in self._cell.scene.bodies.items():
+            if name in self._cell.scene.blueprints and not self._cell.scene.is_item(name):
+                low, high = self._cell.sim.extents(body)
+                if all(a - 0.25 < value < b + 0.25 for a, value, b in zip(low, eye, high, strict=True)):
+                    return True
+        return False
+
+
+def _overview(cell: Cell) -> View:
+    """The whole room, from its open side."""
+    eye, target = cell.scene.viewpoint()
+    x, y, z = (e - t for e, t in zip(eye, target, strict=True))
+    distance = math.hypot(x, y, z)
+    return View(target, math.atan2(y, x), math.asin(z / distance), distance)
+
+
+def _ball(places: Sequence[Vector]) -> tuple[Vector, float]:
+    """The middle of some points, and how far the farthest is from it."""
+    x, y, z = ((min(values) + max(values)) / 2 for values in zip(*places, strict=True))
+    return (x, y, z), max(math.dist((x, y, z), place) for place in places)

@@ -1,0 +1,225 @@
+"""What stands under the pictures: the instruction, what was said, and the facts that were checked."""
+
+from __future__ import annotations
+
+import importlib.util
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.diagnostics import MissingToolError
+
+if TYPE_CHECKING:
+    from PIL.Image import Image
+    from PIL.ImageDraw import ImageDraw
+    from PIL.ImageFont import FreeTypeFont, ImageFont
+
+    Font: TypeAlias = FreeTypeFont | ImageFont
+
+Pixels: TypeAlias = NDArray[np.uint8]
+Mark: TypeAlias = Literal["expected", "confirmed", "missing"]
+
+HEIGHT = 128
+"""Of the caption under a picture 640 pixels wide; others have it in proportion."""
+_USUAL = 640
+_PAPER, _INK, _PALE = "#1d2127", "#f3f1ec", "#a3a9b3"
+_COLOURS = {"expected": "#a3a9b3", "confirmed": "#6fcf7c", "missing": "#ff7b6b"}
+_BADGES = {"ok": "#6fcf7c", "failed": "#ff7b6b", "mismatch": "#ff7b6b", "stopped": "#ff7b6b"}
+_COLUMNS = 4
+_GAP = 10
+
+
+@dataclass(frozen=True, slots=True)
+class Caption:
+    """One caption.
+
+    Attributes:
+        title: The instruction.
+        number: Its place in the plan.
+        said: What it is for.
+        facts: Each fact with its mark.
+        note: What was measured, or why it failed.
+        badge: One word at the right: ``ok``, ``failed``; empty while it is being done.
+    """
+
+    title: str
+    number: str = ""
+    said: str = ""
+    facts: tuple[tuple[str, Mark], ...] = ()
+    note: str = ""
+    badge: str = ""
+
+
+def pillow() -> None:
+    """Refuse to go on without Pillow.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    if importlib.util.find_spec("PIL") is None:
+        raise MissingToolError(
+            "pictures need the package Pillow, which is not installed", hint="pip install 'tmd[robot]'"
+        )
+
+
+def caption_height(width: int) -> int:
+    """Pixels under a picture of this width; even, as films need it."""
+    return 2 * round(HEIGHT * width / _USUAL / 2)
+
+
+def under(picture: Pixels, caption: Caption) -> Pixels:
+    """The picture with its caption under it.
+
+    Args:
+        picture: (height, width, 3), RGB.
+        caption: What to write.
+
+    Returns:
+        (height + caption_height(width), width, 3), RGB.
+    """
+    from PIL import Image
+
+    height, width, _ = picture.shape
+    whole = Image.new("RGB", (width, height + caption_height(width)), _PAPER)
+    whole.paste(Image.fromarray(picture), (0, 0))
+    _write(whole, height, caption)
+    return np.asarray(whole, dtype=np.uint8)
+
+
+def filmstrip(pictures: Sequence[Pixels]) -> Image:
+    """Pictures of one size, in reading order, on one sheet of at most four columns."""
+    from PIL import Image
+
+    columns = min(_COLUMNS, max(1, math.ceil(math.sqrt(len(pictures)))))
+    rows = math.ceil(len(pictures) / columns)
+    height, width, _ = pictures[0].shape
+    sheet = Image.new("RGB", (columns * (width + _GAP) + _GAP, rows * (height + _GAP) + _GAP), "#f3f1ec")
+    for index, picture in enumerate(pictures):
+        row, column = divmod(index, columns)
+        sheet.paste(Image.fromarray(picture), (_GAP + column * (width + _GAP), _GAP + row * (height + _GAP)))
+    return sheet
+
+
+def _write(whole: Image, top: int, caption: Caption) -> None:
+    from PIL import ImageDraw
+
+    draw = ImageDraw.Draw(whole)
+    unit = whole.width / _USUAL
+    left, right = 14 * unit, whole.width - 14 * unit
+    bold, plain, small = _font(round(20 * unit), True), _font(round(15 * unit), False), _font(round(14 * unit), False)
+
+    def at(row: float) -> float:
+        return top + row * unit
+
+    x = left
+    if caption.number:
+        draw.text((x, at(10)), caption.number, _PALE, bold)
+        x += draw.textlength(caption.number, bold) + 10 * unit
+    if caption.badge:
+        width = draw.textlength(caption.badge, bold)
+        draw.text((right - width, at(10)), caption.badge, _BADGES.get(caption.badge, _PALE), bold)
+        end = right - width - 12 * unit
+    else:
+        end = right
+    draw.text((x, at(10)), _fitted(draw, caption.title, bold, end - x), _INK, bold)
+    draw.text((left, at(37)), _fitted(draw, caption.said, small, right - left), _PALE, small)
+    rows = _facts(draw, caption.facts, plain, unit, (left, right, at(60)))
+    free = 3 - rows
+    lines = _wrapped(draw, caption.note, small, right - left, max(1, free))
+    for index, line in enumerate(lines[: max(0, free)]):
+        colour = _COLOURS["missing"] if caption.badge in ("failed", "mismatch", "stopped") else _PALE
+        draw.text((left, at(60 + 21 * (rows + index))), line, colour, small)
+
+
+def _facts(
+    draw: ImageDraw,
+    facts: Sequence[tuple[str, Mark]],
+    font: Font,
+    unit: float,
+    place: tuple[float, float, float],
+) -> int:
+    """Draw facts beside each other on at most two rows; returns the rows that were used."""
+    left, right, top = place
+    x, row, step, gap = left, 0, 20 * unit, 18 * unit
+    for index, (fact, mark) in enumerate(facts):
+        rest = len(facts) - index
+        # on the last row there must be room for the words that tell of the others
+        spare = draw.textlength(f"and {rest} more", font) + gap if rest > 1 else 0.0
+        wide = step + draw.textlength(fact, font)
+        if row == 0 and x > left and x + wide > right:
+            x, row = left, 1
+        elif row == 1 and x + wide + spare > right:
+            draw.text((x, top + 21 * unit), f"and {rest} more", _PALE, font)
+            return 2
+        text = _fitted(draw, fact, font, right - x - step - (spare if row else 0.0))
+        _mark(draw, (x, top + 21 * unit * row + 2 * unit), mark, 13 * unit)
+        draw.text((x + step, top + 21 * unit * row), text, _COLOURS[mark] if mark != "confirmed" else _INK, font)
+        x += step + draw.textlength(text, font) + gap
+    return row + 1 if facts else 0
+
+
+def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) -> None:
+    """A ring, a tick or a cross: drawn, because not every font has them."""
+    x, y = place
+    colour, width = _COLOURS[mark], max(1, round(size / 5))
+
+    def line(*points: tuple[float, float]) -> None:
+        draw.line([(x + a * size, y + b * size) for a, b in points], colour, width, joint="curve")
+
+    if mark == "expected":
+        draw.ellipse((x + 0.1 * size, y + 0.2 * size, x + 0.8 * size, y + 0.9 * size), outline=colour, width=width)
+    elif mark == "confirmed":
+        line((0.0, 0.6), (0.35, 0.95), (0.95, 0.15))
+    else:
+        line((0.1, 0.2), (0.85, 0.95))
+        line((0.85, 0.2), (0.1, 0.95))
+
+
+def _fitted(draw: ImageDraw, text: str, font: Font, width: float) -> str:
+    """The text, cut with dots where it is too wide."""
+    if draw.textlength(text, font) <= width:
+        return text
+    while text and draw.textlength(text + "…", font) > width:
+        text = text[:-1]
+    return text.rstrip() + "…"
+
+
+def _wrapped(draw: ImageDraw, text: str, font: Font, width: float, most: int) -> list[str]:
+    """The text on at most ``most`` lines; what is left over is cut."""
+    lines: list[str] = []
+    words = text.split()
+    while words and len(lines) < most:
+        if len(lines) == most - 1:
+            return [*lines, _fitted(draw, " ".join(words), font, width)]
+        count = max(_fitting(draw, words, font, width), default=1)
+        lines.append(_fitted(draw, " ".join(words[:count]), font, width))
+        words = words[count:]
+    return lines
+
+
+def _fitting(draw: ImageDraw, words: Sequence[str], font: Font, width: float) -> Iterator[int]:
+    """How many leading words fit on a line, from one up."""
+    for count in range(1, len(words) + 1):
+        if draw.textlength(" ".join(words[:count]), font) > width:
+            return
+        yield count
+
+
+@cache
+def _font(size: int, bold: bool) -> Font:
+    """The font that comes with matplotlib; Pillow's own where that is not as expected."""
+    from PIL import ImageFont
+
+    found = importlib.util.find_spec("matplotlib")
+    if found is not None and found.origin is not None:
+        name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
+        path = Path(found.origin).parent / "mpl-data" / "fonts" / "ttf" / name
+        if path.is_file():
+            return ImageFont.truetype(str(path), size)
+    return ImageFont.load_default(size)

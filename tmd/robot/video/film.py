@@ -1,0 +1,199 @@
+"""A film of a run, and a sheet with one picture for each instruction."""
+
+from __future__ import annotations
+
+import io
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+from tmd.files import write_bytes
+from tmd.pddl.model import GroundAtom
+from tmd.robot.monitor.listeners import Title
+from tmd.robot.session import TICK
+from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.sim.simulator import Simulator
+from tmd.robot.skills.results import Execution, Status, Step
+from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.skill_file import Skills
+from tmd.robot.video.camera import FOV, Camera, View
+from tmd.robot.video.captions import Caption, Mark, Pixels, caption_height, filmstrip, pillow, under
+from tmd.robot.video.movie_file import MovieFile
+
+PICTURE = (640, 480)
+GIF_PICTURE = (480, 360)
+FPS = {".mp4": 15, ".gif": 10}
+_SHOWN = 0.8
+"""Seconds for which the checked facts of an instruction are shown."""
+_FAILURE_SHOWN = 2.0
+_OPENING, _ENDING = 1.5, 2.5
+_TILE = (400, 300)
+_FAR = ("look", "drive")
+"""Skills that are seen from afar."""
+
+
+def open_movie(
+    path: Path, picture: tuple[int, int] | None = None, fps: int | None = None, *, small: bool = False
+) -> MovieFile:
+    """A file for a film with captions.
+
+    Args:
+        path: Where it goes; its suffix says what kind of film it is.
+        picture: Width and height of the pictures without their captions, even numbers; the kind's usual ones if not.
+        fps: Pictures a second; the kind's usual ones if not. The pauses of a GIF are hundredths of seconds.
+        small: Spare bytes, as :class:`MovieFile` does.
+
+    Raises:
+        MissingToolError: What writes films of this kind is not installed.
+        OutputError: It cannot be written there.
+        TmdError: The suffix says no kind of film that is known.
+    """
+    width, height = picture or (GIF_PICTURE if path.suffix == ".gif" else PICTURE)
+    return MovieFile(path, (width, height + caption_height(width)), fps or FPS.get(path.suffix, 1), small=small)
+
+
+class Film:
+    """Takes the pictures of a run.
+
+    It listens to a :class:`tmd.robot.monitor.listeners.Recorder`. Between :meth:`begin` and :meth:`end` it takes
+    pictures as simulated time goes by.
+
+    Args:
+        cell: Robot and scene.
+        skills: What instructions are about.
+        movie: Where the film goes, from :func:`open_movie`; None: no film, only the filmstrip.
+        strip: Whether there shall be a filmstrip.
+
+    Raises:
+        MissingToolError: Pillow is not installed.
+    """
+
+    def __init__(self, cell: Cell, skills: Skills, *, movie: MovieFile | None = None, strip: bool = False) -> None:
+        pillow()
+        self._cell = cell
+        self._skills = skills
+        self._movie = movie
+        self._strip = strip
+        self._tiles: list[Pixels] = []
+        self._camera = Camera(cell)
+        self._caption = Caption("")
+        self._last: Pixels | None = None
+        self._tries: Counter[int] = Counter()
+        self._done: set[int] = set()
+        self._of = 0
+        if movie is not None:
+            width, height = movie.size
+            self._size = width, height - caption_height(width)
+            self._fps = movie.fps
+            self._time, self._shot = 0.0, 0.0
+            self._steps, self._ticks = cell.sim.steps, cell.sim.ticks
+            cell.sim.add_watcher(self._watch)
+
+    def open(self, title: str, said: str) -> None:
+        """Begin with the room and what was said."""
+        self._caption = Caption(title, note=said)
+        self._hold(_OPENING)
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins."""
+        self._of = title.of
+        if not title.repair:
+            self._tries[title.number] += 1
+        task = self._skills.task(title.instruction)
+        names = self._cell.scene.names()
+        self._camera.follow([n for n in (task.object, task.target) if n in names], wide=task.skill in _FAR)
+        self._caption = Caption(
+            str(title.instruction),
+            self._number(title),
+            _said(title),
+            tuple((str(atom), "expected") for atom in expected),
+        )
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over: the facts are marked, and the picture stays for a moment."""
+        facts: list[tuple[str, Mark]] = [(str(atom), "confirmed") for atom in step.confirmed]
+        facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
+        badge = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
+        measured = "; ".join(m.measured for m in step.mismatches)
+        note = step.failure or measured or step.evidence
+        # what is missing first: there is room for a few facts only
+        facts.sort(key=lambda fact: fact[1] == "confirmed")
+        if badge == "ok" and not title.repair:
+            self._done.add(title.number)
+        number = self._number(title)
+        self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
+        self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
+        if self._strip:
+            self._tiles.append(under(self._picture(self._camera.best(), _TILE), self._caption))
+
+    def close(self, execution: Execution) -> None:
+        """End with how it ended."""
+        repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
+        badge = "stopped" if execution.status is Status.STOPPED else ""
+        note = execution.reason or "Every effect of the plan is confirmed."
+        title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
+        self._caption = Caption(
+            title,
+            said=f"{len(self._done)} of {self._of} instructions went as predicted{repairs}",
+            note=note,
+            badge=badge,
+        )
+        self._hold(_ENDING)
+
+    def _number(self, title: Title) -> str:
+        """Its place in the plan, and which try it is, if it is not the first."""
+        if title.repair:
+            return "repair"
+        tries = self._tries[title.number]
+        return f"{title.number}/{title.of}{f', try {tries}' if tries > 1 else ''}"
+
+    def write_strip(self, path: Path) -> None:
+        """Write the filmstrip of what was done so far; nothing where nothing was done.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        if not self._tiles:
+            return
+        from PIL import Image
+
+        data = io.BytesIO()
+        # a third of the bytes; by octree, because a median cut loses small things of a rare colour: the water in a pot
+        few = filmstrip(self._tiles).quantize(256, Image.Quantize.FASTOCTREE, dither=Image.Dither.NONE)
+        few.save(data, "PNG", optimize=True)
+        write_bytes(path, data.getvalue())
+
+    def _watch(self, sim: Simulator) -> None:
+        stepped = sim.steps - self._steps
+        ticked = sim.ticks - self._ticks - stepped
+        self._steps, self._ticks = sim.steps, sim.ticks
+        self._time += stepped / STEPS_PER_SECOND + ticked * TICK
+        if self._time >= self._shot - 1e-9:
+            self._shot += 1 / self._fps
+            self._shoot()
+
+    def _shoot(self) -> None:
+        assert self._movie is not None
+        self._last = self._picture(self._camera.glide(1 / self._fps), self._size)
+        self._movie.add(under(self._last, self._caption))
+
+    def _hold(self, seconds: float) -> None:
+        """Let the last picture stay, with the caption as it is now."""
+        if self._movie is None:
+            return
+        if self._last is None:
+            self._last = self._picture(self._camera.glide(0.0), self._size)
+        self._movie.add(under(self._last, self._caption), round(seconds * self._fps))
+
+    def _picture(self, view: View, size: tuple[int, int]) -> Pixels:
+        sim = self._cell.sim
+        return sim.picture(view.eye, view.target, *size, fov=FOV, shadow=sim.renderer != "tiny")
+
+
+def _said(title: Title) -> str:
+    if title.repair:
+        return f"put in before instruction {title.number} of the plan"
+    order = title.order
+    if order is None or order.clause is None:
+        return ""
+    return f"clause {order.clause + 1}{', left unsaid, for' if order.latent else ':'} “{order.text}”"

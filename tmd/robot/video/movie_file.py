@@ -1,0 +1,249 @@
+"""Files that films go to, picture by picture: what was written stays readable, whatever ends the run.
+
+A film grows in a neighbour of its file (``out.unfinished.mp4``) and takes its name when it is closed, also after an
+error. If the whole process is killed, the neighbour stays, and can be played.
+"""
+
+from __future__ import annotations
+
+import importlib.util
+import subprocess
+from collections.abc import Callable, Generator
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.robot.video.captions import pillow
+
+SUFFIXES = (".mp4", ".gif")
+_COLOURS = 128
+
+
+class MovieFile:
+    """A film that is being written.
+
+    Args:
+        path: Where it goes.
+        size: Width and height of every picture, in pixels; even numbers.
+        fps: Pictures a second.
+        small: Spare bytes rather than detail: an MP4 is a third as large. If the process is killed, up to eight seconds
+            of it are lost instead of two.
+
+    Attributes:
+        pictures: How many were added.
+
+    Raises:
+        MissingToolError: What writes films of this kind is not installed.
+        OutputError: It cannot be written there.
+        TmdError: The suffix says no kind of film that is known.
+    """
+
+    def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool = False) -> None:
+        self.path = path
+        self.size = size
+        self.fps = fps
+        self.pictures = 0
+        self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
+        known: dict[str, Callable[[Path, tuple[int, int], int], _Writer]] = {
+            ".mp4": partial(_Mp4, small=small),
+            ".gif": _Gif,
+        }
+        if path.suffix not in known:
+            raise TmdError(f"{path}: films are .mp4 or .gif files", hint=f"call it {path.stem}.mp4")
+        if path.is_dir():
+            raise self._error(IsADirectoryError(0, "Is a directory"))
+        pillow()
+        try:
+            self._draft.write_bytes(b"")  # now, not after the first minute
+            self._writer: _Writer | None = known[path.suffix](self._draft, size, fps)
+        except OSError as error:
+            raise self._error(error) from error
+        except MissingToolError:
+            self._draft.unlink()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        try:
+            self.close()
+        except OutputError:
+            if error is None:
+                raise
+
+    def add(self, picture: NDArray[np.uint8], times: int = 1) -> None:
+        """Show a picture for so many frames.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        assert self._writer is not None
+        try:
+            self._writer.add(picture, times)
+        except OSError as error:
+            raise self._error(error) from error
+        self.pictures += times
+
+    def close(self) -> None:
+        """Finish the film and give it its name; a film without pictures leaves nothing.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        if self._writer is None:
+            return
+        writer, self._writer = self._writer, None
+        try:
+            writer.close()
+            if self.pictures:
+                self._draft.replace(self.path)
+            else:
+                self._draft.unlink(missing_ok=True)
+        except OSError as error:
+            raise self._error(error) from error
+
+    def _error(self, error: OSError) -> OutputError:
+        reason = error.strerror or str(error).strip().splitlines()[-1]
+        return OutputError(
+            f"{self.path} cannot be written: {reason}",
+            hint="check that the directory exists, that you may write there and that the disk has room",
+        )
+
+
+class _Writer:
+    """Writes one kind of film."""
+
+    def add(self, picture: NDArray[np.uint8], times: int) -> None:
+        raise NotImplementedError
+
+    def close(self) -> None:
+        raise NotImplementedError
+
+
+class _Mp4(_Writer):
+    """H.264 by the ffmpeg that imageio-ffmpeg brings.
+
+    While it grows it is fragmented: that can be played from any beginning of it. In the end it is put in order, so
+    that players know how long it is.
+    """
+
+    def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool) -> None:
+        if importlib.util.find_spec("imageio_ffmpeg") is None:
+            raise MissingToolError(
+                "MP4 films need the package imageio-ffmpeg, which is not installed",
+                hint="pip install 'tmd[robot]', or ask for a GIF: --video out.gif",
+            )
+        import imageio_ffmpeg
+
+        try:
+            self._ffmpeg: str = imageio_ffmpeg.get_ffmpeg_exe()
+        except RuntimeError as error:
+            raise MissingToolError(
+                "there is no ffmpeg: the package imageio-ffmpeg came without one for this machine",
+                hint="install ffmpeg, or ask for a GIF: --video out.gif",
+            ) from error
+        self._path = path
+        self._frames: Generator[Any, bytes | None, None] = imageio_ffmpeg.write_frames(
+            str(path),
+            size,
+            fps=fps,
+            codec="libx264",
+            quality=None,
+            macro_block_size=2,
+            ffmpeg_log_level="error",
+            output_params=[
+                *("-crf", "30" if small else "23", "-preset", "veryfast", "-threads", "1"),
+                *("-g", str((8 if small else 2) * fps)),
+                *("-movflags", "+frag_keyframe+empty_moov+default_base_moof"),
+            ],
+        )
+        self._frames.send(None)
+
+    def add(self, picture: NDArray[np.uint8], times: int) -> None:
+        data = picture.tobytes()
+        for _ in range(times):
+            self._frames.send(data)
+
+    def close(self) -> None:
+        self._frames.close()
+        ordered = self._path.with_suffix(".ordered.mp4")
+        command = [self._ffmpeg, "-y", "-loglevel", "error", "-i", str(self._path), "-c", "copy"]
+        try:
+            done = subprocess.run(
+                [*command, "-movflags", "+faststart", ordered],
+                stdin=subprocess.DEVNULL,
+                capture_output=True,
+                check=False,
+                start_new_session=True,  # a second Ctrl-C is not for it
+            )
+            if done.returncode == 0:
+                ordered.replace(self._path)
+        finally:
+            with suppress(OSError):
+                ordered.unlink(missing_ok=True)
+
+
+class _Gif(_Writer):
+    """Written by hand from Pillow's pieces: Pillow itself keeps all pictures until the last.
+
+    A picture is stored as the box in which it differs from the one before, with colours of its own.
+    """
+
+    def __init__(self, path: Path, size: tuple[int, int], fps: int) -> None:
+        self._file: IO[bytes] = path.open("wb")
+        self._pause = round(100 / fps)
+        self._waiting: tuple[NDArray[np.uint8], int] | None = None
+        self._before: NDArray[np.uint8] | None = None
+        width, height = size
+        self._file.write(b"GIF89a" + width.to_bytes(2, "little") + height.to_bytes(2, "little") + b"\x00\x00\x00")
+        self._file.write(b"!\xff\x0bNETSCAPE2.0\x03\x01\x00\x00\x00")  # again and again
+
+    def add(self, picture: NDArray[np.uint8], times: int) -> None:
+        if self._waiting is not None and np.array_equal(self._waiting[0], picture):
+            self._waiting = self._waiting[0], self._waiting[1] + times
+            return
+        self._write()
+        self._waiting = picture, times
+
+    def _write(self) -> None:
+        from PIL import GifImagePlugin, Image
+
+        if self._waiting is None:
+            return
+        picture, times = self._waiting
+        top, left, bottom, right = _changed(self._before, picture)
+        image = Image.fromarray(picture[top:bottom, left:right]).quantize(_COLOURS, dither=Image.Dither.NONE)
+        image.encoderinfo = {}
+        pieces = GifImagePlugin.getdata(
+            image, (left, top), duration=10 * self._pause * times, include_color_table=True, disposal=1
+        )
+        self._file.write(b"".join(pieces))
+        self._file.flush()
+        self._before, self._waiting = picture, None
+
+    def close(self) -> None:
+        try:
+            self._write()
+            self._file.write(b";")
+        finally:
+            self._file.close()
+
+
+def _changed(before: NDArray[np.uint8] | None, now: NDArray[np.uint8]) -> tuple[int, int, int, int]:
+    """The box in which two pictures differ: top, left, bottom, right."""
+    height, width, _ = now.shape
+    if before is None:
+        return 0, 0, height, width
+    rows, columns = np.nonzero((before != now).any(axis=2))
+    if not len(rows):
+        return 0, 0, 1, 1
+    return int(rows.min()), int(columns.min()), int(rows.max()) + 1, int(columns.max()) + 1

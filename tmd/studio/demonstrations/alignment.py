@@ -1,0 +1,145 @@
+"""Which clause each step of a demonstration serves, as a proposal that the person may change.
+
+Steps serve the clauses in the order of the text. How well a step fits a clause is said by the objects that both speak
+of (:mod:`tmd.veil.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
+instructions, and with which of them they ended. The best division is found by dynamic programming. Clauses at the end
+may be without steps at no cost, for the person may not be there yet.
+
+The four constants were chosen on the bundled demonstrations; ``python -m experiments.studio.alignment`` measures how
+well the proposals agree with them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.veil.clause_alignment import cut_cost, fit, speaks_of
+from tmd.veil.library import Library
+from tmd.veil.world import World
+
+_HABIT = 0.75
+"""What it counts that a verb's instructions are usual for it."""
+_END = 0.5
+"""What it counts that a verb usually ends so."""
+_PASSED_OVER = 1.5
+"""What it costs to leave a clause without steps and go on to the next."""
+_PRIOR = 5.0
+"""So many instructions must a verb have been shown with to count as much as all verbs together."""
+_NEVER = -1e9
+
+
+@dataclass(frozen=True)
+class Habits:
+    """What was done for each verb.
+
+    Attributes:
+        done: For each canonical verb how often each instruction was carried out.
+        ended: The same for the last instructions.
+        all_done: The same for all verbs together.
+        all_ended: The last ones for all verbs together.
+    """
+
+    library: Library | None = None
+    done: dict[str, Counter[str]] = field(default_factory=dict)
+    ended: dict[str, Counter[str]] = field(default_factory=dict)
+    all_done: Counter[str] = field(default_factory=Counter)
+    all_ended: Counter[str] = field(default_factory=Counter)
+
+    @staticmethod
+    def of(library: Library) -> Habits:
+        """Count in ``library``."""
+        found = Habits(library)
+        for verb in library.verbs():
+            done = found.done.setdefault(verb, Counter())
+            ended = found.ended.setdefault(verb, Counter())
+            for template in library.templates(verb):
+                done.update(instruction.name for instruction in template.instructions)
+                ended[template.instructions[-1].name] += 1
+            found.all_done.update(done)
+            found.all_ended.update(ended)
+        return found
+
+    def verb(self, clause: Clause | None) -> str:
+        """The canonical verb of a clause."""
+        if clause is None or self.library is None:
+            return ""
+        return self.library.lexicon.canonical_verb(clause.verb)
+
+    def usual(self, verb: str, instruction: str) -> float:
+        """How much commoner it is for the verb: ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
+        known = self.all_done.total()
+        share = (self.all_done[instruction] + 0.5) / (known + 0.5 * (len(self.all_done) + 1))
+        own = self.done.get(verb, Counter[str]())
+        return math.log((own[instruction] + _PRIOR * share) / (own.total() + _PRIOR) / share)
+
+    def ends(self, verb: str, instruction: str) -> float:
+        """How likely it is that the instruction was the last one for the verb."""
+        share = (self.all_ended[instruction] + 0.5) / (self.all_done[instruction] + 1.0)
+        ended = self.ended.get(verb, Counter[str]())[instruction] + _PRIOR * share
+        return min(max(ended / (self.done.get(verb, Counter[str]())[instruction] + _PRIOR), 1e-3), 1 - 1e-3)
+
+
+NO_HABITS = Habits()
+"""Nothing was ever shown."""
+
+
+def propose(
+    clauses: Sequence[Clause | None],
+    instructions: Sequence[Instruction],
+    world: World,
+    pinned: Mapping[int, int],
+    habits: Habits = NO_HABITS,
+) -> tuple[int, ...]:
+    """For each instruction the number of its clause, from 0, never falling.
+
+    Args:
+        clauses: The clauses of the text, at least one.
+        instructions: What was done, from the environment's initial state on.
+        world: The environment.
+        pinned: What the person said: for the number of an instruction, from 0, that of its clause; never falling.
+        habits: What was done for verbs before.
+    """
+    if len(clauses) == 1 or not instructions:
+        return (0,) * len(instructions)
+    verbs = [habits.verb(clause) for clause in clauses]
+    said = [speaks_of(c, world.mentions, world.task.init) if c is not None else {} for c in clauses]
+    best = [-_PASSED_OVER * number for number in range(len(clauses))]
+    came_from: list[list[int]] = []
+    for step, instruction in enumerate(instructions):
+        if step:
+            ended = [habits.ends(verb, instructions[step - 1].name) for verb in verbs]
+            cut = cut_cost(instructions, step, world.profiles)
+            best, origins = _advanced(best, ended, cut)
+            came_from.append(origins)
+        for number, verb in enumerate(verbs):
+            fits = fit(instruction, said[number], world.profiles) + _HABIT * habits.usual(verb, instruction.name)
+            best[number] += fits if pinned.get(step, number) == number else _NEVER
+    found = [best.index(max(best))]
+    for origins in reversed(came_from):
+        found.append(origins[found[-1]])
+    return tuple(reversed(found))
+
+
+def _advanced(best: Sequence[float], ended: Sequence[float], cut: float) -> tuple[list[float], list[int]]:
+    """One step on: for each clause the best value, and the clause of the step before that leads there.
+
+    Args:
+        best: The same for the step before.
+        ended: For each clause how likely it is that the step before was its last.
+        cut: What it costs to change the clause here.
+    """
+    values, origins = [], []
+    for number in range(len(best)):
+        ways = [(best[number] + _END * math.log(1 - ended[number]), number)]
+        for before in range(number):
+            passed_over = _PASSED_OVER * (number - before - 1)
+            ways.append((best[before] + _END * math.log(ended[before]) - cut - passed_over, before))
+        value, origin = max(ways, key=lambda way: way[0])
+        values.append(value)
+        origins.append(origin)
+    return values, origins

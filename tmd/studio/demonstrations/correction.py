@@ -1,0 +1,257 @@
+"""Correcting a plan that was proposed: edits, what breaks after each, and what a planner puts in so that it works.
+
+Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
+out; it becomes a session when it can. Everything may be called from any thread.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from tmd.diagnostics import TmdError
+from tmd.inference.ranking import RankedPlan
+from tmd.language.clause import Clause
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.constraints import get_constraints
+from tmd.pddl.model import Instruction
+from tmd.pddl.reading.syntax import nearest
+from tmd.pddl.semantics import bind
+from tmd.pddl.task import Bits
+from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.result import Filled, Planner, Unreachable
+from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
+from tmd.studio.demonstrations.clause_spans import clean, cut
+from tmd.studio.demonstrations.history import History
+from tmd.studio.demonstrations.session import MAX_STEPS, Session, Step
+from tmd.veil.world import World
+from tmd.view.text.wording import Wording
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    """The first step that does not apply.
+
+    Attributes:
+        step: Its number, from 1.
+        instruction: What it is.
+        why: The broken precondition in words.
+    """
+
+    step: int
+    instruction: Instruction
+    why: str
+
+
+class Correction:
+    """A plan under correction.
+
+    Args:
+        world: The environment.
+        text: What was said.
+        proposed: The plan that was proposed for it, each instruction with its clause.
+        lexicon: The words of the domain.
+        planner: What puts in missing instructions; the search of this package where none is given.
+
+    Attributes:
+        proposed: The plan as it was proposed.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        text: str,
+        proposed: Sequence[Step],
+        lexicon: Lexicon | None = None,
+        *,
+        planner: Planner | None = None,
+    ) -> None:
+        self.world = world
+        self.text = clean(text)
+        self.proposed = tuple(proposed)
+        self._lexicon = lexicon
+        self._planner = planner
+        self._wording = Wording(world.task.problem)
+        self._history: History[tuple[Step, ...]] = History(self.proposed)
+        self._lock = threading.RLock()
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """The plan as it is now."""
+        return self._history.current
+
+    def delete(self, step: int) -> None:
+        """Leave a step out.
+
+        Raises:
+            TmdError: There is no such step.
+        """
+        with self._lock:
+            self._known(step)
+            self._history.add(self.steps[: step - 1] + self.steps[step:])
+
+    def insert(self, step: int, instruction: Instruction, clause: int | None = None) -> None:
+        """Put an instruction in, so that it becomes the step of that number.
+
+        Args:
+            step: From 1; one more than there are steps appends it.
+            instruction: What to do.
+            clause: The clause it serves; that of the step behind it, or of the last, where none is given.
+
+        Raises:
+            TmdError: The instruction is none of this environment, or the place is none.
+        """
+        with self._lock:
+            bind(self.world.task.problem, instruction)
+            if not 0 < step <= len(self.steps) + 1:
+                raise TmdError(f"there is no place {step}", hint=f"the plan has {len(self.steps)} steps")
+            if len(self.steps) >= MAX_STEPS:
+                raise TmdError(f"a plan has at most {MAX_STEPS} steps", hint="delete some")
+            self._put_in(step, [instruction], clause)
+
+    def move(self, step: int, to: int) -> None:
+        """Make a step the one of another number; those between move up or down.
+
+        Raises:
+            TmdError: One of the two numbers is none.
+        """
+        with self._lock:
+            self._known(step)
+            self._known(to)
+            kept = [*self.steps[: step - 1], *self.steps[step:]]
+            kept.insert(to - 1, self.steps[step - 1])
+            self._history.add(tuple(kept))
+
+    def swap(self, old: str, new: str, step: int | None = None) -> int:
+        """Take another object instead of ``old``, and its parts instead of those of ``old``.
+
+        Args:
+            old: The object that is in the plan.
+            new: The one that shall be.
+            step: Only in this step; in all where none is given.
+
+        Returns:
+            How many steps changed.
+
+        Raises:
+            TmdError: There is no such object or step, or an instruction cannot have it. Nothing changed.
+        """
+        with self._lock:
+            if step is not None:
+                self._known(step)
+            names = self._replaced(old, new)
+            places = range(len(self.steps)) if step is None else [step - 1]
+            changed = {n: _renamed(self.steps[n], names) for n in places}
+            changed = {n: s for n, s in changed.items() if s != self.steps[n]}
+            for other in changed.values():
+                bind(self.world.task.problem, other.instruction)
+            if changed:
+                self._history.add(tuple(changed.get(n, s) for n, s in enumerate(self.steps)))
+            return len(changed)
+
+    def undo(self) -> bool:
+        """Take the last edit back; false where there is none."""
+        with self._lock:
+            return self._history.undo()
+
+    def redo(self) -> bool:
+        """Make the edit again that was taken back last; false where there is none."""
+        with self._lock:
+            return self._history.redo()
+
+    def broken(self) -> Break | None:
+        """The first step that does not apply; ``None`` where all do."""
+        return self._played(self.steps)[1]
+
+    def mend(self) -> tuple[Instruction, ...]:
+        """Let the planner put in what is missing before the first step that does not apply.
+
+        Returns:
+            What was put in; nothing where nothing was broken. A later step may be broken still.
+
+        Raises:
+            TmdError: Nothing leads there, or nothing was found; nothing was put in.
+        """
+        with self._lock:
+            state, found = self._played(self.steps)
+            if found is None:
+                return ()
+            operator = self.world.task.by_instruction.get(found.instruction)
+            if operator is None:
+                raise TmdError(f"{found.instruction} can never be done here", hint="delete it, or swap an object")
+            if self._planner is None:
+                self._planner = make(IN_PROCESS, self.world.task)
+            answer = self._planner.fill(state, get_constraints([operator])[0])
+            if not isinstance(answer, Filled):
+                why = answer.reason if isinstance(answer, Unreachable) else f"the planner gave up at {answer.limit}"
+                raise TmdError(f"nothing makes {found.instruction} possible as step {found.step}: {why}")
+            self._put_in(found.step, answer.plan, self.steps[found.step - 1].clause)
+            return answer.plan
+
+    def session(self, habits: Habits = NO_HABITS) -> Session:
+        """The corrected plan as a session, with the plan that was proposed.
+
+        Raises:
+            TmdError: A step does not apply.
+        """
+        steps = self.steps
+        highest = 0
+        pins: dict[int, int] = {}
+        for number, step in enumerate(steps, start=1):
+            highest = pins[number] = max(highest, step.clause)
+        return Session(
+            self.world,
+            self.text,
+            self._lexicon,
+            instructions=[step.instruction for step in steps],
+            pins=pins,
+            proposed=self.proposed,
+            habits=habits,
+        )
+
+    def _put_in(self, step: int, instructions: Sequence[Instruction], clause: int | None) -> None:
+        """Steps before the step of that number."""
+        beside = self.steps[step - 1 : step] or self.steps[-1:]
+        owner = clause if clause is not None else beside[0].clause if beside else 0
+        added = tuple(Step(instruction, owner) for instruction in instructions)
+        self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
+
+    def _played(self, steps: Sequence[Step]) -> tuple[Bits, Break | None]:
+        """The state before the first step that does not apply, and that step; or the last state."""
+        task = self.world.task
+        state = task.init
+        for number, step in enumerate(steps, start=1):
+            operator = task.by_instruction.get(step.instruction)
+            if operator is None or not operator.applicable(state):
+                why = self._wording.broken(step.instruction, task.decode(state)) or "it can never be done here"
+                return state, Break(number, step.instruction, why)
+            state = operator.apply(state)
+        return state, None
+
+    def _replaced(self, old: str, new: str) -> Mapping[str, str]:
+        """For ``old`` and its parts what stands for them."""
+        known = self.world.objects.types_of
+        for name in (old, new):
+            if name not in known:
+                raise TmdError(f"there is no object '{name}'", hint=nearest(name, list(known), what="objects"))
+        parts = self.world.profiles.parts
+        theirs = dict(parts.get(new, ()))
+        return {old: new} | {part: theirs[short] for short, part in parts.get(old, ()) if short in theirs}
+
+    def _known(self, step: int) -> None:
+        if not 0 < step <= len(self.steps):
+            raise TmdError(f"there is no step {step}", hint=f"the plan has {len(self.steps)} steps")
+
+
+def steps_of(plan: RankedPlan, clauses: Sequence[Clause], text: str, lexicon: Lexicon | None = None) -> list[Step]:
+    """The steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
+    pieces = cut(clean(text), lexicon)
+    starts = [piece.start for piece in pieces]
+    owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]
+    return [Step(step.instruction, owners[step.clause]) for step in plan.steps]
+
+
+def _renamed(step: Step, names: Mapping[str, str]) -> Step:
+    name, args = step.instruction
+    return Step(Instruction(name, tuple(names.get(argument, argument) for argument in args)), step.clause, step.marked)

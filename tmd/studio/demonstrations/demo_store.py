@@ -1,0 +1,173 @@
+"""Saving a finished session as a demonstration: ``<problems>/<domain>/<task>/demonstrations.jsonl`` grows by a line.
+
+The file is replaced as a whole, and one writer at a time has it, whatever thread or process that is. Before anything is
+written the demonstration is played, and its line is read back.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tmd.diagnostics import TmdError
+from tmd.files import make_directory, write_bytes
+from tmd.pddl.model import GroundAtom
+from tmd.pddl.task import Bits
+from tmd.studio.demonstrations.clause_spans import clean
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.lock import locked
+from tmd.veil.corpus import Corpus
+from tmd.veil.demonstration import Demonstration, Segment, demonstration_line, read_demonstration, read_demonstrations
+from tmd.veil.goal import check_goal
+from tmd.veil.replay import check_executable, final_state
+from tmd.veil.world import World
+
+SHOWN = "shown"
+"""The task of demonstrations whose task nobody named."""
+FILE = "demonstrations.jsonl"
+_LOCK = f".{FILE}.lock"
+_WAIT = 10.0
+"""Seconds that a writer waits for another."""
+_NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
+_NUMBER = re.compile(r"[0-9]{1,9}")
+_TAKEN = frozenset({"environments", "learned"})
+_LONGEST = 200
+"""Characters that a name or a date may have."""
+
+
+class Archive:
+    """Where the demonstrations of one domain go. Threads may share it.
+
+    Args:
+        corpus: The domain's environments and demonstrations.
+        wait: Seconds after which a writer gives up waiting for another.
+    """
+
+    def __init__(self, corpus: Corpus, *, wait: float = _WAIT) -> None:
+        self.corpus = corpus
+        self.wait = wait
+
+    def file(self, task: str) -> Path:
+        """The corpus of a task.
+
+        Raises:
+            TmdError: The task cannot have that name.
+        """
+        if not _NAME.fullmatch(task) or task in _TAKEN:
+            hint = "a name begins with a lower-case letter and has lower-case letters, digits and _, at most 60"
+            raise TmdError(
+                f"a task cannot be called {task!r}" if len(task) <= _LONGEST else "too long a name", hint=hint
+            )
+        return self.corpus.directory / task / FILE
+
+    def refuse(self, world: World) -> None:
+        """Make sure that what is shown in ``world`` could be saved: everybody must find the environment again.
+
+        Raises:
+            TmdError: It is none of the domain's.
+        """
+        directory = self.corpus.directory / "environments"
+        if world.name not in self.corpus.environments():
+            raise TmdError(
+                f"'{world.name}' is no environment in {directory}, so nothing that is shown in it can be saved",
+                hint="copy its file there, and begin again",
+            )
+        if self.corpus.world(world.name).task.problem != world.task.problem:
+            raise TmdError(
+                f"'{world.name}' is not the environment of that name in {directory}",
+                hint="give it another name, and copy its file there",
+            )
+
+    def save(
+        self,
+        session: Session,
+        task: str = SHOWN,
+        *,
+        who: str | None = None,
+        when: str | None = None,
+        goal: str | None = None,
+    ) -> Demonstration:
+        """Append what was demonstrated.
+
+        Args:
+            session: The demonstration; all its steps, wherever it is looked at.
+            task: The task it is an example of.
+            who: Who showed it; not told by default.
+            when: When; not told by default.
+            goal: What the text asks for, as a closed PDDL condition; not told by default.
+
+        Returns:
+            The demonstration as it stands in the file now.
+
+        Raises:
+            TmdError: There are no steps, the task cannot have that name, the environment is none of the domain's, the
+                file holds a line that is no demonstration, the goal is no condition of the environment or does not
+                hold at the end. Nothing was written.
+            OutputError: The file cannot be written. It is as it was.
+        """
+        file = self.file(task)
+        segments = session.segments()
+        if not session.steps:
+            raise TmdError("nothing was demonstrated yet", hint="carry out at least one instruction")
+        self.refuse(session.world)
+        who, when = (clean(value)[:_LONGEST] if value and value.strip() else None for value in (who, when))
+        make_directory(file.parent)
+        with locked(file.with_name(_LOCK), wait=self.wait):
+            before = read_demonstrations(file) if file.exists() else []
+            name = _next_id(f"{task}-{session.world.name}", before)
+            found = demonstration(session, segments, name, task, who, when, goal)
+            line = demonstration_line(found)
+            self._check(found, line, file, len(before) + 1)
+            old = file.read_bytes() if file.exists() else b""
+            gap = b"" if not old or old.endswith(b"\n") else b"\n"
+            write_bytes(file, old + gap + line.encode() + b"\n")
+            return read_demonstrations(file)[-1]
+
+    def _check(self, found: Demonstration, line: str, file: Path, number: int) -> None:
+        """What is written must be read as what it is, be executable, and reach its goal.
+
+        Raises:
+            TmdError: It is not.
+        """
+        if read_demonstration(file, number, line) != found:
+            raise TmdError(f"'{found.id}' would be read as something else, so it was not written")
+        world = self.corpus.world(found.environment)
+        check_executable(found, world)
+        check_goal(found, world.task.problem, final_state(found, world))
+
+
+def demonstration(
+    session: Session,
+    segments: tuple[Segment, ...],
+    name: str,
+    task: str,
+    who: str | None = None,
+    when: str | None = None,
+    goal: str | None = None,
+) -> Demonstration:
+    """What was shown in ``session``, as a demonstration."""
+    world = session.world
+    end = world.task.init
+    for segment in segments:
+        for instruction in segment.instructions:
+            end = world.task.by_instruction[instruction].apply(end)
+    whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
+    ends = _end_state(world, end)
+    return Demonstration(name, task, world.name, session.text, segments, ends, whole, who, when, goal)
+
+
+def _end_state(world: World, end: Bits) -> tuple[str, ...]:
+    """What became otherwise, but for what the facts say of constants of the domain, such as the robot."""
+
+    def own(bits: Bits) -> list[GroundAtom]:
+        return [a for a in world.task.names(bits) if a.args and a.args[0] not in world.profiles.constants]
+
+    init = world.task.init
+    return (*map(str, own(end & ~init)), *(f"(not {atom})" for atom in own(init & ~end)))
+
+
+def _next_id(stem: str, before: list[Demonstration]) -> str:
+    """The stem with the number after the highest that is used."""
+    used = [d.id.removeprefix(f"{stem}-") for d in before if d.id.startswith(f"{stem}-")]
+    highest = max((int(number) for number in used if _NUMBER.fullmatch(number)), default=0)
+    return f"{stem}-{highest + 1:02d}"

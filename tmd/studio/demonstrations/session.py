@@ -1,0 +1,303 @@
+"""One person's demonstration under way: what was done for a text, step by step, with undo and redo.
+
+Steps are counted from 1, so that ``goto(0)`` is the beginning; clauses from 0, as in a plan. Everything of a session
+may be called from any thread.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from tmd.diagnostics import TmdError
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.model import GroundAtom, Instruction
+from tmd.pddl.semantics import bind
+from tmd.pddl.task import Bits
+from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
+from tmd.studio.demonstrations.clause_spans import Piece, clean, cut
+from tmd.studio.demonstrations.history import History
+from tmd.studio.object_info import About, about
+from tmd.veil.demonstration import Segment
+from tmd.veil.world import World
+from tmd.view.text.wording import Wording
+
+MAX_STEPS = 500
+"""Longer demonstrations are refused: the longest of the bundled ones has about thirty steps."""
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One instruction of a demonstration.
+
+    Attributes:
+        instruction: What was done.
+        clause: The number of the clause that it serves, from 0.
+        marked: Whether the person said so; otherwise it is a proposal.
+    """
+
+    instruction: Instruction
+    clause: int
+    marked: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """What an instruction changed: facts that it made true, and facts that it made false, sorted."""
+
+    added: tuple[GroundAtom, ...]
+    removed: tuple[GroundAtom, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class _Version:
+    """What undo goes back to: the steps, the states before and after each, and what the person marked."""
+
+    steps: tuple[Step, ...]
+    states: tuple[Bits, ...]
+    pins: Mapping[int, int] = field(default_factory=lambda: MappingProxyType({}))
+
+
+class Session:
+    """A demonstration under way.
+
+    Args:
+        world: The environment it begins in.
+        text: What is to be done.
+        lexicon: The words of the domain.
+        instructions: What was done already.
+        pins: What the person said about it: for the number of a step, from 1, that of its clause, from 0.
+        proposed: The plan that is corrected, if one is.
+        habits: What was done for verbs before; proposals of clauses are better with it.
+
+    Attributes:
+        world: The environment.
+        text: The text, without control characters.
+        clauses: The pieces of the text that steps serve, at least one.
+        proposed: As above.
+
+    Raises:
+        TmdError: The text is empty or too long, or an instruction does not apply.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        text: str,
+        lexicon: Lexicon | None = None,
+        *,
+        instructions: Iterable[Instruction] = (),
+        pins: Mapping[int, int] | None = None,
+        proposed: tuple[Step, ...] | None = None,
+        habits: Habits = NO_HABITS,
+    ) -> None:
+        self.world = world
+        self.text = clean(text)
+        self.clauses: tuple[Piece, ...] = cut(self.text, lexicon)
+        self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
+        self._habits = habits
+        self._wording = Wording(world.task.problem)
+        self._lock = threading.RLock()
+        self._cursor = 0
+        states = [world.task.init]
+        done = tuple(instructions)
+        for number, instruction in enumerate(done, start=1):
+            states.append(self._applied(instruction, states[-1], number))
+        whole = self._version(done, tuple(states), self._known_pins(pins or {}, len(done)))
+        self._history = History(_first(whole, 0))
+        for steps in range(1, len(done) + 1):
+            self._history.add(_first(whole, steps))
+        self._cursor = len(done)
+
+    @property
+    def steps(self) -> tuple[Step, ...]:
+        """All that was done and not undone."""
+        return self._history.current.steps
+
+    @property
+    def instructions(self) -> tuple[Instruction, ...]:
+        """The same without the clauses."""
+        return tuple(step.instruction for step in self.steps)
+
+    @property
+    def pins(self) -> dict[int, int]:
+        """What the person marked: for the number of a step, from 1, that of its clause, from 0."""
+        return {number + 1: clause for number, clause in sorted(self._history.current.pins.items())}
+
+    @property
+    def cursor(self) -> int:
+        """After how many steps the state is that is looked at."""
+        return self._cursor
+
+    @property
+    def state(self) -> Bits:
+        """The state that is looked at, as bits of the environment's task."""
+        with self._lock:
+            return self._history.current.states[self._cursor]
+
+    @property
+    def states(self) -> tuple[Bits, ...]:
+        """The states before the first step and after each, as bits of the environment's task."""
+        return self._history.current.states
+
+    @property
+    def can_undo(self) -> bool:
+        """Whether there is something to take back."""
+        return self._history.can_undo
+
+    @property
+    def can_redo(self) -> bool:
+        """Whether something was taken back."""
+        return self._history.can_redo
+
+    def do(self, instruction: Instruction) -> Step:
+        """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
+
+        Raises:
+            TmdError: It does not apply, with the broken precondition; or the demonstration is too long.
+        """
+        with self._lock:
+            now, at = self._history.current, self._cursor
+            if at >= MAX_STEPS:
+                raise TmdError(f"a demonstration has at most {MAX_STEPS} steps", hint="save it, and begin another")
+            after = self._applied(instruction, now.states[at], at + 1)
+            done = (*(step.instruction for step in now.steps[:at]), instruction)
+            pins = {number: clause for number, clause in now.pins.items() if number < at}
+            self._become(self._version(done, (*now.states[: at + 1], after), pins))
+            return self.steps[-1]
+
+    def undo(self) -> bool:
+        """Take the last change back (a step, a mark); false where there is none."""
+        with self._lock:
+            moved = self._history.undo()
+            self._cursor = len(self.steps) if moved else self._cursor
+            return moved
+
+    def redo(self) -> bool:
+        """Make the change again that was taken back last; false where there is none."""
+        with self._lock:
+            moved = self._history.redo()
+            self._cursor = len(self.steps) if moved else self._cursor
+            return moved
+
+    def goto(self, step: int) -> None:
+        """Look at the state after that many steps; 0 is the beginning. Nothing is undone.
+
+        Raises:
+            TmdError: There are not so many.
+        """
+        with self._lock:
+            if not 0 <= step <= len(self.steps):
+                raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
+            self._cursor = step
+
+    def mark(self, step: int, clause: int) -> None:
+        """Say which clause a step serves.
+
+        Steps before it that serve a later clause, and steps behind it that serve an earlier one, move along; where
+        one of them was marked otherwise, that mark goes.
+
+        Args:
+            step: The number of the step, from 1.
+            clause: The number of the clause, from 0.
+
+        Raises:
+            TmdError: There is no such step or clause.
+        """
+        with self._lock:
+            now = self._history.current
+            self._known_step(step)
+            if not 0 <= clause < len(self.clauses):
+                raise TmdError(f"there is no clause {clause + 1}", hint=f"the text has {len(self.clauses)}")
+            pins = {
+                n: c for n, c in now.pins.items() if (n < step - 1 and c <= clause) or (n > step - 1 and c >= clause)
+            }
+            done = tuple(s.instruction for s in now.steps)
+            at = self._cursor
+            self._become(self._version(done, now.states, {**pins, step - 1: clause}))
+            self._cursor = at
+
+    def changes(self, step: int) -> Changes:
+        """What a step changed.
+
+        Raises:
+            TmdError: There is no such step.
+        """
+        with self._lock:
+            self._known_step(step)
+            before, after = self._history.current.states[step - 1 : step + 1]
+            names = self.world.task.names
+            return Changes(tuple(names(after & ~before)), tuple(names(before & ~after)))
+
+    def about(self, name: str) -> About:
+        """What is so of an object in the state that is looked at.
+
+        Raises:
+            TmdError: There is no such object.
+        """
+        return about(name, self.world, self.state)
+
+    def segments(self) -> tuple[Segment, ...]:
+        """The pieces of the text with what serves each, as a demonstration has them."""
+        steps, proposed = self.steps, self.proposed
+        return tuple(
+            Segment(piece.start, piece.end, _own(steps, n), None if proposed is None else _own(proposed, n))
+            for n, piece in enumerate(self.clauses)
+        )
+
+    def _become(self, version: _Version) -> None:
+        self._history.add(version)
+        self._cursor = len(version.steps)
+
+    def _version(self, done: tuple[Instruction, ...], states: tuple[Bits, ...], pins: Mapping[int, int]) -> _Version:
+        clauses = propose([piece.clause for piece in self.clauses], done, self.world, pins, self._habits)
+        pairs = enumerate(zip(done, clauses, strict=True))
+        steps = tuple(Step(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
+        return _Version(steps, states, MappingProxyType(dict(pins)))
+
+    def _known_pins(self, pins: Mapping[int, int], count: int) -> dict[int, int]:
+        """Pins as they are kept, from 0; those that cannot be are left out."""
+        found: dict[int, int] = {}
+        for step, clause in sorted(pins.items()):
+            if 0 < step <= count and max(found.values(), default=0) <= clause < len(self.clauses):
+                found[step - 1] = clause
+        return found
+
+    def _known_step(self, step: int) -> None:
+        if not 0 < step <= len(self.steps):
+            raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
+
+    def _applied(self, instruction: Instruction, state: Bits, step: int) -> Bits:
+        """The state after ``instruction``.
+
+        Raises:
+            TmdError: It does not apply.
+        """
+        task = self.world.task
+        operator = task.by_instruction.get(instruction)
+        if operator is not None and operator.applicable(state):
+            return operator.apply(state)
+        bind(task.problem, instruction)
+        why = self._wording.broken(instruction, task.decode(state)) or "nothing can bring it about here"
+        raise TmdError(f"step {step}, {instruction}, does not apply: {why}")
+
+
+def _first(version: _Version, steps: int) -> _Version:
+    """The version as it was after so many steps."""
+    pins = {number: clause for number, clause in version.pins.items() if number < steps}
+    return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
+
+
+def _in_order(steps: Iterable[Step], clauses: int) -> tuple[Step, ...]:
+    """The steps with clauses that there are, never falling."""
+    found: list[Step] = []
+    for step in steps:
+        clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)
+        found.append(Step(step.instruction, clause, step.marked))
+    return tuple(found)
+
+
+def _own(steps: Iterable[Step], clause: int) -> tuple[Instruction, ...]:
+    return tuple(step.instruction for step in steps if step.clause == clause)

@@ -1,0 +1,87 @@
+"""What there is to know of an object that was pointed at: its parts, its states, and the edges of its object graph."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import GroundAtom
+from tmd.pddl.reading.syntax import nearest
+from tmd.pddl.task import Bits
+from tmd.veil.profiles import PART_OF
+from tmd.veil.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class About:
+    """One object in one state. Facts are sorted; :class:`~tmd.view.text.wording.Wording` tells them in words.
+
+    Attributes:
+        name: The object.
+        kind: Its class.
+        whole: What it is a part of, if of anything.
+        parts: Its parts.
+        states: What is so now of it alone: *mug1 is hot*.
+        relations: What is so now of it and another object: *mug1 is on counter1*.
+        edges: What never changes between it and another object: *stove1_knob1 controls stove1_burner1*.
+        traits: What never changes about it alone: *mug1 may stand on a burner*.
+    """
+
+    name: str
+    kind: str
+    whole: str | None
+    parts: tuple[str, ...]
+    states: tuple[GroundAtom, ...]
+    relations: tuple[GroundAtom, ...]
+    edges: tuple[GroundAtom, ...]
+    traits: tuple[GroundAtom, ...]
+
+
+def about(name: str, world: World, state: Bits) -> About:
+    """What is so of ``name`` in ``state``.
+
+    That two objects belong together is said by ``whole`` and ``parts``; edges that hold both ways say no more, and are
+    left out.
+
+    Raises:
+        TmdError: There is no such object.
+    """
+    if name not in world.objects.types_of:
+        hint = nearest(name, list(world.objects.types_of), what="objects")
+        raise TmdError(f"there is no object '{name}'", hint=hint)
+    profiles, static = world.profiles, world.task.static
+    states, relations = _divided(name, world.task.names(state), world)
+    traits, edges = _divided(name, static, world)
+    traits = tuple(trait for trait in traits if not _empty(trait, world))
+    return About(
+        name,
+        world.mentions.kinds.get(name, ""),
+        profiles.wholes.get(name),
+        tuple(part for _, part in profiles.parts.get(name, ())),
+        states,
+        relations,
+        tuple(e for e in edges if e.predicate != PART_OF and e._replace(args=e.args[::-1]) not in static),
+        traits,
+    )
+
+
+def _empty(trait: GroundAtom, world: World) -> bool:
+    """Whether it says of a thing and itself what is so of each, such as that it belongs to itself."""
+    if len(trait.args) < 2 or len(set(trait.args)) > 1:
+        return False
+    alike = (trait._replace(args=(name,) * len(trait.args)) for name in world.profiles.objects)
+    return all(atom in world.task.static for atom in alike)
+
+
+def _divided(
+    name: str, atoms: Iterable[GroundAtom], world: World
+) -> tuple[tuple[GroundAtom, ...], tuple[GroundAtom, ...]]:
+    """Of the atoms that mention ``name`` those of it alone, and those of another object as well."""
+    alone: list[GroundAtom] = []
+    shared: list[GroundAtom] = []
+    for atom in sorted(atoms):
+        if name in atom.args:
+            others = any(a != name and a not in world.profiles.constants for a in atom.args)
+            (shared if others else alone).append(atom)
+    return tuple(alone), tuple(shared)

@@ -1,0 +1,161 @@
+"""The panel where a visitor corrects a plan: leaves steps out, puts others in, takes other objects."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import Instruction
+from tmd.pddl.reading.goal import with_goal
+from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.session import Step
+from tmd.studio.panels.demonstrate_panel import GOAL_HINT
+from tmd.studio.panels.html import fragment, step_list
+from tmd.studio.panels.widgets import chosen, put
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from viser import GuiDropdownHandle
+
+    from tmd.studio.visitor import Visitor
+
+EVERYWHERE = "in every step"
+HERE = "in this step"
+NOTHING = "(nothing)"
+_EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
+
+
+class CorrectPanel:
+    """Edits a plan that was proposed, and hands it to the panel where demonstrations are saved.
+
+    Args:
+        visitor: Whose panel it is.
+    """
+
+    def __init__(self, visitor: Visitor) -> None:
+        self._visitor = visitor
+        self._correction: Correction | None = None
+        self._insertable: dict[str, Instruction] = {}
+        gui, guarded = visitor.client.gui, visitor.guarded
+        self._text = gui.add_html(fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>"))
+        self._all = gui.add_folder("Edit", visible=False)
+        with self._all:
+            self._step = gui.add_slider("Step", 1, 2, 1, 1)
+            self._step.on_update(guarded(self._chosen))
+            self._edits = gui.add_button_group("Change", _EDITS)
+            self._edits.on_click(guarded(self._edit))
+            self._old: GuiDropdownHandle[str] = gui.add_dropdown("Instead of", (NOTHING,))
+            self._new: GuiDropdownHandle[str] = gui.add_dropdown("take", (NOTHING,))
+            self._where = gui.add_button_group("Swap", (HERE, EVERYWHERE))
+            self._where.on_click(guarded(self._swap))
+            self._with: GuiDropdownHandle[str] = gui.add_dropdown("Insert with", (NOTHING,))
+            self._with.on_update(guarded(self._instructions))
+            self._what: GuiDropdownHandle[str] = gui.add_dropdown("Instruction", (NOTHING,))
+            gui.add_button("Insert before this step").on_click(guarded(self._insert))
+            gui.add_button("Let the planner put in what is missing").on_click(guarded(self._mend))
+            self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
+            gui.add_button("Done: look at it, and save it", color="blue").on_click(guarded(self._finish))
+
+    def entered(self) -> None:
+        """Another environment: nothing is corrected there."""
+        self._correction = None
+        self._all.visible = False
+        self._text.content = fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>")
+
+    def open(self, text: str, plan: Sequence[Step]) -> None:
+        """Correct a plan for a text."""
+        visitor = self._visitor
+        self._correction = Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon)
+        names = visitor.setting.names()
+        self._new.options = self._with.options = (NOTHING, *names)
+        self._all.visible = True
+        put(self._goal, "")
+        self._refresh()
+        visitor.tell("The plan is under Correct.", aloud=True)
+
+    def _going(self) -> Correction:
+        if self._correction is None:
+            raise TmdError("nothing is corrected", hint="plan something under Say, and press 'Correct this plan'")
+        return self._correction
+
+    @property
+    def _number(self) -> int:
+        return int(self._step.value)
+
+    # edits
+
+    def _edit(self) -> None:
+        correction, at = self._going(), self._number
+        edit = chosen(self._edits)
+        with self._visitor.holding():
+            if edit == "Delete":
+                correction.delete(at)
+            elif edit in ("Earlier", "Later"):
+                to = at + (1 if edit == "Later" else -1)
+                correction.move(at, to)
+                put(self._step, to)
+            elif not (correction.undo() if edit == "Undo" else correction.redo()):
+                raise TmdError("there is nothing to take back" if edit == "Undo" else "nothing was taken back")
+            self._refresh()
+
+    def _swap(self) -> None:
+        correction, old, new = self._going(), chosen(self._old), chosen(self._new)
+        if NOTHING in (old, new):
+            raise TmdError("choose the two objects first")
+        with self._visitor.holding():
+            count = correction.swap(old, new, self._number if self._where.value == HERE else None)
+            self._refresh()
+        self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
+
+    def _instructions(self) -> None:
+        """What can be inserted, whether it applies there or not: the planner may make it possible."""
+        name = chosen(self._with)
+        groups = self._visitor.studio.offers(self._visitor.setting.name)
+        state = self._visitor.setting.world.task.init
+        found = [] if name == NOTHING else groups.of(name, state, parts=True)
+        offers = sorted(offer.instruction for group in (*found, *groups.anywhere(state)) for offer in group.offers)
+        self._insertable = {str(instruction): instruction for instruction in offers}
+        self._what.options = (NOTHING, *self._insertable)
+
+    def _insert(self) -> None:
+        instruction = self._insertable.get(self._what.value)
+        if instruction is None:
+            raise TmdError("choose an instruction first")
+        with self._visitor.holding():
+            self._going().insert(self._number, instruction)
+            self._refresh()
+
+    def _mend(self) -> None:
+        with self._visitor.holding():
+            added = self._going().mend()
+            self._refresh()
+        said = ", ".join(str(instruction) for instruction in added)
+        self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
+
+    def _finish(self) -> None:
+        session = self._going().session(self._visitor.studio.teacher.habits)
+        goal = self._goal.value.strip()
+        if goal:
+            with_goal(session.world.task.problem, goal, "goal")
+        self.entered()
+        self._visitor.demonstrate.take(session, goal)
+
+    # showing
+
+    def _chosen(self) -> None:
+        self._refresh()
+
+    def _refresh(self) -> None:
+        correction = self._going()
+        steps, broken = correction.steps, correction.broken()
+        if steps:
+            self._step.max = max(len(steps), 2)
+            put(self._step, min(self._number, len(steps)))
+            used = sorted({name for name in steps[self._number - 1].instruction.args})
+            self._old.options = (NOTHING, *used)
+        why = [] if broken is None else [f"✗ {broken.why}"]
+        lines = [(str(step.instruction), f"clause {step.clause + 1}", False) for step in steps]
+        marked = {broken.step: why} if broken else {}
+        state = "Every step applies." if broken is None else f"Step {broken.step} does not apply."
+        self._text.content = fragment(f"<p role='status'>{state}</p>") + step_list(lines, self._number, (), marked)

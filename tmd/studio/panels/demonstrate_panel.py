@@ -1,0 +1,304 @@
+"""The panel where a visitor shows how a thing is done, instruction by instruction."""
+
+from __future__ import annotations
+
+from threading import Thread
+from typing import TYPE_CHECKING, Any
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import Instruction
+from tmd.studio.applicable_actions import Group
+from tmd.studio.demonstrations.demo_store import SHOWN
+from tmd.studio.demonstrations.session import Session
+from tmd.studio.panels.html import changed, fragment, refused, step_list
+from tmd.studio.panels.widgets import chosen, put
+from tmd.studio.view3d.playback import Reel
+
+if TYPE_CHECKING:
+    from viser import GuiDropdownHandle
+
+    from tmd.studio.visitor import Visitor
+
+OWN = "(own words)"
+NONE = "(no object)"
+GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
+NUMBERED = 9
+"""So many of the instructions that apply have a hot key: 1 to 9."""
+_LOOK = 1.0
+"""Seconds between two looks at learning that is under way."""
+_FEW = 4
+"""So many instructions of an action get a button each, those of the object itself before those of its parts."""
+
+
+class DemonstratePanel:
+    """Shows, marks, takes back, saves.
+
+    Args:
+        visitor: Whose panel it is.
+    """
+
+    def __init__(self, visitor: Visitor) -> None:
+        self._visitor = visitor
+        self._session: Session | None = None
+        self._reel = Reel(visitor.setting)
+        self._offered: list[Any] = []
+        self._numbered: list[Instruction] = []
+        gui, guarded = visitor.client.gui, visitor.guarded
+        self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Tasks", (OWN, *self._texts()))
+        self._examples.on_update(guarded(self._take_example))
+        self._text = gui.add_text("Task text", "", multiline=True, hint="What you are going to show.")
+        self._begin = gui.add_button("Begin", color="blue")
+        self._begin.on_click(guarded(self.begin))
+        self._resume = gui.add_button("Go on with what was not saved", visible=False)
+        self._resume.on_click(guarded(self.resume))
+        self._steps = gui.add_html("")
+        self._which = gui.add_slider("After step", 0, 1, 1, 0, visible=False)
+        self._which.on_update(guarded(self._goto))
+        self._clause: GuiDropdownHandle[str] = gui.add_dropdown("It serves", ("1",), visible=False)
+        self._clause.on_update(guarded(self._mark))
+        self._edit = gui.add_button_group("Change", ("Undo", "Redo"), visible=False)
+        self._edit.on_click(guarded(self._changed))
+        self._do = gui.add_folder("Do", visible=False)
+        with self._do:
+            self._object: GuiDropdownHandle[str] = gui.add_dropdown("With", (NONE, *visitor.setting.names()))
+            self._object.on_update(guarded(self._point))
+            self._buttons = gui.add_folder("Possible now")
+            self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False)
+            with self._refused:
+                self._reasons = gui.add_html("")
+        self._keep = gui.add_folder("Save", visible=False)
+        with self._keep:
+            self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
+            self._goal = gui.add_text("Goal (optional)", "", hint=GOAL_HINT)
+            self._who = gui.add_text("Who (optional)", "")
+            self._when = gui.add_checkbox("Save the time as well", False)
+            gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
+            gui.add_button("Throw away").on_click(guarded(self.discard))
+        gui.add_button("Learn everything anew").on_click(guarded(self._retrain))
+        self._look_for_draft()
+
+    def _texts(self) -> list[str]:
+        return self._visitor.studio.examples(self._visitor.setting.name)
+
+    def _take_example(self) -> None:
+        if chosen(self._examples) != OWN:
+            put(self._text, self._examples.value)
+
+    def entered(self) -> None:
+        """Another environment."""
+        visitor = self._visitor
+        self._examples.options = (OWN, *self._texts())
+        put(self._examples, OWN)
+        self._object.options = (NONE, *visitor.setting.names())
+        self._close()
+
+    # beginning and ending
+
+    def begin(self) -> None:
+        """A new demonstration of the text."""
+        visitor = self._visitor
+        self._open(visitor.studio.session(visitor.setting, self._text.value))
+        visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
+
+    def take(self, session: Session, goal: str = "") -> None:
+        """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
+        put(self._text, session.text)
+        self._open(session)
+        put(self._goal, goal)
+        self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
+
+    def _open(self, session: Session) -> None:
+        visitor = self._visitor
+        with visitor.holding():
+            visitor.stop()
+            self._session = session
+            put(self._goal, "")
+            self._reel = Reel(visitor.setting)
+            for handle in (self._edit, self._do, self._keep):
+                handle.visible = True
+            self._begin.label = "Begin anew"
+            self._resume.visible = False
+            self.refresh()
+
+    def _close(self) -> None:
+        self._session = None
+        self._numbered = []
+        for handle in (self._edit, self._do, self._keep, self._which, self._clause):
+            handle.visible = False
+        self._begin.label = "Begin"
+        self._steps.content = ""
+        self._look_for_draft()
+
+    def save(self) -> None:
+        """Save the demonstration, and learn from it."""
+        visitor = self._visitor
+        with visitor.holding():
+            session = self._going()
+            goal = self._goal.value.strip() or None
+            saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
+            visitor.studio.drafts.discard(visitor.identity)
+            self._close()
+        visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.", aloud=True)
+
+    def discard(self) -> None:
+        """Throw the demonstration away."""
+        visitor = self._visitor
+        with visitor.holding():
+            self._going()
+            visitor.studio.drafts.discard(visitor.identity)
+            self._close()
+        visitor.tell("Thrown away.", aloud=True)
+
+    def _going(self) -> Session:
+        if self._session is None:
+            raise TmdError("no demonstration is under way", hint="type a task, and press Begin")
+        return self._session
+
+    # drafts
+
+    def _look_for_draft(self) -> None:
+        self._resume.visible = self._visitor.studio.drafts.of(self._visitor.identity) is not None
+
+    def resume(self) -> None:
+        """Go on with what was not saved."""
+        visitor = self._visitor
+        draft = visitor.studio.drafts.of(visitor.identity)
+        if draft is None:
+            raise TmdError("there is no demonstration that was not saved")
+        visitor.enter(draft.environment)
+        session = draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon, visitor.studio.teacher.habits)
+        put(self._text, session.text)
+        put(self._task, draft.task)
+        self._open(session)
+        visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
+
+    # doing
+
+    def do(self, instruction: Instruction) -> None:
+        """Carry out an instruction after the step that is looked at."""
+        with self._visitor.holding():
+            self._going().do(instruction)
+            self.refresh()
+
+    def do_numbered(self, number: int) -> None:
+        """Carry out the instruction whose button has this number, from 1."""
+        with self._visitor.holding():
+            self._going()
+            if number > len(self._numbered):
+                raise TmdError(f"there is no instruction {number}", hint="point at an object first")
+            self.do(self._numbered[number - 1])
+
+    def undo(self) -> None:
+        """Take the last change back."""
+        with self._visitor.holding():
+            if not self._going().undo():
+                raise TmdError("there is nothing to take back")
+            self.refresh()
+
+    def redo(self) -> None:
+        """Make it again."""
+        with self._visitor.holding():
+            if not self._going().redo():
+                raise TmdError("nothing was taken back")
+            self.refresh()
+
+    def _changed(self) -> None:
+        {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
+
+    def _goto(self) -> None:
+        with self._visitor.holding():
+            session = self._going()
+            if self._which.value != session.cursor:
+                session.goto(int(self._which.value))
+                self.refresh()
+
+    def _mark(self) -> None:
+        with self._visitor.holding():
+            session = self._going()
+            clause = list(self._clause.options).index(chosen(self._clause))
+            if session.cursor and session.steps[session.cursor - 1].clause != clause:
+                session.mark(session.cursor, clause)
+                self.refresh()
+
+    # showing
+
+    def refresh(self) -> None:
+        """Show the demonstration as it is now, and keep it."""
+        session = self._session
+        if session is None:
+            return
+        visitor = self._visitor
+        visitor.studio.drafts.keep(visitor.identity, session, self._task.value)
+        self._reel.become(session.states)
+        cursor = session.cursor
+        visitor.watch(self._reel, cursor)
+        titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
+        change = session.changes(cursor) if cursor else None
+        gains = changed(change.added, change.removed) if change else []
+        lines = [
+            (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
+            for step in session.steps
+        ]
+        self._steps.content = step_list(lines, cursor, gains)
+        self._which.visible = self._clause.visible = bool(session.steps)
+        if session.steps:
+            self._which.max = len(session.steps)
+            put(self._which, cursor)
+            self._clause.options = tuple(titles)
+            put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
+        self.offers()
+
+    def _point(self) -> None:
+        name = None if self._object.value == NONE else chosen(self._object)
+        if name != self._visitor.selected:
+            self._visitor.select(name)
+
+    def offers(self) -> None:
+        """Show what can be done with the object that was pointed at, and why the rest cannot."""
+        session, visitor = self._session, self._visitor
+        if session is None:
+            return
+        with visitor.holding():
+            name = visitor.selected
+            if self._object.value != (name or NONE):
+                put(self._object, name or NONE)
+            known = visitor.studio.offers(visitor.setting.name)
+            groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
+            for handle in self._offered:
+                handle.remove()
+            self._offered, self._numbered = [], []
+            with visitor.client.atomic(), self._buttons:
+                for group in groups:
+                    self._offer(group)
+            self._reasons.content = fragment(refused(groups))
+
+    def _offer(self, group: Group) -> None:
+        gui, guarded = self._visitor.client.gui, self._visitor.guarded
+        possible = [offer.instruction for offer in group.offers if offer.applies]
+        whole = self._visitor.selected
+        possible.sort(key=lambda instruction: (whole not in instruction.args, instruction))
+        for instruction in possible[:_FEW]:
+            self._numbered.append(instruction)
+            number = len(self._numbered)
+            icon = f"square-number-{number}" if number <= NUMBERED else None
+            button = gui.add_button(str(instruction), icon=icon)  # type: ignore[arg-type]  # icons are told by name
+            button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
+            self._offered.append(button)
+        by_name = {str(instruction): instruction for instruction in possible[_FEW:]}
+        if by_name:
+            choice = gui.add_dropdown(f"More {group.action}", tuple(by_name))
+            button = gui.add_button(f"Do that {group.action}")
+            button.on_click(guarded(lambda: self.do(by_name[chosen(choice)])))
+            self._offered += [choice, button]
+
+    def _retrain(self) -> None:
+        visitor = self._visitor
+        training = visitor.studio.teacher.retrain()
+        visitor.tell("Learning from all demonstrations. Go on meanwhile.", aloud=True)
+
+        def follow() -> None:
+            while not training.wait(_LOOK):
+                visitor.tell(f"Learning from all demonstrations: {training.share:.0%}. Go on meanwhile.")
+            visitor.tell("Everything was learned anew; the next text uses it.", aloud=True)
+
+        Thread(target=visitor.guarded(follow), args=(None,), daemon=True).start()

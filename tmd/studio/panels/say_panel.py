@@ -1,0 +1,254 @@
+"""The panel where a visitor says what is to be done, and sees what was understood, and the ranked plans."""
+
+from __future__ import annotations
+
+import threading
+import time
+from typing import TYPE_CHECKING
+
+from tmd.diagnostics import TmdError
+from tmd.goals.clause_goal import Why
+from tmd.ground import Grounded
+from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.panels.energies import energies
+from tmd.studio.panels.html import changed, fragment, goal_list, step_list
+from tmd.studio.panels.widgets import chosen, put
+from tmd.studio.view3d.playback import Reel
+from tmd.view.goals import ShownGoal, in_words
+from tmd.view.markup import style
+from tmd.view.text.clauses import lit_choice, lit_sentence
+
+if TYPE_CHECKING:
+    from viser import GuiDropdownHandle
+
+    from tmd.studio.visitor import Visitor
+
+TOP = 3
+"""How many plans are ranked."""
+OWN = "(own words)"
+_BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
+
+
+class SayPanel:
+    """Says, plans, steps and plays.
+
+    Args:
+        visitor: Whose panel it is.
+    """
+
+    def __init__(self, visitor: Visitor) -> None:
+        self._visitor = visitor
+        self._grounded: Grounded | None = None
+        self._reels: list[Reel] = []
+        self._asked: list[ShownGoal] = []
+        self._step = 0
+        gui, guarded = visitor.client.gui, visitor.guarded
+        self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
+        self._examples.on_update(guarded(self._take_example))
+        self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
+        gui.add_button("Plan it", color="blue").on_click(guarded(self.plan))
+        self._understood = gui.add_html("")
+        self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
+        self._which.on_update(guarded(lambda: self._choose(self._number())))
+        self._buttons = gui.add_button_group("Step", _BUTTONS, visible=False)
+        self._buttons.on_click(guarded(self._pressed))
+        self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
+        self._goals = gui.add_html("")
+        self._steps = gui.add_html("")
+        self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
+        self._more.visible = False
+        with self._more:
+            self._energies = gui.add_html("")
+        self._after = gui.add_folder("What next", expand_by_default=True)
+        self._after.visible = False
+        with self._after:
+            gui.add_button("Correct this plan").on_click(guarded(self._correct))
+            gui.add_button("Let the robot do it (simulated)").on_click(guarded(self._execute))
+            gui.add_button("Stop").on_click(guarded(visitor.stop))
+
+    def _texts(self) -> list[str]:
+        return self._visitor.studio.examples(self._visitor.setting.name)
+
+    def _take_example(self) -> None:
+        if chosen(self._examples) != OWN:
+            put(self._text, self._examples.value)
+
+    def entered(self) -> None:
+        """Another environment: its examples, and no plan yet."""
+        self._examples.options = (OWN, *self._texts())
+        put(self._examples, OWN)
+        self._grounded, self._reels = None, []
+        self._understood.content = self._goals.content = self._steps.content = ""
+        for handle in (self._which, self._buttons, self._speed, self._more, self._after):
+            handle.visible = False
+
+    # planning
+
+    def plan(self) -> None:
+        """Ground the text, and show the best plan."""
+        visitor = self._visitor
+        with visitor.holding():
+            visitor.stop()
+            begun = time.perf_counter()
+            text = visitor.studio.checked_text(self._text.value)
+            visitor.tell("Planning …")
+            grounded = visitor.studio.teacher.ground(text, visitor.setting.world, top=TOP)
+            self._show(grounded)
+            took = time.perf_counter() - begun
+        self._tell(grounded, took)
+
+    def _tell(self, grounded: Grounded, took: float) -> None:
+        """Say what came of it: how many plans there are, or why there is none."""
+        visitor = self._visitor
+        if grounded.plans:
+            valid = grounded.verdicts[0].valid
+            count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
+            so = "" if grounded.plans[0].steps else " There is nothing to do: it is so already."
+            visitor.tell(f"Planned in {took:.1f} s: {count}." + (so if valid else " The best is not valid."))
+        elif grounded.refused is not None:
+            clause, refused = grounded.refused
+            shown = "Show it under Demonstrate." if refused.why is Why.UNKNOWN_VERB else None
+            hint = "; or: ".join(filter(None, (refused.hint, shown))) or None
+            visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
+        elif grounded.unseen:
+            verbs = ", ".join(f"'{verb}'" for verb in grounded.unseen)
+            visitor.tell(f"No plan: nobody has shown {verb_phrase(verbs)}.", "Show it under Demonstrate.", fault=True)
+        else:
+            visitor.tell("No plan was found for this here.", "Show it under Demonstrate.", fault=True)
+
+    def _show(self, grounded: Grounded) -> None:
+        self._grounded = grounded
+        world = self._visitor.setting.world
+        self._reels = []
+        for plan in grounded.plans:
+            states = [world.task.init]
+            for instruction in plan.instructions:
+                states.append(world.task.by_instruction[instruction].apply(states[-1]))
+            reel = Reel(self._visitor.setting)
+            reel.become(states)
+            self._reels.append(reel)
+        found = bool(grounded.plans)
+        for handle in (self._which, self._buttons, self._speed, self._after):
+            handle.visible = found
+        self._more.visible = found or bool(grounded.refusals)
+        lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
+        self._energies.content = fragment(energies(grounded.plans, lines, grounded.refusals))
+        if not found:
+            unseen = () if grounded.refused is not None else grounded.unseen
+            self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
+            self._goals.content = self._steps.content = ""
+            return
+        self._which.options = tuple(
+            f"{number}: energy {plan.energy:.3g}, {len(plan.steps)} steps"
+            for number, plan in enumerate(grounded.plans, start=1)
+        )
+        put(self._which, self._which.options[0])
+        self._choose(0)
+
+    def _number(self) -> int:
+        return list(self._which.options).index(chosen(self._which))
+
+    def _choose(self, number: int) -> None:
+        if self._grounded is None or number >= len(self._grounded.plans):
+            return
+        plan = self._grounded.plans[number]
+        world = self._visitor.setting.world
+        self._understood.content = _styled(lit_choice(self._grounded.parsed, plan, world))
+        self._asked = in_words(plan.goals, world.task.problem)
+        self._step = 0
+        self._look()
+
+    # stepping
+
+    def move(self, by: int) -> None:
+        """Go some steps on, or back."""
+        if self._reels:
+            self.goto(self._step + by)
+
+    def goto(self, step: int) -> None:
+        """Look at the state after so many steps."""
+        self._visitor.stop()
+        self._step = min(max(step, 0), self._last())
+        self._look()
+
+    def _last(self) -> int:
+        return len(self._reels[self._number()].states) - 1 if self._reels else 0
+
+    def _look(self) -> None:
+        grounded = self._grounded
+        if grounded is None or not self._reels:
+            return
+        number = self._number()
+        reel, plan = self._reels[number], grounded.plans[number]
+        self._visitor.watch(reel, self._step)
+        problem = self._visitor.setting.world.task.problem
+        self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
+        gains: list[str] = []
+        if self._step:
+            before, now = reel.facts(self._step - 1), reel.facts(self._step)
+            gains = changed(sorted(now - before), sorted(before - now))
+        lines = [
+            (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
+            for s in plan.steps
+        ]
+        self._steps.content = step_list(lines, self._step, gains)
+
+    def _pressed(self) -> None:
+        act = dict(zip(_BUTTONS, (self._first, self._back, self.toggle, self._on, self._end), strict=True))
+        act[chosen(self._buttons)]()
+
+    def _first(self) -> None:
+        self.goto(0)
+
+    def _back(self) -> None:
+        self.move(-1)
+
+    def _on(self) -> None:
+        self.move(1)
+
+    def _end(self) -> None:
+        self.goto(self._last())
+
+    def toggle(self) -> None:
+        """Play, or pause."""
+        visitor = self._visitor
+        if not self._reels:
+            return
+        if visitor.is_playing():
+            visitor.stop()
+            return
+        if self._step >= self._last():
+            self._step = 0
+        visitor.play(self._frames)
+
+    def _frames(self, ended: threading.Event) -> None:
+        due = time.monotonic()
+        while not ended.is_set() and self._step < self._last():
+            self._step += 1
+            self._look()
+            due = max(due + 1 / min(max(self._speed.value, 1), 10), time.monotonic())
+            ended.wait(due - time.monotonic())
+
+    # what next
+
+    def _correct(self) -> None:
+        grounded = self._grounded
+        if grounded is not None and grounded.plans:
+            parsed, plan = grounded.parsed, grounded.plans[self._number()]
+            steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
+            self._visitor.correct.open(parsed.text, steps)
+
+    def _execute(self) -> None:
+        grounded = self._grounded
+        if grounded is None or not grounded.plans:
+            raise TmdError("there is no plan to carry out", hint="plan something first")
+        self._visitor.execute(grounded.plans[self._number()])
+
+
+def verb_phrase(verbs: str) -> str:
+    """How to do things, in words."""
+    return f"how to {verbs.replace(chr(39), '')}" if "," not in verbs else f"these: {verbs}"
+
+
+def _styled(content: str) -> str:
+    return fragment(f"<style>{style()}</style>{content}")

@@ -1,0 +1,118 @@
+"""From URDF to meshes for the browser: each link that moves or changes colour becomes one GLB file."""
+
+from __future__ import annotations
+
+import io
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from tmd.robot.pr2.kinematics import Array, Tree, origin
+from tmd.robot.sim.box_mesh import CUBE
+
+if TYPE_CHECKING:
+    import trimesh
+
+_GREY = (0.7, 0.7, 0.72, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """What is seen of a link and of the links that are fixed to it.
+
+    Attributes:
+        link: The link; its frame is the piece's.
+        mesh: Its triangles, with their colours.
+    """
+
+    link: str
+    mesh: trimesh.Trimesh
+
+    def glb(self) -> bytes:
+        """As binary glTF."""
+        buffer = io.BytesIO()
+        self.mesh.export(buffer, file_type="glb")
+        return buffer.getvalue()
+
+
+def pieces(
+    root: ET.Element, apart: Collection[str] = (), paint: Callable[[str], tuple[float, ...]] | None = None
+) -> list[Piece]:
+    """The pieces of a URDF.
+
+    Args:
+        root: The parsed ``<robot>``; mesh files by absolute paths.
+        apart: Links that are pieces of their own although they are fixed to others.
+        paint: The colour of a link: red, green, blue and alpha from 0 to 1; those of the URDF without it.
+
+    Returns:
+        One for every link that moves, or is ``apart``, and has something to show; in the order of the file.
+    """
+    tree = Tree(root) if root.find("joint") is not None else None
+    links = {link.get("name", ""): link for link in root.findall("link")}
+    materials = {m.get("name", ""): m for m in root.findall("material")}
+    groups: dict[str, list[trimesh.Trimesh]] = {}
+    for name, element in links.items():
+        carrier, frame = _carrier(tree, name, apart)
+        for visual in element.findall("visual"):
+            mesh = _mesh(visual, paint(name) if paint else _colour(visual, materials))
+            if mesh is not None:
+                mesh.apply_transform(frame @ origin(visual.find("origin")))
+                groups.setdefault(carrier, []).append(mesh)
+    return [Piece(name, _together(groups[name])) for name in links if name in groups]
+
+
+def _carrier(tree: Tree | None, name: str, apart: Collection[str]) -> tuple[str, Array]:
+    """The link whose piece a link is in, and where it is in that link's frame."""
+    frame = np.eye(4)
+    while tree is not None and name in tree.links and tree.links[name].kind == "fixed" and name not in apart:
+        frame = tree.links[name].origin @ frame
+        name = tree.links[name].parent
+    return name, frame
+
+
+def _mesh(visual: ET.Element, rgba: tuple[float, ...]) -> trimesh.Trimesh | None:
+    import trimesh
+
+    shape = next(iter(visual.find("geometry") or ()), None)
+    if shape is None:
+        return None
+    mesh: Any
+    if shape.tag == "mesh":
+        scale = np.array([float(word) for word in shape.get("scale", "1 1 1").split()])
+        path = shape.get("filename", "")
+        mesh = trimesh.creation.box((1.0, 1.0, 1.0)) if path == CUBE else trimesh.load(Path(path), force="mesh")
+        mesh.apply_scale(scale)
+    elif shape.tag == "cylinder":
+        mesh = trimesh.creation.cylinder(float(shape.get("radius", "0")), float(shape.get("length", "0")), sections=24)
+    elif shape.tag == "sphere":
+        mesh = trimesh.creation.icosphere(2, float(shape.get("radius", "0")))
+    else:
+        size = [float(word) for word in shape.get("size", "1 1 1").split()]
+        mesh = trimesh.creation.box(size)
+    if shape.tag == "box" or shape.get("filename") == CUBE:
+        mesh.unmerge_vertices()  # edges stay sharp
+    colour = (np.array(rgba) * 255).astype(np.uint8)
+    mesh.visual = trimesh.visual.ColorVisuals(mesh, vertex_colors=np.tile(colour, (len(mesh.vertices), 1)))
+    return mesh  # type: ignore[no-any-return]  # trimesh.load gives whatever the file holds
+
+
+def _colour(visual: ET.Element, materials: Mapping[str, ET.Element]) -> tuple[float, ...]:
+    material = visual.find("material")
+    if material is None:
+        return _GREY
+    colour = material.find("color")
+    if colour is None and material.get("name") in materials:
+        colour = materials[material.get("name", "")].find("color")
+    return _GREY if colour is None else tuple(float(word) for word in colour.get("rgba", "").split())
+
+
+def _together(meshes: list[trimesh.Trimesh]) -> trimesh.Trimesh:
+    import trimesh
+
+    whole: Any = trimesh.util.concatenate(meshes)
+    return whole  # type: ignore[no-any-return]  # it is a mesh where all of its parts are

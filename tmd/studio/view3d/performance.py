@@ -1,0 +1,126 @@
+"""The simulated robot carries a plan out, under physics, and a visitor watches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from threading import Event
+from typing import TYPE_CHECKING
+
+from tmd.inference.ranking import RankedPlan
+from tmd.pddl.model import GroundAtom
+from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.session import Stage
+from tmd.studio.environment_view import Look, Setting
+from tmd.studio.view3d.robot_mesh import Figure
+from tmd.studio.view3d.scenery import Scenery
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder
+
+if TYPE_CHECKING:
+    from tmd.robot.sim.simulator import Simulator
+    from tmd.robot.skills.results import Step
+
+EVERY = 16
+"""Physics steps from one picture to the next: 15 a simulated second."""
+
+
+class _StoppedError(Exception):
+    """The visitor does not want to see more."""
+
+
+class _Audience:
+    """Shows what the simulation goes through.
+
+    Args:
+        stage: The simulation.
+        scenery: The visitor's view.
+        look: What it shows.
+        figure: The robot.
+        ended: The visitor does not want to see more.
+        tell: Says something to the visitor.
+    """
+
+    def __init__(
+        self, stage: Stage, scenery: Scenery, look: Look, figure: Figure, ended: Event, tell: Callable[[str], None]
+    ) -> None:
+        self._stage = stage
+        self._scenery = scenery
+        self._look = look
+        self._figure = figure
+        self._ended = ended
+        self._tell = tell
+        self._ticks = 0
+        self._failed = 0
+
+    def __call__(self, sim: Simulator) -> None:
+        """After every step of the simulation."""
+        if self._ended.is_set():
+            raise _StoppedError
+        self._ticks += 1
+        if self._ticks % EVERY == 0:
+            self.show()
+
+    def show(self) -> None:
+        """Show where everything is now."""
+        scene, sim = self._stage.cell.scene, self._stage.sim
+        objects = {name: sim.pose(scene.bodies[name]) for name in scene.blueprints}
+        links = {
+            (name, link): objects[name].inverse() * sim.pose(scene.bodies[name], scene.link(name, link))
+            for name, blueprint in scene.blueprints.items()
+            for link, each in blueprint.model.links.items()
+            if each.kind in ("revolute", "prismatic")
+        }
+        self._scenery.move(objects, links, self._figure.links(self._stage.cell.robot.positions()))
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins."""
+        mend = "to mend the plan: " if title.repair else ""
+        self._tell(f"The robot, step {title.number} of {title.of}: {mend}{title.instruction}")
+
+    def end(self, title: Title, step: Step) -> None:
+        """It is over: what it changed is seen."""
+        for place, colour in self._look.still.colours(step.state).items():
+            self._scenery.paint(place, colour)
+
+
+def perform(
+    setting: Setting,
+    folder: DomainFolder,
+    plan: RankedPlan,
+    scenery: Scenery,
+    figure: Figure,
+    ended: Event,
+    tell: Callable[[str], None],
+) -> str:
+    """Let the simulated robot carry out a plan, and show it.
+
+    Args:
+        setting: Where.
+        folder: The domain.
+        plan: The plan.
+        scenery: The visitor's view.
+        figure: The robot.
+        ended: Set by who does not want to see more.
+        tell: Says something to the visitor.
+
+    Returns:
+        How it ended, in words.
+
+    Raises:
+        MissingToolError: The simulator is not installed.
+        TmdError: The domain has no skills, or no shapes.
+    """
+    look = setting.look
+    if look is None:
+        return setting.blind
+    orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
+    with Stage(load_environment(setting.path), folder, setting.world.task.problem) as stage:
+        audience = _Audience(stage, scenery, look, figure, ended, tell)
+        audience.show()
+        stage.sim.add_watcher(audience)
+        try:
+            execution = stage.execute(orders, [audience])
+        except _StoppedError:
+            return "Stopped."
+    reason = f": {execution.reason}" if execution.reason else ""
+    return f"The robot's run ended: {execution.status}{reason}."

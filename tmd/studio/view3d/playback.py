@@ -1,0 +1,53 @@
+"""The states that a plan or a demonstration goes through, and how each of them looks."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from threading import Lock
+
+from tmd.pddl.model import State
+from tmd.pddl.task import Bits
+from tmd.robot.video.symbolic_renderer import Picture
+from tmd.studio.environment_view import Setting
+
+_DRAWING = Lock()
+"""Drawing is quick, and who draws keeps notes in what all visitors of a setting share."""
+
+
+class Reel:
+    """A sequence of states, the first one that of the environment.
+
+    Args:
+        setting: The environment.
+
+    Attributes:
+        states: As bits of the environment's task; never empty.
+    """
+
+    def __init__(self, setting: Setting) -> None:
+        self.setting = setting
+        self.states: tuple[Bits, ...] = (setting.world.task.init,)
+        self._pictures: list[Picture] = [] if setting.look is None else [setting.look.first]
+
+    def become(self, states: Sequence[Bits]) -> None:
+        """Hold other states; what is drawn of the same beginning stays."""
+        same = 0
+        while same < min(len(states), len(self.states)) and states[same] == self.states[same]:
+            same += 1
+        self.states = tuple(states)
+        del self._pictures[max(same, 1) :]
+
+    def facts(self, step: int) -> State:
+        """What holds after so many steps."""
+        return self.setting.world.task.decode(self.states[step])
+
+    def picture(self, step: int) -> Picture | None:
+        """How it looks then; ``None`` where there is nothing to see."""
+        look = self.setting.look
+        if look is None:
+            return None
+        with _DRAWING:
+            while len(self._pictures) <= step:
+                facts = self.facts(len(self._pictures))
+                self._pictures.append(look.still.draw(facts, self._pictures[-1]))
+        return self._pictures[step]

@@ -1,0 +1,90 @@
+"""What the nouns of a text came to mean: the objects that a plan uses for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeAlias
+
+from tmd.inference.ranking import RankedPlan
+from tmd.language.clause import PERSONS, Clause, Parsed
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits
+from tmd.veil.world import World
+
+Meaning: TypeAlias = Mapping[str, tuple[str, ...]]
+"""For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing.
+
+In brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
+"""
+
+
+def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
+    """What each clause's nouns mean in a ranked plan.
+
+    A clause may have several of the plan's choices (*when you have taken the cup, …* is two steps) or none (*leave the
+    door open* asks for nothing to be done), and they need not stand in the order of the clauses.
+    """
+    owners = [goal.clause for goal in plan.goals] or list(range(len(plan.choices)))
+    served: dict[int, list[Instruction]] = {}
+    begun: dict[int, Bits] = {}
+    state = world.task.init
+    for owner, choice in zip(owners, plan.choices, strict=True):
+        instructions = [step.instruction for step in choice.steps]
+        begun.setdefault(owner, state)
+        served.setdefault(owner, []).extend(instructions)
+        state = after(instructions, world, state)
+    return [
+        meaning(clause, served.get(number, ()), world, begun.get(number, world.task.init))
+        for number, clause in enumerate(parsed.clauses)
+    ]
+
+
+def meanings_in(clauses: Sequence[Clause], served: Sequence[Iterable[Instruction]], world: World) -> list[Meaning]:
+    """What each clause's nouns mean, given the instructions that serve it; they are executed one after the other."""
+    found: list[Meaning] = []
+    state = world.task.init
+    for number, clause in enumerate(clauses):
+        instructions = list(served[number]) if number < len(served) else []
+        found.append(meaning(clause, instructions, world, state))
+        state = after(instructions, world, state)
+    return found
+
+
+def meaning(clause: Clause, instructions: Iterable[Instruction], world: World, state: Bits) -> Meaning:
+    """What a clause's nouns mean in ``state``, given the instructions that serve it."""
+    instructions = tuple(instructions)
+    used = dict.fromkeys(argument for instruction in instructions for argument in instruction.args)
+    used.update(dict.fromkeys(world.profiles.wholes[name] for name in list(used) if name in world.profiles.wholes))
+    used.update(dict.fromkeys(_touched(instructions, world, state)))
+    names = [name for name in clause.objects if name not in PERSONS]
+    names += [""] if clause.antecedents.get("") else []
+    return {name: _grounded(clause.meant(name), used, world, state) for name in names}
+
+
+def _touched(instructions: Iterable[Instruction], world: World, state: Bits) -> list[str]:
+    """The constants, substances say, of the facts that the instructions change."""
+    changed = world.task.names(after(instructions, world, state) ^ state)
+    return sorted({argument for atom in changed for argument in atom.args} & world.profiles.constants)
+
+
+def _grounded(nouns: Iterable[str], used: Mapping[str, None], world: World, state: Bits) -> tuple[str, ...]:
+    """For each noun an object that is used, else a substance that is, else the likeliest object it may mean."""
+    found: dict[str, None] = {}
+    for noun in nouns:
+        objects = world.mentions.meant(Clause("", (noun,)), used, state)
+        constants = world.mentions.constants(noun)
+        substance = next((c for c in constants if c in used), None) or (noun if noun in constants else None)
+        if substance is not None and not any(name in used for name in objects):
+            objects = (substance,)
+        found.update(dict.fromkeys(name if name in used else f"({name})" for name in objects))
+    return tuple(found)
+
+
+def after(instructions: Iterable[Instruction], world: World, state: Bits) -> Bits:
+    """The state after the instructions, up to the first that the world does not know."""
+    for instruction in instructions:
+        operator = world.task.by_instruction.get(instruction)
+        if operator is None:
+            return state
+        state = operator.apply(state)
+    return state

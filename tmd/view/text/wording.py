@@ -1,0 +1,197 @@
+"""Facts, conditions and broken preconditions in plain words: those of the comments beside the domain's predicates.
+
+``(near ?r - robot ?x - thing)  ; x is within reach`` lets ``(near pr2 mug1)`` be told as *mug1 is within reach*. Where
+a comment does not speak of everything that a fact is about, the fact is told as it is written in PDDL.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from tmd.pddl.formulas import conjuncts
+from tmd.pddl.hierarchy import universe
+from tmd.pddl.model import (
+    And,
+    Atom,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Instruction,
+    Not,
+    Or,
+    Problem,
+    State,
+)
+from tmd.pddl.semantics import Binding, bind, bindings, holds, instantiate, schema_of
+from tmd.pddl.writer import format_formula
+
+_WORDS = frozenset({"a", "i"})
+"""Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
+_SHOWN = 3
+"""So many alternatives are told; of the others, how many there are."""
+
+
+class Wording:
+    """The words of one problem. It keeps nothing but what it was made from: threads may share it.
+
+    Args:
+        problem: The environment.
+    """
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        domain = problem.domain
+        self._objects = universe(problem)
+        self._constants = frozenset(constant.name for constant in domain.constants)
+        self._predicates = {predicate.name: predicate for predicate in domain.predicates}
+        self._changing = frozenset(effect.atom.predicate for action in domain.actions for effect in action.effects)
+
+    def fact(self, atom: GroundAtom) -> str:
+        """What ``atom`` says, without full stop: *mug1 is on counter1*."""
+        return self._told(atom.predicate, atom.args) or str(atom)
+
+    def condition(self, condition: Formula) -> str:
+        """What ``condition`` says, without full stop: *there is some water in cup1, and cup1 is hot*.
+
+        Of many alternatives the first three are told: *mug1 is on counter1, counter2, table1 or 4 others*. An atom that
+        has no words is told as it is written, without brackets; what has variables, as it is written in PDDL.
+        """
+        match condition:
+            case Atom(predicate, terms):
+                return self._told(predicate, terms) or " ".join((predicate, *terms))
+            case Not(part):
+                return f"not: {self._inner(part)}"
+            case And(parts):
+                return ", and ".join(self._all(parts)) or "nothing"
+            case Or(parts):
+                return self._among(parts) or ", or ".join(_few([self._inner(part) for part in parts])) or "never"
+            case _:
+                return format_formula(condition)
+
+    def _all(self, parts: Sequence[Formula]) -> Iterable[str]:
+        """What each part says; denials of one thing are told at once: *not: there is some milk or tea in cup1*."""
+        denied: dict[str, list[Formula]] = {}
+        for part in parts:
+            if isinstance(part, Not) and isinstance(part.part, Atom):
+                denied.setdefault(part.part.predicate, []).append(part.part)
+        together: dict[Formula, str] = {
+            Not(atom): told for atoms in denied.values() if (told := self._among(atoms)) for atom in atoms
+        }
+        return dict.fromkeys(f"not: {together[part]}" if part in together else self._inner(part) for part in parts)
+
+    def _inner(self, part: Formula) -> str:
+        """What a part of a condition says, in brackets where it would not be told from its neighbours."""
+        told = self.condition(part)
+        return f"({told})" if isinstance(part, And | Or) and ", " in told else told
+
+    def _among(self, parts: Sequence[Formula]) -> str:
+        """Alternatives that differ in one argument only, as one sentence; empty where they do not."""
+        atoms = [part for part in parts if isinstance(part, Atom)]
+        if len(atoms) < max(len(parts), 2) or len({(atom.predicate, len(atom.terms)) for atom in atoms}) > 1:
+            return ""
+        columns = list(zip(*(atom.terms for atom in atoms), strict=True))
+        differing = [place for place, terms in enumerate(columns) if len(set(terms)) > 1]
+        if len(differing) != 1:
+            return ""
+        args = list(atoms[0].terms)
+        args[differing[0]] = either = _either(columns[differing[0]])
+        told = self._told(atoms[0].predicate, args)
+        return told if either in told else ""
+
+    def broken(self, instruction: Instruction, state: State) -> str:
+        """The first part of the instruction's precondition that fails in ``state``; empty if all hold.
+
+        Returns:
+            *needs: mug1 is within reach* where something is missing, *not while both hands hold something* where
+            something is in the way.
+
+        Raises:
+            TmdError: Unknown action or object, wrong number or type of arguments.
+        """
+        binding = bind(self.problem, instruction)
+        precondition = schema_of(self.problem, instruction).precondition
+        return "" if self._holds(precondition, state, binding) else self._wish(precondition, state, binding)
+
+    def _holds(self, part: Formula, state: State, binding: Binding) -> bool:
+        return holds(part, state, self._objects, binding)
+
+    def _wish(self, part: Formula, state: State, binding: Binding) -> str:
+        """What would have to be otherwise so that ``part``, which is false, holds."""
+        match part:
+            case And(parts):
+                return self._wish(next(p for p in parts if not self._holds(p, state, binding)), state, binding)
+            case Or(parts):
+                able = [inner for inner in parts if self._changeable(inner)] or list(parts)
+                return ", or ".join(dict.fromkeys(self._wish(inner, state, binding) for inner in able))
+            case Forall(parameters, inner):
+                choices = bindings(parameters, self._objects, binding)
+                return self._wish(inner, state, next(b for b in choices if not self._holds(inner, state, b)))
+            case Exists(parameters, inner):
+                choices = bindings(parameters, self._objects, binding)
+                nearest = max(choices, key=lambda b: self._held(inner, state, b), default=None)
+                return self._wish(inner, state, nearest) if nearest is not None else self._as_written(part, binding)
+            case Atom():
+                return f"needs: {self.fact(instantiate(part, binding))}"
+            case Not(Atom() as atom):
+                return f"not while {self.fact(instantiate(atom, binding))}"
+            case _:
+                return self._as_written(part, binding)
+
+    def _held(self, part: Formula, state: State, binding: Binding) -> int:
+        """How many conjuncts of ``part`` hold."""
+        return sum(self._holds(inner, state, binding) for inner in conjuncts(part))
+
+    def _as_written(self, part: Formula, binding: Binding) -> str:
+        return f"needs: {format_formula(part, binding)}"
+
+    def _changeable(self, part: Formula) -> bool:
+        """Whether some instruction can change what ``part`` says."""
+        inner = part.part if isinstance(part, Not) else part
+        return inner.predicate in self._changing if isinstance(inner, Atom) else not isinstance(inner, Equals)
+
+    def _told(self, name: str, args: Sequence[str]) -> str:
+        """The comment of a predicate with ``args`` in it; empty where it does not speak of all of them."""
+        predicate = self._predicates.get(name)
+        if predicate is None or len(args) != len(predicate.parameters):
+            return ""
+        comment = re.split(r"[:;(]", predicate.comment)[0].strip()
+        names = [parameter.name.removeprefix("?") for parameter in predicate.parameters]
+        if not comment or _WORDS & set(names):
+            return ""
+        for parameter, argument in zip(predicate.parameters, args, strict=True):
+            comment = _chosen(comment, argument, self._objects.of(parameter.types))
+        found = dict(zip(names, args, strict=True))
+        silent = [name for name in names if not _word(name).search(comment)]
+        if any(found[name] not in self._constants for name in silent):
+            return ""
+        return _word(*names).sub(lambda m: found[m["name"]], comment) if names else comment
+
+
+def _word(*names: str) -> re.Pattern[str]:
+    """Any of ``names`` as a word of its own, as it is declared (``?x``) or without the question mark."""
+    return re.compile(rf"(?<![\w'?-])\??(?P<name>{'|'.join(map(re.escape, names))})(?![\w-])")
+
+
+def _few(told: Sequence[str]) -> list[str]:
+    """The first of several, and how many others there are."""
+    rest = len(told) - _SHOWN
+    return [*told[:_SHOWN], *([f"{rest} other{'s' if rest > 1 else ''}"] if rest > 0 else [])]
+
+
+def _either(names: Sequence[str]) -> str:
+    """Alternatives: *counter1, counter2 or table1*."""
+    *most, last = _few(names)
+    return f"{', '.join(most)} or {last}" if most else last
+
+
+def _chosen(comment: str, argument: str, others: Iterable[str]) -> str:
+    """``comment`` with a list of alternatives (*on, in or next to*) cut down to ``argument``, if it is one."""
+    plain = argument.replace("_", " ")
+    one = "|".join(sorted((re.escape(name.replace("_", " ")) for name in others), key=len, reverse=True))
+    if not one:
+        return comment
+    listed = re.compile(rf"\b(?:{one})(?:(?:, | or |, or )(?:{one}))+\b")
+    return listed.sub(lambda m: plain if plain in re.split(r", or |, | or ", m[0]) else m[0], comment)
