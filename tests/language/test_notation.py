@@ -7,8 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
-from tmd.language import Clause, Relation, by_segment, clause_json, parse, print_clause, read_clause
-from tmd.language.tagging import segments
+from tmd.language import Clause, Relation, by_segment, clause_json, parse, print_clause, read_clause, segments
 
 _NAME = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 _RELATION = st.builds(Relation, _NAME, st.none() | _NAME, _NAME)
