@@ -13,7 +13,7 @@ from tests.cli.conftest import ROOT, Tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.sentence_tests import read_sentences
 from tmd.inference.learned.knowledge import study
-from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.file import read_lexicon
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 from tmd.world.scaffold import STARTS, scaffold
@@ -42,7 +42,7 @@ def test_what_it_prints_to_try_next_works(start: str, tmd: Tmd, tmp_path: Path) 
 def test_its_lexicon_declares_goals_and_says_how(start: str, tmd: Tmd, tmp_path: Path) -> None:
     assert tmd("new", "mine", "--from", start).code == ExitCode.OK
     file = tmp_path / "domains" / "mine" / "lexicon.yaml"
-    lexicon = Lexicon.load(file)
+    lexicon = read_lexicon(file)
     assert len(lexicon.goals) >= 2
     assert {"put", "take"} <= lexicon.goal_verbs
     comment = file.read_text().partition("\ngoals:\n")[0].rpartition("\n\n")[2]

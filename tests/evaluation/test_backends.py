@@ -22,10 +22,9 @@ from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
 from tmd.evaluation.runs import cluster
-from tmd.evaluation.runs.backends import WorkerLostError
 from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run, work
-from tmd.evaluation.runs.jobs import Unit
+from tmd.evaluation.runs.jobs import Unit, WorkerLostError
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")

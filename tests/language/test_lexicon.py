@@ -5,8 +5,8 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.language import Lexicon
 from tmd.language.data import rebuild
+from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.morphology import is_plural, singular
 from tmd.language.lexicon.word_lists import data_text, section
@@ -26,7 +26,7 @@ def test_a_full_file(tmp_path: Path) -> None:
         "verbs: [plonk]\nphrasal:\n  fire_up: turn_on\n  buzz_in:\nnouns:\n  pot: [Kettle, Mug]\n  movie: Cd\n"
         "verb_synonyms:\n  heat_up: heat\n",
     )
-    lexicon = Lexicon.load(path)
+    lexicon = read_lexicon(path)
     assert lexicon.verbs == {"plonk"}
     assert lexicon.phrasal == {"fire_up": "turn_on", "buzz_in": "buzz_in"}
     assert lexicon.nouns == {"pot": ("Kettle", "Mug"), "movie": ("Cd",)}
@@ -35,7 +35,7 @@ def test_a_full_file(tmp_path: Path) -> None:
 
 
 def test_an_empty_file_is_an_empty_lexicon(tmp_path: Path) -> None:
-    assert Lexicon.load(write(tmp_path, "# nothing yet\nverbs:\n")).verbs == frozenset()
+    assert read_lexicon(write(tmp_path, "# nothing yet\nverbs:\n")).verbs == frozenset()
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_an_empty_file_is_an_empty_lexicon(tmp_path: Path) -> None:
 )
 def test_faults_have_a_place(tmp_path: Path, text: str, line: int, column: int, message: str, hint: str | None) -> None:
     with pytest.raises(TmdError) as caught:
-        Lexicon.load(write(tmp_path, text))
+        read_lexicon(write(tmp_path, text))
     error = caught.value
     assert error.location is not None
     assert (error.location.line, error.location.column) == (line, column)
@@ -66,11 +66,11 @@ def test_faults_have_a_place(tmp_path: Path, text: str, line: int, column: int, 
 
 def test_a_missing_and_a_binary_file(tmp_path: Path) -> None:
     with pytest.raises(TmdError, match="cannot read the lexicon"):
-        Lexicon.load(tmp_path / "none.yaml")
+        read_lexicon(tmp_path / "none.yaml")
     path = tmp_path / "bad.yaml"
     path.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(TmdError, match="not UTF-8"):
-        Lexicon.load(path)
+        read_lexicon(path)
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from tmd.check.codes import Severity
+from tmd.check.diagnostic import Findings
 from tmd.check.yaml_files import check_compiled, check_environment, check_objects
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
@@ -17,8 +18,20 @@ from tmd.world.environment import EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.yaml_positions import YamlSource
 
-if TYPE_CHECKING:
-    from tmd.check.checker import Checker
+
+class FaultCollector(Protocol):
+    """What takes in the faults of data files, and knows where domains and problems are."""
+
+    domains: Path | None
+    problems: Path | None
+    findings: Findings
+    files: dict[Path, None]
+
+    def report(self, fault: TmdError, file: Path) -> None:
+        """Take in a fault of ``file``."""
+
+    def problem(self, file: Path) -> Problem | None:
+        """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
 
 
 class DataFiles:
@@ -28,7 +41,7 @@ class DataFiles:
         checker: Takes what is found, and knows where domains and problems are.
     """
 
-    def __init__(self, checker: Checker) -> None:
+    def __init__(self, checker: FaultCollector) -> None:
         self.checker = checker
         self._folders: dict[Path, DomainFolder] = {}
         self._worlds: dict[Path, Problem | None] = {}

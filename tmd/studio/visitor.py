@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import partial, wraps
 from typing import TYPE_CHECKING, Any
 
@@ -14,6 +14,7 @@ import numpy as np
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.robot.sim.pose import Vector
+from tmd.studio.demonstrations.session import Session, Step
 from tmd.studio.environment_view import Setting
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -246,6 +247,14 @@ class Visitor:
         self.stop()
 
     # messages
+
+    def open_correction(self, text: str, plan: Sequence[Step]) -> None:
+        """Correct a plan for a text in the panel for that."""
+        self.correct.open(text, plan)
+
+    def take_over(self, session: Session, goal: str) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved."""
+        self.demonstrate.take(session, goal)
 
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Say something to the visitor, at the top of the panel.

@@ -6,6 +6,7 @@ from functools import cached_property
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
+from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_problem
@@ -37,7 +38,7 @@ class Corpus:
     @cached_property
     def lexicon(self) -> Lexicon:
         """The built-in words with those of the domain."""
-        return Lexicon.load(self.folder.lexicon_path, self.folder.kinds)
+        return read_lexicon(self.folder.lexicon_path, self.folder.kinds)
 
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""

@@ -74,10 +74,10 @@ class Roots:
         Raises:
             TmdError: There is no such domain, or its file of words is wrong.
         """
-        from tmd.language.lexicon.lexicon import Lexicon
+        from tmd.language.lexicon.file import read_lexicon
 
         folder = self.folder(name)
-        return Lexicon.load(folder.lexicon_path, folder.kinds)
+        return read_lexicon(folder.lexicon_path, folder.kinds)
 
     def domain(self, name: str) -> Domain:
         """The PDDL domain in a file, in a directory, or of a bundled name.

@@ -10,18 +10,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, TypeVar
 
-from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.runs.config import DASK, ExperimentConfig
-from tmd.evaluation.runs.jobs import Outcome, Unit, do
+from tmd.evaluation.runs.jobs import GO_ON, Outcome, Unit, WorkerLostError, do
 
 _Made = TypeVar("_Made")
-GO_ON = "what is done is kept: the same command goes on from there"
-
-
-class WorkerLostError(TmdError):
-    """A process that did a unit is gone, mostly because memory ran out."""
-
-    exit_code = ExitCode.GAVE_UP
 
 
 def outcomes(config: ExperimentConfig, units: Sequence[Unit], fits: Path, fingerprint: str) -> Generator[Outcome]:

@@ -25,10 +25,9 @@ from typing import Any
 
 from tmd import __version__
 from tmd.diagnostics import DataError, MissingToolError, TmdError
-from tmd.evaluation.runs.backends import GO_ON, WorkerLostError
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import forget_datasets, open_dataset
-from tmd.evaluation.runs.jobs import Outcome, Unit, do
+from tmd.evaluation.runs.jobs import GO_ON, Outcome, Unit, WorkerLostError, do
 
 PACKAGE = Path(__file__).resolve().parents[2]
 CONNECT = 20.0

@@ -14,6 +14,7 @@ from tmd.diagnostics import DataError, TmdError
 from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
 from tmd.evaluation.metrics import Scorer
 from tmd.evaluation.runs.protocol import FILE, read_protocol
+from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.reading.syntax import nearest
@@ -253,7 +254,7 @@ class VeilDataset:
         from tmd.datasets.veil500.compile import domain_path
 
         path = domain_path("sane").parent / "lexicon.yaml"
-        return Lexicon.load(path) if path.is_file() else Lexicon()
+        return read_lexicon(path) if path.is_file() else Lexicon()
 
     def world(self, environment: str) -> World:
         """The environment under the sane rules."""

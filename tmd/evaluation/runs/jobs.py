@@ -16,6 +16,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from tmd.diagnostics import ExitCode, TmdError
 from tmd.files import make_directory, write_text
 from tmd.inference.weights import Weights
 from tmd.evaluation.runs.config import ExperimentConfig
@@ -28,7 +29,15 @@ from tmd.pddl.model import Instruction
 
 DIGITS = 6
 """Scores are rounded for the files, so that the last bit of a float shows nowhere."""
+GO_ON = "what is done is kept: the same command goes on from there"
+"""What is said where a run ends before its time."""
 _PREDICT = zlib.crc32(b"predict")
+
+
+class WorkerLostError(TmdError):
+    """A process that did a unit is gone, mostly because memory ran out."""
+
+    exit_code = ExitCode.GAVE_UP
 
 
 class LearnedWorld(Protocol):

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
 
@@ -86,12 +87,21 @@ class _Source:
         return result
 
 
-def read_lexicon(path: Path) -> Lexicon:
-    """Read a lexicon file.
+def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
+    """Read a ``lexicon.yaml``; without a path there are the built-in words only.
+
+    Args:
+        path: The file.
+        kinds: Names of types and constants of the domain.
 
     Raises:
-        TmdError: The file cannot be read, is no YAML, has an unknown key or a value of the wrong kind.
+        TmdError: The file cannot be read, is not valid YAML, has an unknown key or a value of the wrong kind.
     """
+    lexicon = Lexicon() if path is None else _read(Path(path))
+    return replace(lexicon, kinds=frozenset(name.replace("-", "_").rpartition("_")[2] for name in kinds))
+
+
+def _read(path: Path) -> Lexicon:
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:

@@ -6,10 +6,9 @@ A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon.file`.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cache, cached_property
-from pathlib import Path
 
 from tmd.diagnostics import Location
 from tmd.language.lexicon.morphology import positive, singular, verb_stem
@@ -87,22 +86,6 @@ class Lexicon:
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     source: str = ""
     kinds: frozenset[str] = frozenset()
-
-    @classmethod
-    def load(cls, path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
-        """Read a ``lexicon.yaml``; without a path there are the built-in words only.
-
-        Args:
-            path: The file.
-            kinds: Names of types and constants of the domain.
-
-        Raises:
-            TmdError: The file cannot be read or is not a lexicon; with its place.
-        """
-        from tmd.language.lexicon.file import read_lexicon
-
-        lexicon = cls() if path is None else read_lexicon(Path(path))
-        return replace(lexicon, kinds=frozenset(name.replace("-", "_").rpartition("_")[2] for name in kinds))
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""

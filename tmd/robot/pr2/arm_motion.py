@@ -8,20 +8,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from math import pi, sin
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
-from tmd.robot.pr2.base_motion import plan_base as plan_base
-from tmd.robot.pr2.collision import Checker, Held, Ignored
+from tmd.robot.pr2.collision import Checker, CollisionModel, Held, Ignored
+from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import plan, shorten
-from tmd.robot.pr2.trajectory_following import exact
+from tmd.robot.pr2.trajectory_following import Group, exact
 from tmd.robot.pr2.urdf import ARM
 from tmd.robot.sim.pose import Pose, Quaternion
-
-if TYPE_CHECKING:
-    from tmd.robot.pr2.pr2 import Pr2
 
 Arm = tuple[float, ...]
 Base = tuple[float, float, float]
@@ -41,8 +38,42 @@ _BRANCHES = 12
 _CHUNK = 8
 
 
+class ArmModel(CollisionModel, Protocol):
+    """What planning for an arm asks of a robot besides; base and torso may be given as if they were elsewhere."""
+
+    arm_kinematics: dict[str, ArmKinematics]
+    arm_joints: dict[str, tuple[str, ...]]
+    arm_groups: dict[str, Group]
+
+    def torso(self) -> float:
+        """The height of the torso joint."""
+
+    def arm(self, side: str) -> tuple[float, ...]:
+        """The seven joint positions of an arm."""
+
+    def base_link(self, base: Base | None = None) -> Pose:
+        """The frame base_link for a pose of the base."""
+
+    def elsewhere(self, base: Base | None = None, torso: float | None = None) -> dict[str, float]:
+        """Joint positions of a base and a torso that would be elsewhere."""
+
+    def solve(
+        self,
+        side: str,
+        tool: Pose,
+        *,
+        base: Base | None = None,
+        torso: float | None = None,
+        seed: Sequence[float] | None = None,
+    ) -> list[tuple[float, ...]]:
+        """Arm positions that bring a tool frame to a pose of the world."""
+
+    def tool_at(self, side: str, arm: Sequence[float], *, base: Base | None = None, torso: float | None = None) -> Pose:
+        """Where the tool frame would be in the world."""
+
+
 def plan_arm(
-    robot: Pr2,
+    robot: ArmModel,
     side: str,
     goal: Sequence[float],
     *,
@@ -112,7 +143,7 @@ def plan_arm(
 
 
 def plan_line(
-    robot: Pr2,
+    robot: ArmModel,
     side: str,
     start: Pose,
     end: Pose,
@@ -147,7 +178,7 @@ def plan_line(
 
 
 def plan_poses(
-    robot: Pr2,
+    robot: ArmModel,
     side: str,
     poses: Sequence[Pose],
     *,
@@ -213,7 +244,7 @@ def _along(
     return rows if len(poses) > 1 or checker.free(np.array(rows)) else None
 
 
-def _first_rows(robot: Pr2, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
+def _first_rows(robot: ArmModel, side: str, pose: Pose, base: Base | None, torso: float | None) -> list[Arm]:
     """The arm as it is, if its tool is at ``pose``; else solutions that differ, nearest first."""
     now = robot.arm(side)
     tool = robot.tool_at(side, now, base=base, torso=torso)

@@ -10,18 +10,15 @@ from collections.abc import Iterator
 from heapq import heappop, heappush
 from itertools import pairwise
 from math import hypot, pi, tau
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
-from tmd.robot.pr2.collision import Checker, Ignored
+from tmd.robot.pr2.collision import Checker, CollisionModel, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import shorten
-from tmd.robot.pr2.trajectory_following import exact
+from tmd.robot.pr2.trajectory_following import Group, exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
-
-if TYPE_CHECKING:
-    from tmd.robot.pr2.pr2 import Pr2
 
 Base = tuple[float, float, float]
 Cell = tuple[int, int, int]
@@ -51,8 +48,17 @@ _TURN = 0.35
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 
 
+class BaseModel(CollisionModel, Protocol):
+    """What planning for the base asks of a robot besides."""
+
+    base_group: Group
+
+    def base(self) -> tuple[float, float, float]:
+        """Where the base is: x, y, theta."""
+
+
 def plan_base(
-    robot: Pr2,
+    robot: BaseModel,
     goal: Base,
     *,
     ignore: Ignored = (),

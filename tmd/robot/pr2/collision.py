@@ -12,16 +12,15 @@ from collections.abc import Collection, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
 from tmd.robot.pr2.kinematics import Array, Tree, motion, origin
-from tmd.robot.pr2.urdf import TOOL
+from tmd.robot.pr2.urdf import TOOL, RobotDescription
 from tmd.robot.sim.pose import Pose, Vector
 
 if TYPE_CHECKING:
-    from tmd.robot.pr2.pr2 import Pr2
     from tmd.robot.sim.simulator import Simulator
 
 Collision: TypeAlias = tuple[str, int, int, float]
@@ -57,6 +56,28 @@ class Box:
     half: Array
 
 
+class CollisionModel(Protocol):
+    """What collision checking asks of a robot; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
+
+    sim: Simulator
+    tree: Tree
+    boxes: dict[str, Box]
+    model: RobotDescription
+    body: int
+    index: dict[str, int]
+    joint_index: dict[str, int]
+    movable: list[int]
+
+    def solid_links(self, body: int) -> list[int]:
+        """The links of a body that can be touched."""
+
+    def positions(self) -> dict[str, float]:
+        """The positions of all joints that move, by name."""
+
+    def helds(self) -> list[Held]:
+        """What the hands hold, as it lies in them now."""
+
+
 class Checker:
     """Collision checks for configurations that differ in some joints.
 
@@ -74,7 +95,7 @@ class Checker:
 
     def __init__(
         self,
-        robot: Pr2,
+        robot: CollisionModel,
         vary: Sequence[str],
         *,
         positions: Mapping[str, float] | None = None,

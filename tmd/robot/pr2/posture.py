@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import pi, tau
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 import numpy as np
 
-from tmd.robot.pr2.arm_motion import plan_arm, plan_line
+from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_line
+from tmd.robot.pr2.collision import Collision
 from tmd.robot.sim.pose import Pose
-
-if TYPE_CHECKING:
-    from tmd.robot.pr2.pr2 import Pr2
 
 TUCKED = {
     "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
@@ -39,7 +37,32 @@ TUCK_BUDGET = 300
 """Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
 
 
-def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
+class PostureModel(ArmModel, Protocol):
+    """What folding the arms asks of a robot besides."""
+
+    arms: tuple[str, str]
+    rng: np.random.Generator
+
+    def base(self) -> tuple[float, float, float]:
+        """Where the base is: x, y, theta."""
+
+    def tool(self, side: str) -> Pose:
+        """The tool frame of a hand in the world."""
+
+    def held(self, side: str) -> int | None:
+        """The body that a hand holds."""
+
+    def move_arm(self, side: str, path: Sequence[Sequence[float]]) -> bool:
+        """Move an arm along a path."""
+
+    def collides(self, *, side: str | None = None, arm: Sequence[float] | None = None) -> list[Collision]:
+        """What the robot would touch."""
+
+    def clear(self, side: str, arms: Sequence[Sequence[float]]) -> list[bool]:
+        """For many positions of one arm, whether they touch nothing."""
+
+
+def tuck(robot: PostureModel, budget: int = TUCK_BUDGET) -> bool:
     """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
 
     Args:
@@ -55,13 +78,13 @@ def tuck(robot: Pr2, budget: int = TUCK_BUDGET) -> bool:
     return not waiting
 
 
-def _tuck_arm(robot: Pr2, side: str, budget: int) -> bool:
+def _tuck_arm(robot: PostureModel, side: str, budget: int) -> bool:
     if robot.held(side) is not None:
         return _in_front(robot, side) or _carry(robot, side, budget // 3)
     return _fold(robot, side, budget) or _carry(robot, side, budget // 3)
 
 
-def _fold(robot: Pr2, side: str, budget: int) -> bool:
+def _fold(robot: PostureModel, side: str, budget: int) -> bool:
     for goal in _folded(robot, side):
         (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
         if np.max(np.abs(near - goal)) < _THERE:
@@ -72,7 +95,7 @@ def _fold(robot: Pr2, side: str, budget: int) -> bool:
     return False
 
 
-def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
+def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
     """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
     usual = TUCKED[side]
     others = [
@@ -84,7 +107,7 @@ def _folded(robot: Pr2, side: str) -> list[tuple[float, ...]]:
     return [usual] if free else [other for other, clear in zip(others, rest, strict=True) if clear][:_MOST_FOLDED]
 
 
-def _carry(robot: Pr2, side: str, budget: int) -> bool:
+def _carry(robot: PostureModel, side: str, budget: int) -> bool:
     """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
@@ -104,7 +127,7 @@ def _carry(robot: Pr2, side: str, budget: int) -> bool:
     return False
 
 
-def _in_front(robot: Pr2, side: str) -> bool:
+def _in_front(robot: PostureModel, side: str) -> bool:
     """Whether a hand is in front of the robot, where it may be for driving."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     x, y, z = (base.inverse() * robot.tool(side)).position

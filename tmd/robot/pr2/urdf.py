@@ -50,7 +50,7 @@ _HALL = 100.0
 
 
 @dataclass(frozen=True, slots=True)
-class Model:
+class RobotDescription:
     """A PR2 that pybullet can load.
 
     Attributes:
@@ -64,7 +64,7 @@ class Model:
     disabled: frozenset[tuple[str, str]]
 
 
-def prepare(urdf: Path | None = None) -> Model:
+def prepare(urdf: Path | None = None) -> RobotDescription:
     """Repair a PR2's URDF, or the packaged one.
 
     Raises:
@@ -94,7 +94,7 @@ def prepare(urdf: Path | None = None) -> Model:
         make_directory(folder)
         for file, data in files.items():
             write_bytes(file, data)
-    return Model(target, root, _disabled(root))
+    return RobotDescription(target, root, _disabled(root))
 
 
 def packaged(name: str) -> Path:

@@ -11,7 +11,8 @@ from math import cos, hypot, sin
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
-from tmd.robot.pr2.arm_motion import plan_base, plan_line
+from tmd.robot.pr2.arm_motion import plan_line
+from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
 from tmd.robot.pr2.pr2 import ARMS, Pr2
 from tmd.robot.scene.scene import Handle, Scene

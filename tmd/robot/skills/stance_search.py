@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from itertools import chain, islice, pairwise, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
-from tmd.robot.pr2.arm_motion import DEEPEST, between, plan_arm, plan_base, plan_poses
+from tmd.robot.pr2.arm_motion import DEEPEST, between, plan_arm, plan_poses
+from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
 from tmd.robot.sim.pose import Pose

@@ -9,6 +9,7 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.reading.goal import with_goal
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import Step
+from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
 from tmd.studio.panels.html import fragment, step_list
 from tmd.studio.panels.widgets import chosen, put
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
 
     from viser import GuiDropdownHandle
 
-    from tmd.studio.visitor import Visitor
 
 EVERYWHERE = "in every step"
 HERE = "in this step"
@@ -33,7 +33,7 @@ class CorrectPanel:
         visitor: Whose panel it is.
     """
 
-    def __init__(self, visitor: Visitor) -> None:
+    def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         self._correction: Correction | None = None
         self._insertable: dict[str, Instruction] = {}
@@ -139,7 +139,7 @@ class CorrectPanel:
         if goal:
             with_goal(session.world.task.problem, goal, "goal")
         self.entered()
-        self._visitor.demonstrate.take(session, goal)
+        self._visitor.take_over(session, goal)
 
     # showing
 

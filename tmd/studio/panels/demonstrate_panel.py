@@ -10,6 +10,7 @@ from tmd.pddl.model import Instruction
 from tmd.studio.applicable_actions import Group
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.session import Session
+from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, refused, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
@@ -17,7 +18,6 @@ from tmd.studio.view3d.playback import Reel
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
 
-    from tmd.studio.visitor import Visitor
 
 OWN = "(own words)"
 NONE = "(no object)"
@@ -37,7 +37,7 @@ class DemonstratePanel:
         visitor: Whose panel it is.
     """
 
-    def __init__(self, visitor: Visitor) -> None:
+    def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         self._session: Session | None = None
         self._reel = Reel(visitor.setting)

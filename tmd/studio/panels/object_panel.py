@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from tmd.studio.object_info import about
+from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, object_facts
 from tmd.studio.panels.widgets import chosen, put
 from tmd.view.markup import style
 from tmd.view.object_graph.graph import Changes, object_graph
-
-if TYPE_CHECKING:
-    from tmd.studio.visitor import Visitor
 
 NOTHING = "(nothing)"
 
@@ -23,7 +19,7 @@ class ObjectPanel:
         visitor: Whose panel it is.
     """
 
-    def __init__(self, visitor: Visitor) -> None:
+    def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         gui = visitor.client.gui
         self._which = gui.add_dropdown("Object", (NOTHING, *self._names()))

@@ -10,6 +10,7 @@ from tmd.diagnostics import TmdError
 from tmd.goals.clause_goal import Why
 from tmd.ground import Grounded
 from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.energies import energies
 from tmd.studio.panels.html import changed, fragment, goal_list, step_list
 from tmd.studio.panels.widgets import chosen, put
@@ -21,7 +22,6 @@ from tmd.view.text.clauses import lit_choice, lit_sentence
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
 
-    from tmd.studio.visitor import Visitor
 
 TOP = 3
 """How many plans are ranked."""
@@ -36,7 +36,7 @@ class SayPanel:
         visitor: Whose panel it is.
     """
 
-    def __init__(self, visitor: Visitor) -> None:
+    def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         self._grounded: Grounded | None = None
         self._reels: list[Reel] = []
@@ -236,7 +236,7 @@ class SayPanel:
         if grounded is not None and grounded.plans:
             parsed, plan = grounded.parsed, grounded.plans[self._number()]
             steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
-            self._visitor.correct.open(parsed.text, steps)
+            self._visitor.open_correction(parsed.text, steps)
 
     def _execute(self) -> None:
         grounded = self._grounded

@@ -1,0 +1,64 @@
+"""What the panels ask of the browser window that they stand in."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Protocol
+
+from tmd.inference.ranking import RankedPlan
+from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.environment_view import Setting
+from tmd.studio.studio import Studio
+from tmd.studio.view3d.playback import Reel
+
+if TYPE_CHECKING:
+    from viser import ClientHandle
+
+
+class PanelContext(Protocol):
+    """One connected browser, as its panels see it; attributes as those of :class:`~tmd.studio.visitor.Visitor`."""
+
+    studio: Studio
+    client: ClientHandle
+    identity: str
+    setting: Setting
+    reel: Reel
+    cursor: int
+    selected: str | None
+
+    def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
+        """A callback that tells what goes wrong."""
+
+    def holding(self) -> threading.RLock:
+        """The lock: one thing at a time happens to what is looked at."""
+
+    def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
+        """Show a message at the top of the panel."""
+
+    def enter(self, name: str) -> None:
+        """Go to another environment."""
+
+    def watch(self, reel: Reel, step: int) -> None:
+        """Look at a state of some states."""
+
+    def select(self, name: str | None) -> None:
+        """Point at an object."""
+
+    def play(self, frames: Callable[[threading.Event], None]) -> None:
+        """Run something that shows one thing after the other, until :meth:`stop`."""
+
+    def is_playing(self) -> bool:
+        """Whether something is being played."""
+
+    def stop(self) -> None:
+        """Stop playing."""
+
+    def execute(self, plan: RankedPlan) -> None:
+        """Let the simulated robot carry a plan out."""
+
+    def open_correction(self, text: str, plan: Sequence[Step]) -> None:
+        """Correct a plan for a text in the panel for that."""
+
+    def take_over(self, session: Session, goal: str) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved."""
