@@ -73,3 +73,45 @@ def test_modules_say_what_they_are_for_and_stay_small(path: Path) -> None:
     text = path.read_text()
     assert ast.get_docstring(ast.parse(text)), "no docstring"
     assert len(text.splitlines()) <= 500
+
+
+def imported(path: Path) -> set[str]:
+    """The modules of this project that a module imports, in functions and for types as well."""
+    names = {module_of(p) for p in MODULES}
+    found: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text())):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            full = {f"{node.module}.{alias.name}" for alias in node.names} & names
+            found |= full or {node.module} & names
+        elif isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names} & names
+    return found - {module_of(path)}
+
+
+def module_of(path: Path) -> str:
+    parts = path.relative_to(PACKAGE.parent).with_suffix("").parts
+    return ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+
+
+def test_no_modules_import_one_another() -> None:
+    waiting = {module_of(path): imported(path) for path in MODULES}
+    while ready := [module for module, needs in waiting.items() if not needs & waiting.keys()]:
+        for module in ready:
+            del waiting[module]
+    assert not waiting, f"in or behind a circle: {sorted(waiting)}"
+
+
+def test_no_two_public_classes_have_one_name() -> None:
+    places: dict[str, list[str]] = {}
+    for path in MODULES:
+        for node in ast.parse(path.read_text()).body:
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                places.setdefault(node.name, []).append(str(path.relative_to(PACKAGE)))
+    assert {name: found for name, found in places.items() if len(found) > 1} == {}
+
+
+@pytest.mark.parametrize("folder", sorted({path.parent for path in MODULES} - {PACKAGE}), ids=str)
+def test_folders_show_few_names(folder: Path) -> None:
+    names = [path.name for path in folder.iterdir() if not path.name.startswith(("__", "."))]
+    most = 17 if folder.name == "commands" else 15  # one module for each command
+    assert len(names) <= most

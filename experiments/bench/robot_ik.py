@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.pr2.arm_motion import CLEARANCE, STRIDES
-from tmd.robot.pr2.collision import Checker
+from tmd.robot.pr2.collision import CollisionChecker
 from tmd.robot.pr2.kinematics import Array, Tree
 from tmd.robot.pr2.posture import TUCKED
 from tmd.robot.pr2.pr2 import Pr2
@@ -70,7 +70,7 @@ def planning(robot: Pr2) -> None:
     kinematics, start = robot.arm_kinematics["right"], np.array(TUCKED["right"])
     lower = np.where(np.isinf(kinematics.lower), start - np.pi, kinematics.lower)
     upper = np.where(np.isinf(kinematics.upper), start + np.pi, kinematics.upper)
-    with Checker(robot, robot.arm_joints["right"], arm="right", margin=CLEARANCE) as checker:
+    with CollisionChecker(robot, robot.arm_joints["right"], arm="right", margin=CLEARANCE) as checker:
         queries: list[Array] = []
         while len(queries) < QUERIES:
             x, y, z = rng.uniform((0.5, -0.6, 0.55), (0.75, 0.1, 1.15))
@@ -89,7 +89,7 @@ def planning(robot: Pr2) -> None:
             report("OMPL RRT-connect", ompl_planner(checker, start, lower, upper), queries)
 
 
-def ompl_planner(checker: Checker, start: Array, lower: Array, upper: Array) -> Callable[[Array, int], bool]:
+def ompl_planner(checker: CollisionChecker, start: Array, lower: Array, upper: Array) -> Callable[[Array, int], bool]:
     """OMPL on the same space and collision check, ten seconds at most."""
     from ompl import base, geometric, util
 

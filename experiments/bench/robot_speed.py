@@ -17,7 +17,7 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.robot.monitor.listeners import Listener, Order
-from tmd.robot.session import Stage
+from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.rendering import egl_starts
 from tmd.robot.video.film import Film, open_movie
@@ -87,11 +87,11 @@ def kinematic(corpus: Corpus, demonstration: Demonstration) -> None:
     )
 
 
-def make(corpus: Corpus, environment: str, *, kinematic: bool, pictures: bool) -> Stage:
+def make(corpus: Corpus, environment: str, *, kinematic: bool, pictures: bool) -> SimulationSession:
     """A simulation of an environment."""
     source = load_environment(corpus.directory / "environments" / f"{environment}.yaml")
     problem = corpus.world(environment).task.problem
-    return Stage(source, corpus.folder, problem, kinematic=kinematic, pictures=pictures)
+    return SimulationSession(source, corpus.folder, problem, kinematic=kinematic, pictures=pictures)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ import numpy as np
 from experiments.execution.record import Case
 from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction, read_plan
-from tmd.robot.monitor.faults import Fault, opportunities
+from tmd.robot.monitor.faults import InjectedFault, opportunities
 from tmd.robot.skills.skill_file import Skills
 from tmd.veil.corpus import Corpus
 
@@ -76,14 +76,14 @@ def with_faults(cases: Sequence[Case], kinds: Sequence[str], skills: Skills) -> 
     Raises:
         TmdError: There is no such kind.
     """
-    known = [kind.value for kind in Fault]
+    known = [kind.value for kind in InjectedFault]
     if wrong := [kind for kind in kinds if kind not in (*known, ALL, ONE)]:
         raise TmdError(f"there is no fault '{wrong[0]}'", hint=f"faults: {', '.join((*known, ALL, ONE))}")
     found = []
     for number, case in enumerate(cases):
         plan = [parse_instruction(text) for text in case.plan]
         asked = known if ALL in kinds or ONE in kinds else kinds
-        possible = [kind for kind in asked if opportunities(Fault(kind), plan, skills)]
+        possible = [kind for kind in asked if opportunities(InjectedFault(kind), plan, skills)]
         if ONE in kinds and possible:
             drawn = np.random.default_rng([case.seed, number]).integers(len(possible))
             possible = [possible[int(drawn)]]

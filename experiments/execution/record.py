@@ -55,7 +55,7 @@ class Case:
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """One instruction as it went; see :class:`tmd.robot.skills.results.Step`.
+    """One instruction as it went; see :class:`tmd.robot.skills.results.ExecutedStep`.
 
     Attributes:
         instruction: What was done.

@@ -13,11 +13,11 @@ from experiments.execution.record import FAILED, Case, Line, Record
 from experiments.execution.trace import Trace
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.monitor.faults import Fault, Happening
+from tmd.robot.monitor.faults import Happening, InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.session import Stage
+from tmd.robot.session import SimulationSession
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
-from tmd.robot.skills.results import Step
+from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
@@ -60,8 +60,8 @@ def _run(case: Case) -> Record:
     problem = found.world(case.environment).task.problem
     environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
     orders = [Order(parse_instruction(text)) for text in case.plan]
-    fault = Fault(case.fault) if case.fault else None
-    with Stage(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as stage:
+    fault = InjectedFault(case.fault) if case.fault else None
+    with SimulationSession(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as stage:
         trace = Trace()
         if case.twice:
             stage.sim.add_watcher(trace)
@@ -94,7 +94,7 @@ class _Notes:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         now = time.perf_counter()
         self.lines.append(

@@ -6,7 +6,7 @@ import pytest
 
 from tmd.datasets.veil500 import VeilData, VeilEnvironment, compile_environment, load
 from tmd.datasets.veil500.classes import class_of, is_true, read_classes
-from tmd.datasets.veil500.relations import Relation, initial_relations, unsupported
+from tmd.datasets.veil500.relations import VeilRelation, initial_relations, unsupported
 from tmd.diagnostics import DataError, TmdError
 from tmd.pddl.model import GroundAtom
 
@@ -73,13 +73,13 @@ def test_parts(small: VeilData) -> None:
 def test_relations(small: VeilData) -> None:
     kitchen, room = small.environments["kitchen", 2], small.environments["living_room", 1]
     literal, honest = initial_relations(kitchen, "literal"), initial_relations(kitchen, "honest")
-    assert Relation("GarbageBag_1", "in", "GarbageBag_1") in literal
-    assert Relation("Mug_1", "on", "Counter_1") in literal
-    assert Relation("IceCream_1", "on", "Counter_1") in literal  # the depth is not looked at
-    assert Relation("IceCream_1", "in", "Fridge") in honest
-    assert Relation("Plate_1", "in", "Microwave") in honest
-    assert Relation("Kettle", "on", "StoveFire_1") in honest
-    assert Relation("Cd_1", "on", "CoffeeTable_1") in initial_relations(room, "honest")
+    assert VeilRelation("GarbageBag_1", "in", "GarbageBag_1") in literal
+    assert VeilRelation("Mug_1", "on", "Counter_1") in literal
+    assert VeilRelation("IceCream_1", "on", "Counter_1") in literal  # the depth is not looked at
+    assert VeilRelation("IceCream_1", "in", "Fridge") in honest
+    assert VeilRelation("Plate_1", "in", "Microwave") in honest
+    assert VeilRelation("Kettle", "on", "StoveFire_1") in honest
+    assert VeilRelation("Cd_1", "on", "CoffeeTable_1") in initial_relations(room, "honest")
     assert unsupported(room) == (("Book_1", "Xbox_1", "GarbageBag_1"), ())
     with pytest.raises(TmdError, match="no rule"):
         initial_relations(room, "wishful")  # type: ignore[arg-type]

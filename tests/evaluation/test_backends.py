@@ -24,7 +24,7 @@ from tmd.evaluation.models import model
 from tmd.evaluation.runs import cluster
 from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.experiment import ExperimentConfig, collect, run, work
-from tmd.evaluation.runs.jobs import Unit, WorkerLostError
+from tmd.evaluation.runs.jobs import EvaluationJob, WorkerLostError
 
 ROOT = Path(__file__).parents[2]
 FILES = ("config.json", "predictions.jsonl", "metrics.json")
@@ -405,7 +405,7 @@ def test_a_worker_without_tmd_is_told_and_a_scheduler_needs_none(tmp_path: Path,
 
 def test_a_worker_checks_what_it_has(tmp_path: Path) -> None:
     here = config(tmp_path, test_environments=(1,))
-    unit = Unit("empty", "ramen_2-5", ("given",))
+    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
     right = cluster.Expected(__version__, cluster.source_digest(), cluster.open_dataset(here).fingerprint())
     assert cluster.remote(here, unit, right).parts.keys() == {"given"}
     with pytest.raises(DataError, match=r"other data: their fingerprint is \w+, and not 0123"):
@@ -432,7 +432,7 @@ def test_a_worker_reads_data_anew_when_they_have_changed(tmp_path: Path) -> None
     file.write_text("".join(lines[:20]))
     assert cluster.open_dataset(here).fingerprint() == before
     file.write_text("".join(lines))
-    unit = Unit("empty", "ramen_2-5", ("given",))
+    unit = EvaluationJob("empty", "ramen_2-5", ("given",))
     expected = cluster.Expected(__version__, cluster.source_digest(), after)
     assert len(cluster.remote(here, unit, expected).parts["given"].splitlines()) == 10
 

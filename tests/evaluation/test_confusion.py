@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
-from tmd.evaluation.runs.records import Clause, Line, Segment
+from tmd.evaluation.runs.records import ClauseRecord, Line, SegmentRecord
 
 TEXT = "Take the cup. Fill it, then put it down."
 SEGMENTS = [
@@ -18,12 +18,12 @@ SEGMENTS = [
 ]
 
 
-def clause(text: str, verb: str, *said: str, latent: tuple[str, ...] = ()) -> Clause:
-    return Clause(text=text, verb=verb, latent=list(latent), said=list(said))
+def clause(text: str, verb: str, *said: str, latent: tuple[str, ...] = ()) -> ClauseRecord:
+    return ClauseRecord(text=text, verb=verb, latent=list(latent), said=list(said))
 
 
-def line(clauses: list[Clause], segments: list[tuple[str, list[str]]] | None = None, text: str = TEXT) -> Line:
-    parts = [Segment(text=t, instructions=i) for t, i in (SEGMENTS if segments is None else segments)]
+def line(clauses: list[ClauseRecord], segments: list[tuple[str, list[str]]] | None = None, text: str = TEXT) -> Line:
+    parts = [SegmentRecord(text=t, instructions=i) for t, i in (SEGMENTS if segments is None else segments)]
     scores: dict[str, Any] = dict.fromkeys(("IED", "END", "EED", "EED_trim"), 0.0)
     return Line(
         id=1, task="t", environment="e", model="m", fold="f", text=text, executable=True, clauses=clauses,
@@ -34,14 +34,14 @@ def line(clauses: list[Clause], segments: list[tuple[str, list[str]]] | None = N
 
 def test_a_clause_belongs_to_the_segment_it_shares_most_with() -> None:
     clauses = [clause("Take the cup", "take"), clause("Fill it", "fill"), clause("put it down", "put")]
-    segments = [Segment(text=t, instructions=i) for t, i in SEGMENTS]
+    segments = [SegmentRecord(text=t, instructions=i) for t, i in SEGMENTS]
     assert belonging(TEXT, clauses, segments) == [0, 1, 1]
     assert belonging(TEXT, [clause("dance", "dance")], segments) == [None]
 
 
 def test_the_same_words_twice_are_two_places() -> None:
     text = "wait. wait."
-    segments = [Segment(text="wait.", instructions=[]), Segment(text="wait.", instructions=[])]
+    segments = [SegmentRecord(text="wait.", instructions=[]), SegmentRecord(text="wait.", instructions=[])]
     assert belonging(text, [clause("wait. ", "a"), clause("wait", "b")], segments) == [0, 0]
     assert belonging("wait. then wait.", [clause("then wait", "b")], segments) == [1]
 

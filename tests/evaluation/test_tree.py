@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.runs.dataset import BundledData, Example
-from tmd.inference.policy.action_constraints import Things, learn_syntax
+from tmd.inference.policy.action_constraints import KnownObjects, learn_syntax
 from tmd.inference.policy.features import FIRST, Features, Menu
 from tmd.inference.policy.log_linear import Made, ascend, likelihood, log_probabilities
 from tmd.inference.policy.policy import bag, mentioned
@@ -183,7 +183,7 @@ WORDS = st.sampled_from(
 @settings(max_examples=30, deadline=None)
 @given(words=st.lists(WORDS, max_size=12))
 def test_every_answer_keeps_the_constraints(tree: InstructionTree, data: Kitchens, words: list[str]) -> None:
-    things, syntax = Things(data.world("kitchen1")), tree.rewards_["kitchen"].features.syntax
+    things, syntax = KnownObjects(data.world("kitchen1")), tree.rewards_["kitchen"].features.syntax
     prediction = tree.predict(asked(" ".join(words)), data, np.random.default_rng(0))
     named: set[tuple[str, str]] = set()
     for served in prediction.served:
@@ -205,7 +205,7 @@ def test_the_constraints_are_learned_from_sequences(tree: InstructionTree) -> No
 
 
 def test_how_far_things_are_mentioned(data: Kitchens) -> None:
-    things = Things(data.world("kitchen1"))
+    things = KnownObjects(data.world("kitchen1"))
     first, second = parse("Take the mug. Put the bowl in the microwave.", data.lexicon).clauses
     names = list(things.kinds)
     levels = dict(zip([*names, None], mentioned(second, [first], things).tolist(), strict=True))

@@ -14,7 +14,7 @@ from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER, POLICY
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.learning.statistics import count
-from tmd.inference.proposers import Candidate, Instructions, Proposer, Situation, proposers_of
+from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.inference.weights import named_weights
 from tmd.language import parse
@@ -129,9 +129,9 @@ class Own(Proposer):
     def __init__(self, instructions: Instructions) -> None:
         self.instructions = instructions
 
-    def propose(self, situation: Situation) -> Iterator[Candidate]:
+    def propose(self, situation: Situation) -> Iterator[Proposal]:
         """The one sequence."""
-        yield Candidate("own", self.instructions, (), {}, 0.0)
+        yield Proposal("own", self.instructions, (), {}, 0.0)
 
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:
         """Under the name of a factor that has a weight."""

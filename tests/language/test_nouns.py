@@ -5,23 +5,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.language import Lexicon
-from tmd.language.lexicon.nouns import ALIAS, LEARNED, NAME, WORDNET, Candidate, rank
+from tmd.language.lexicon.nouns import ALIAS, LEARNED, NAME, WORDNET, NounMatch, rank
 from tmd.language.lexicon.wordnet import similarity
 
 THINGS = (
-    Candidate("microwave1", "microwave", ("device", "object")),
-    Candidate("microwave1_door", "door", ("part",), ("microwave",)),
-    Candidate("fridge1", "fridge", ("appliance",)),
-    Candidate("fridge1_door", "door", (), ("fridge",)),
-    Candidate("stove1", "stove"),
-    *(Candidate(f"stove1_burner{n}", "burner", (), ("stove",)) for n in (10, 2, 1, 3)),
-    Candidate("mug2", "mug", ("container",)),
-    Candidate("mug1", "mug", ("container",)),
-    Candidate("kettle1", "kettle", ("container",)),
-    Candidate("water", "water"),
-    Candidate("sink1_tap", "tap", (), ("sink", "water")),
-    Candidate("LongCup_1", "LongCup"),
-    Candidate("couch1", "Loveseat"),
+    NounMatch("microwave1", "microwave", ("device", "object")),
+    NounMatch("microwave1_door", "door", ("part",), ("microwave",)),
+    NounMatch("fridge1", "fridge", ("appliance",)),
+    NounMatch("fridge1_door", "door", (), ("fridge",)),
+    NounMatch("stove1", "stove"),
+    *(NounMatch(f"stove1_burner{n}", "burner", (), ("stove",)) for n in (10, 2, 1, 3)),
+    NounMatch("mug2", "mug", ("container",)),
+    NounMatch("mug1", "mug", ("container",)),
+    NounMatch("kettle1", "kettle", ("container",)),
+    NounMatch("water", "water"),
+    NounMatch("sink1_tap", "tap", (), ("sink", "water")),
+    NounMatch("LongCup_1", "LongCup"),
+    NounMatch("couch1", "Loveseat"),
 )
 LEXICON = Lexicon(nouns={"pot": ("kettle", "mug"), "mug": ("kettle",)})
 
@@ -88,7 +88,7 @@ def test_similarity_is_that_of_wu_and_palmer() -> None:
 
 
 @given(st.permutations(THINGS), st.sampled_from(["burner", "door", "mug", "container", "sofa", "pot", "cup"]))
-def test_the_order_of_candidates_does_not_matter(things: list[Candidate], noun: str) -> None:
+def test_the_order_of_candidates_does_not_matter(things: list[NounMatch], noun: str) -> None:
     assert rank(noun, things, LEXICON) == rank(noun, THINGS, LEXICON)
 
 

@@ -18,7 +18,7 @@ from tmd.pddl.semantics import apply
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor
 from tmd.robot.monitor.failure_memory import Setbacks, without
 from tmd.robot.monitor.observation import Observer
-from tmd.robot.skills.results import Execution, SkillError, Stage, Status, Step
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import load_skills
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
@@ -82,10 +82,10 @@ def demonstrations(corpus: Corpus) -> list[Demonstration]:
 
 def run(
     corpus: Corpus, demonstration: Demonstration, *faults: Callable[[Truth, Instruction], bool]
-) -> tuple[Execution, Truth, list[Step]]:
+) -> tuple[Execution, Truth, list[ExecutedStep]]:
     truth = Truth(corpus, demonstration.environment)
     truth.faults = list(faults)
-    told: list[Step] = []
+    told: list[ExecutedStep] = []
     known = OBSERVERS.get(demonstration.environment)
     if known is None:
         known = Observer(truth.problem, corpus.folder, load_skills(corpus.folder), truth)
@@ -104,7 +104,7 @@ def lose(truth: Truth, instruction: Instruction) -> bool:
 def break_off(truth: Truth, instruction: Instruction) -> bool:
     """The arm cannot get there."""
     if instruction.name in ("grasp", "keep", "open", "press"):
-        raise SkillError(Stage.PATH, "a wall is in the way")
+        raise SkillError(SkillPhase.PATH, "a wall is in the way")
     return False
 
 
@@ -127,7 +127,7 @@ def carry_off(truth: Truth, instruction: Instruction) -> bool:
 @pytest.mark.parametrize("number", range(0, 200, 29))
 def test_a_plan_without_trouble_is_done(corpus: Corpus, demonstrations: list[Demonstration], number: int) -> None:
     done, truth, told = run(corpus, demonstrations[number])
-    assert (done.status, done.repairs, done.reason) == (Status.DONE, 0, "")
+    assert (done.status, done.repairs, done.reason) == (SkillStatus.DONE, 0, "")
     assert [step.instruction for step in done.steps] == list(demonstrations[number].instructions)
     assert not any(step.mismatches or step.failure for step in told)
     assert done.state == truth.state
@@ -140,7 +140,7 @@ def test_plans_of_the_living_room_are_done_as_well() -> None:
     for word in ("insert", "remote1_power_button"):
         chosen = next(d for d in demonstrations if any(word in str(i) for i in d.instructions))
         done, truth, _ = run(corpus, chosen)
-        assert (done.status, done.repairs, done.reason) == (Status.DONE, 0, "")
+        assert (done.status, done.repairs, done.reason) == (SkillStatus.DONE, 0, "")
         assert done.state == truth.state
 
 
@@ -166,7 +166,7 @@ def test_trouble_is_seen_and_mended(
 
     done, truth, _ = run(corpus, demonstrations[number], once)
     assert not armed, "the fault never came about"
-    assert done.status is Status.RECOVERED, done.reason
+    assert done.status is SkillStatus.RECOVERED, done.reason
     assert done.repairs or not any(step.failure for step in done.steps)
     assert any(step.repair or step.failure or step.mismatches for step in done.steps)
     for atom in wanted(corpus, demonstrations[number]):
@@ -183,7 +183,7 @@ def test_what_goes_on_by_itself_is_not_mended(corpus: Corpus, demonstrations: li
     long = max(demonstrations, key=lambda d: len(d.instructions))
     done, truth, _ = run(corpus, long, away)
     assert sum(bool(step.mismatches) for step in done.steps) > MOST_REPAIRS
-    assert (done.status, done.repairs) == (Status.RECOVERED, 0), done.reason
+    assert (done.status, done.repairs) == (SkillStatus.RECOVERED, 0), done.reason
     assert set(wanted(corpus, long)) <= truth.state
 
 
@@ -198,11 +198,11 @@ def wanted(corpus: Corpus, demonstration: Demonstration) -> list[GroundAtom]:
 def test_what_never_works_is_given_up_with_a_true_reason(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     def never(truth: Truth, instruction: Instruction) -> bool:
         if instruction.name == "grasp":
-            raise SkillError(Stage.CONTACT, "the fingers closed on nothing")
+            raise SkillError(SkillPhase.CONTACT, "the fingers closed on nothing")
         return False
 
     done, _, _ = run(corpus, demonstrations[0], never)
-    assert done.status is Status.STOPPED
+    assert done.status is SkillStatus.STOPPED
     assert done.repairs == MOST_REPAIRS
     assert "the fingers closed on nothing" in done.reason
     assert not any(atom.predicate == "holding" for step in done.steps for atom in step.confirmed)
@@ -222,8 +222,8 @@ def test_a_thing_that_is_gone_for_good_ends_the_plan(corpus: Corpus, demonstrati
         return True
 
     done, truth, _ = run(corpus, demonstrations[number], vanish)
-    assert done.status in (Status.RECOVERED, Status.STOPPED)
-    if done.status is Status.RECOVERED:
+    assert done.status in (SkillStatus.RECOVERED, SkillStatus.STOPPED)
+    if done.status is SkillStatus.RECOVERED:
         assert set(wanted(corpus, demonstrations[number])) <= truth.state
 
 
@@ -236,16 +236,16 @@ def test_random_trouble_is_never_claimed_as_success(corpus: Corpus, demonstratio
             if random.random() < 0.15:
                 # what has no physics fails aloud: its event is not seen
                 if random.random() < 0.5 or instruction.name not in ("grasp", "keep", "open", "close", "turn"):
-                    raise SkillError(Stage.STANCE, "there is no place to stand")
+                    raise SkillError(SkillPhase.STANCE, "there is no place to stand")
                 truth.faults.append(sometimes)
                 return True
             return False
 
         done, truth, _ = run(corpus, demonstrations[number], sometimes)
         ended.append(done.status)
-        if done.status is not Status.STOPPED:
+        if done.status is not SkillStatus.STOPPED:
             assert set(wanted(corpus, demonstrations[number])) <= truth.state
-    assert Status.RECOVERED in ended
+    assert SkillStatus.RECOVERED in ended
 
 
 def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
@@ -259,12 +259,12 @@ def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
         if instruction.name == "scoopfrom" and (place := truth.support(instruction.args[1])) is not None:
             start.append(place)
             if place == start[0]:
-                raise SkillError(Stage.STANCE, "no place to stand")
+                raise SkillError(SkillPhase.STANCE, "no place to stand")
         return False
 
     done, truth, _ = run(corpus, scoops, too_far_in)
     assert start, "the jar was in a hand from the beginning"
-    assert done.status is Status.RECOVERED, done.reason
+    assert done.status is SkillStatus.RECOVERED, done.reason
     failures = [step for step in done.steps if step.failure]
     assert [step.instruction.name for step in failures] == ["scoopfrom"]
     assert set(wanted(corpus, scoops)) <= truth.state
@@ -285,13 +285,13 @@ def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrati
         if into(instruction):
             now = taken.count(instruction.args[0])
             if now == grips.setdefault(instruction.args[0], now):
-                raise SkillError(Stage.STANCE, "the hand does not fit in")
+                raise SkillError(SkillPhase.STANCE, "the hand does not fit in")
         return False
 
     grips: dict[str, int] = {}
     done, truth, _ = run(corpus, heats, bad_grip)
     assert grips
-    assert done.status is Status.RECOVERED, done.reason
+    assert done.status is SkillStatus.RECOVERED, done.reason
     assert sum(bool(step.failure) for step in done.steps) == len(grips)
     assert set(wanted(corpus, heats)) <= truth.state
 
@@ -303,13 +303,13 @@ def test_a_hand_is_freed_where_nothing_else_helps(corpus: Corpus, demonstrations
     def in_the_way(truth: Truth, instruction: Instruction) -> bool:
         if instruction.name == "grasp" and "bottle" in instruction.args[0] and truth.held():
             failed.append(instruction)
-            raise SkillError(Stage.STANCE, "the free hand does not get there")
+            raise SkillError(SkillPhase.STANCE, "the free hand does not get there")
         return False
 
     chosen = next(d for d in demonstrations if d.id == "affogato-kitchen2-01")
     done, truth, _ = run(corpus, chosen, in_the_way)
     assert failed
-    assert done.status is Status.RECOVERED, done.reason
+    assert done.status is SkillStatus.RECOVERED, done.reason
     assert set(wanted(corpus, chosen)) <= truth.state
 
 
@@ -324,13 +324,13 @@ def test_another_way_to_the_same_facts_is_planned(corpus: Corpus, demonstrations
 
         def never(truth: Truth, instruction: Instruction, broken: Instruction = broken) -> bool:
             if instruction == broken:
-                raise SkillError(Stage.PRECONDITION, "there is no room")
+                raise SkillError(SkillPhase.PRECONDITION, "there is no room")
             return False
 
         done, truth, _ = run(corpus, chosen, never)
         ended.append(done.status)
         assert not any(step.instruction == broken and not step.failure for step in done.steps)
-        if done.status is not Status.STOPPED:
+        if done.status is not SkillStatus.STOPPED:
             assert set(wanted(corpus, chosen)) <= truth.state
     assert ended
 
@@ -347,7 +347,7 @@ def test_what_could_not_be_done_is_only_done_after_something_changed(corpus: Cor
     task = replace(task, init=state)
     tried = data.draw(st.sampled_from([o for o in task.operators if o.applicable(state)])).instruction
     setbacks = Setbacks(skills.seen)
-    setbacks.failed(tried, task.decode(state), Stage.STANCE)
+    setbacks.failed(tried, task.decode(state), SkillPhase.STANCE)
     assume(setbacks.standing)
     facts = task.encode(setbacks.standing[0].facts)
     others = without(task, setbacks.standing)

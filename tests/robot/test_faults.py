@@ -15,7 +15,7 @@ from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom
-from tmd.robot.monitor.faults import Fault, Happening, opportunities
+from tmd.robot.monitor.faults import Happening, InjectedFault, opportunities
 
 TAKE = ("find(ramen1)", "moveto(ramen1)", "grasp(ramen1)")
 
@@ -80,16 +80,16 @@ def test_the_same_seed_gives_the_same_trajectory_to_the_byte() -> None:
     assert one.trajectory != other.trajectory
 
 
-@pytest.mark.parametrize("kind", list(Fault))
-def test_where_a_fault_can_come_about(kind: Fault) -> None:
+@pytest.mark.parametrize("kind", list(InjectedFault))
+def test_where_a_fault_can_come_about(kind: InjectedFault) -> None:
     skills = skills_of("kitchen")
-    wanted = {Fault.SLIP: {"grasp"}, Fault.STUCK: {"open", "close"}, Fault.MISSED: {"press"}}
+    wanted = {InjectedFault.SLIP: {"grasp"}, InjectedFault.STUCK: {"open", "close"}, InjectedFault.MISSED: {"press"}}
     found = 0
     for demonstration in corpus("kitchen").demonstrations():
         plan = demonstration.instructions
         for index in opportunities(kind, plan, skills):
             found += 1
-            if kind is Fault.MOVED:
+            if kind is InjectedFault.MOVED:
                 assert any(i.name == "grasp" and i.args[0] not in plan[index].args for i in plan[index + 1 :])
             else:
                 assert plan[index].name in wanted[kind]

@@ -24,8 +24,8 @@ from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.listeners import Order, Recorder, Title
 from tmd.robot.monitor.observation import Mismatch
-from tmd.robot.session import Stage
-from tmd.robot.skills.results import Execution, Status, Step
+from tmd.robot.session import SimulationSession
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.video.camera import View
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
 from tmd.robot.video.film import Film, open_movie
@@ -60,12 +60,12 @@ def frames(path: Path) -> list[Pixels]:
     return [np.asarray(frame)[..., :3] for frame in iio.imiter(path)]
 
 
-def stage(*, pictures: bool = True) -> Stage:
+def stage(*, pictures: bool = True) -> SimulationSession:
     folder = find_domain("kitchen", ROOT / "domains")
     corpus = Corpus(folder, ROOT / "problems" / "kitchen")
     environment = load_environment(corpus.directory / "environments" / "kitchen1.yaml")
     problem = corpus.world("kitchen1").task.problem
-    return Stage(environment, folder, problem, kinematic=True, pictures=pictures)
+    return SimulationSession(environment, folder, problem, kinematic=True, pictures=pictures)
 
 
 def orders() -> list[Order]:
@@ -88,7 +88,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Run:
 
 def test_the_film_has_every_picture(run: Run) -> None:
     seen = frames(run.film)
-    assert run.execution.status is Status.DONE
+    assert run.execution.status is SkillStatus.DONE
     assert len(seen) == run.pictures > 20
     assert seen[0].shape == (SIZE[1] + caption_height(SIZE[0]), SIZE[0], 3)
     assert [path.name for path in sorted(run.film.parent.iterdir())] == ["run.mp4", "run.png"]
@@ -263,7 +263,7 @@ class Told:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         self.begun.append(_name(title))
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         self.ended.append(_name(title))
 
 
@@ -290,7 +290,7 @@ def told(plan: str, steps: str) -> Told:
         instruction = Instruction(word[0])
         recorder.perform(instruction, (), 0)
         failure, mismatches = "it broke" * ("!" in word), wrong if "?" in word else ()
-        recorder.watch(Step(instruction, "+" in word, failure, "", (), mismatches, 0, 0, nothing))
+        recorder.watch(ExecutedStep(instruction, "+" in word, failure, "", (), mismatches, 0, 0, nothing))
     return listener
 
 
@@ -329,7 +329,7 @@ def test_a_caption_counts_tries_and_what_was_done(monkeypatch: pytest.MonkeyPatc
         for failure in ("it broke", ""):
             title = Title(mug, 1, 2, False, None)
             film.begin(title, [])
-            film.end(title, Step(mug, False, failure, "", (), (), 0, 0, nothing))
-        film.close(Execution(Status.STOPPED, "that was all", (), 1, nothing))
+            film.end(title, ExecutedStep(mug, False, failure, "", (), (), 0, 0, nothing))
+        film.close(Execution(SkillStatus.STOPPED, "that was all", (), 1, nothing))
     assert [caption.number for caption in told] == ["1/2", "1/2, try 2", ""]
     assert told[-1].said == "1 of 2 instructions went as predicted; repairs of the plan: 1"

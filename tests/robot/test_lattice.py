@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tmd.robot.pr2.base_motion import _Lattice
-from tmd.robot.pr2.collision import Checker
+from tmd.robot.pr2.collision import CollisionChecker
 from tmd.robot.pr2.kinematics import Array
 
 
@@ -33,7 +33,7 @@ class Walls:
 
 def search(walls: Walls) -> Array | None:
     start, goal = np.zeros(3), np.array([0.4, -1.9, 0.0])
-    return _Lattice(cast(Checker, walls), start, goal).search(4000)
+    return _Lattice(cast(CollisionChecker, walls), start, goal).search(4000)
 
 
 def test_a_way_leads_through_the_gap() -> None:

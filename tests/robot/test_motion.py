@@ -15,7 +15,7 @@ from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.pr2.rrt import plan, shorten
 from tmd.robot.pr2.trajectory import dense, timed
-from tmd.robot.pr2.trajectory_following import Group, exact
+from tmd.robot.pr2.trajectory_following import JointGroup, exact
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 
@@ -183,7 +183,7 @@ def test_rrt_finds_the_gap_in_a_wall() -> None:
 
 def test_corners_that_must_not_be_rounded_are_not() -> None:
     path = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]])
-    group = Group((0, 1), (1.0, 1.0), (1.0, 1.0), (0.1, 0.1), 0.01)
+    group = JointGroup((0, 1), (1.0, 1.0), (1.0, 1.0), (0.1, 0.1), 0.01)
 
     def outside(track: Array) -> bool:
         """Nothing may be more than 5 mm inside of the corner."""

@@ -67,10 +67,10 @@ def test_every_part_that_is_worked_has_its_grip(folder: Path) -> None:
 @pytest.mark.parametrize("kind", [k for k, v in KINDS.items() if v.sort != "part"])
 def test_a_kind_can_be_built_without_parts(kind: str) -> None:
     from tmd.robot.assets.appearance import Parts
-    from tmd.robot.assets.urdf_builder import Model
+    from tmd.robot.assets.urdf_builder import UrdfModel
 
     entry = KINDS[kind]
-    model = Model(kind, 1.0)
+    model = UrdfModel(kind, 1.0)
     assert entry.build is not None
     entry.build(model, entry.default, Parts({}))
     assert model.high[2] > model.low[2]

@@ -12,7 +12,7 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from tmd.robot.pr2.gripper_clearance import HandChecker
-from tmd.robot.session import Stage
+from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.skills.articulated import swing_options
 from tmd.robot.skills.pour_and_dip import dip_options
@@ -27,7 +27,7 @@ from tmd.world.folder import find_domain, find_root
 def cell() -> Iterator[Cell]:
     corpus = Corpus(find_domain("kitchen"), find_root("problems") / "kitchen")
     environment = load_environment(corpus.directory / "environments" / "kitchen3.yaml")
-    with Stage(environment, corpus.folder, corpus.world("kitchen3").task.problem, kinematic=True) as stage:
+    with SimulationSession(environment, corpus.folder, corpus.world("kitchen3").task.problem, kinematic=True) as stage:
         yield stage.cell
 
 

@@ -20,7 +20,7 @@ from tmd.check.checker import Checker
 from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive, demonstration
-from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.lock import try_lock
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import demonstration_line, read_demonstration, read_demonstrations
@@ -96,7 +96,7 @@ def test_a_goal_is_saved_with_what_reaches_it(table: Corpus) -> None:
 
 
 def test_a_correction_may_have_a_goal_that_its_plan_did_not_reach(table: Corpus) -> None:
-    proposed = tuple(Step(parse_instruction(line), 0) for line in PLAN[:3])
+    proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
     session = Session(
         table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
     )
@@ -117,7 +117,7 @@ def test_a_task_that_is_there_grows_and_keeps_what_it_had(table: Corpus) -> None
 
 
 def test_a_correction_keeps_the_plan_that_was_proposed(table: Corpus) -> None:
-    proposed = tuple(Step(parse_instruction(line), 0) for line in PLAN[:3])
+    proposed = tuple(DemonstratedStep(parse_instruction(line), 0) for line in PLAN[:3])
     session = Session(
         table.world("corner1"), TEXT, table.lexicon, instructions=map(parse_instruction, PLAN), proposed=proposed
     )

@@ -10,7 +10,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate
 from tmd.studio.demonstrations.correction import Correction
-from tmd.studio.demonstrations.session import Step
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 
@@ -24,7 +24,7 @@ PLAN = [
 
 @pytest.fixture
 def correction(kitchen: Corpus, kitchen1: World) -> Correction:
-    return Correction(kitchen1, TEXT, [Step(parse_instruction(i), c) for i, c in PLAN], kitchen.lexicon)
+    return Correction(kitchen1, TEXT, [DemonstratedStep(parse_instruction(i), c) for i, c in PLAN], kitchen.lexicon)
 
 
 def lines(correction: Correction) -> list[str]:
@@ -124,7 +124,7 @@ def test_what_can_never_be_done_is_not_mended(correction: Correction) -> None:
 def test_mending_makes_any_edited_plan_work_or_says_why_not(
     kitchen: Corpus, kitchen1: World, edits: list[tuple[str, int, int]]
 ) -> None:
-    found = Correction(kitchen1, TEXT, [Step(parse_instruction(i), c) for i, c in PLAN], kitchen.lexicon)
+    found = Correction(kitchen1, TEXT, [DemonstratedStep(parse_instruction(i), c) for i, c in PLAN], kitchen.lexicon)
     for edit, one, other in edits:
         if edit == "delete" and one <= len(found.steps):
             found.delete(one)

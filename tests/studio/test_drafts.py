@@ -16,7 +16,7 @@ from tmd import files as atomic
 from tmd.diagnostics import OutputError, TmdError
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.drafts import Drafts, place
-from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.veil.corpus import Corpus
 
 ROOT = Path(__file__).parents[2]
@@ -61,7 +61,10 @@ def demonstrated(corpus: Corpus, steps: int = 4) -> Session:
 def test_a_draft_is_the_session_again(table: Corpus, drafts: Drafts) -> None:
     session = demonstrated(table)
     session.mark(3, 1)
-    session.proposed = (Step(parse_instruction(PLAN[0]), 0), Step(parse_instruction(PLAN[2]), 1))
+    session.proposed = (
+        DemonstratedStep(parse_instruction(PLAN[0]), 0),
+        DemonstratedStep(parse_instruction(PLAN[2]), 1),
+    )
     visitor = drafts.enter()
     drafts.keep(visitor, session, "shown")
     assert drafts.offered().drafts == ()

@@ -3,14 +3,16 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.studio.panels.energies import energies
 
 
 def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:
     factors = {"words": energy, "nl": 0.0}
-    return RankedPlan((Choice(source, (Step(Instruction("wait", ()), 0, False),), factors, factors),), state=0, why=why)
+    return RankedPlan(
+        (Choice(source, (PlanStep(Instruction("wait", ()), 0, False),), factors, factors),), state=0, why=why
+    )
 
 
 def test_each_loser_says_why_and_each_plan_has_a_column() -> None:

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from tests.view.reading import Reader
 from tmd.ground import Grounded
-from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.view.candidates import candidates, factors_of, grouped
 
 
 def plan(value: float, why: str = "") -> RankedPlan:
-    step = Step(Instruction("grasp", ("<b>cup</b>",)), 0, True)
+    step = PlanStep(Instruction("grasp", ("<b>cup</b>",)), 0, True)
     return RankedPlan((Choice("<i>demo</i>", (step,), {"dscpl": value, "zero": 0.0}, {}),), 0, why)
 
 

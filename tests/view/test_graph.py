@@ -11,7 +11,7 @@ from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.veil.world import World
 from tmd.view.object_graph.anatomy import Edge, anatomy
-from tmd.view.object_graph.graph import LONGEST, Changes, draw, object_graph
+from tmd.view.object_graph.graph import LONGEST, GraphChanges, draw, object_graph
 from tmd.view.object_graph.layout import place
 
 
@@ -44,11 +44,11 @@ def test_what_a_step_changes_is_marked(kitchen: World) -> None:
     for text in ("find(cup1)", "moveto(cup1)"):
         before = apply(parse_instruction(text), before, problem)
     after = apply(parse_instruction("grasp(cup1)"), before, problem)
-    first = object_graph(kitchen, before, "cup1", Changes(removed=before - after))
-    then = object_graph(kitchen, after, "cup1", Changes(added=after - before))
+    first = object_graph(kitchen, before, "cup1", GraphChanges(removed=before - after))
+    then = object_graph(kitchen, after, "cup1", GraphChanges(added=after - before))
     assert lines(first, "removed") == ["− on → counter2"] and not lines(first, "added")
     assert lines(then, "added") == ["+ holding ← pr2"] and not lines(then, "removed")
-    both = object_graph(kitchen, after, "cup1", Changes(after - before, before - after))
+    both = object_graph(kitchen, after, "cup1", GraphChanges(after - before, before - after))
     assert lines(both, "removed") == ["− on → counter2"] and lines(both, "added") == ["+ holding ← pr2"]
 
 

@@ -15,7 +15,7 @@ import pytest
 from tests.view.conftest import TEXT, corpus
 from tests.view.reading import Reader
 from tmd.ground import Grounded
-from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.language import parse
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem, State, TypedName
@@ -112,7 +112,7 @@ def test_names_and_texts_are_only_text() -> None:
     """Problems need not come from a file: whatever an object is called, it does not become an element."""
     name = HOSTILE
     problem = Problem("p", Domain("d"), (TypedName(name, (HOSTILE,)),), frozenset({GroundAtom(HOSTILE, (name,))}))
-    step = Step(Instruction(HOSTILE, (name,)), 0, True)
+    step = PlanStep(Instruction(HOSTILE, (name,)), 0, True)
     plan = RankedPlan((Choice(HOSTILE, (step,), {HOSTILE: 1.0}, {}),), 0, HOSTILE)
     done = RanStep(number=1, action=HOSTILE, args=(name,), outcome="failed", failure=HOSTILE, confirmed=(HOSTILE,))
     page = render(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.diagnostic import Findings
-from tmd.check.domain_lookup import Found, domains_in, find_domain_file
+from tmd.check.domain_lookup import FoundDomain, domains_in, find_domain_file
 from tmd.check.lint.problem import lint_together
 from tmd.check.pddl_file import (
     CheckedDomain,
@@ -134,7 +134,7 @@ class Checker:
 
     def _problem(self, file: Path, text: str) -> None:
         name = domain_name(text)
-        found = Found(self.domain) if self.domain else find_domain_file(file, name, self.domains)
+        found = FoundDomain(self.domain) if self.domain else find_domain_file(file, name, self.domains)
         path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)

@@ -19,14 +19,14 @@ _MOST = 2_000
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundDomain:
     """The file of a domain, if there is one; ``others`` are those that may be meant as well."""
 
     file: Path | None
     others: tuple[Path, ...] = ()
 
 
-def find_domain_file(problem: Path, name: str, domains: Path | None) -> Found:
+def find_domain_file(problem: Path, name: str, domains: Path | None) -> FoundDomain:
     """The file of the domain ``name`` for the file ``problem``.
 
     The first of: a domain of that name beside the problem or one directory above; the known domain of that name;
@@ -37,20 +37,20 @@ def find_domain_file(problem: Path, name: str, domains: Path | None) -> Found:
         named = domains_in(directory).get(name, ())
         if named:
             best = _best(named, problem)
-            return Found(_shown(best, problem)) if best else Found(None, tuple(named))
+            return FoundDomain(_shown(best, problem)) if best else FoundDomain(None, tuple(named))
     for above in list(here.parents)[:3] if re.fullmatch(r"[\w-]+", name) else ():
         file = above / "domains" / name / "domain.pddl"
         if file.is_file():
-            return Found(file)
+            return FoundDomain(file)
     for above, part in ((above, here.relative_to(above).parts) for above in list(here.parents)[:4]):
         file = above / "domains" / part[1] / "domain.pddl" if len(part) > 1 and part[0] == "problems" else Path()
         if file.name and name in domains_in(file.parent):
-            return Found(file)
+            return FoundDomain(file)
     try:
-        return Found(find_domain(name, domains).path / "domain.pddl")
+        return FoundDomain(find_domain(name, domains).path / "domain.pddl")
     except TmdError:
         beside = problem.parent / "domain.pddl"
-        return Found(beside if beside.is_file() else None)
+        return FoundDomain(beside if beside.is_file() else None)
 
 
 def _best(named: Sequence[Path], problem: Path) -> Path | None:

@@ -26,7 +26,7 @@ from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import TypeAlias
 
-from tmd.pddl.forced_execution import Rollout, Simulator, rollout
+from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem
 from tmd.pddl.semantics import holds
@@ -35,11 +35,11 @@ from tmd.pddl.task import Bits, Task
 __all__ = [
     "EPSILON",
     "ROBOT",
+    "ForcedExecution",
     "Mentions",
     "Rollout",
     "Scorer",
     "Scores",
-    "Simulator",
     "arguments",
     "changes",
     "cover_of",
@@ -203,7 +203,7 @@ class Scorer:
     ) -> None:
         self.problem = problem
         self.mentions = mentions
-        self.simulator = Simulator(problem, absent=absent)
+        self.simulator = ForcedExecution(problem, absent=absent)
         self._task: Task | None = None
         self._covers: dict[tuple[Instruction, ...], Bits | None] = {}
 

@@ -22,7 +22,7 @@ class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
-class Step(_Strict):
+class StepRecord(_Strict):
     """An instruction of the plan, and what it changes."""
 
     action: str = Field(description="The name of the action.")
@@ -41,7 +41,7 @@ class PlanRecord(_Strict):
     domain_pddl: str = Field(description="The domain, as flat typed ADL.")
     problem_pddl: str = Field(description="The problem.")
     cost: int = Field(ge=0, description="The cost of the plan.")
-    steps: list[Step] = Field(description="The plan.")
+    steps: list[StepRecord] = Field(description="The plan.")
 
 
 def record(source: Planned) -> PlanRecord:
@@ -53,7 +53,7 @@ def record(source: Planned) -> PlanRecord:
     from tmd.pddl.semantics import cost
 
     steps = [
-        Step(
+        StepRecord(
             action=instruction.name,
             args=list(instruction.args),
             cost=cost(instruction, source.problem),

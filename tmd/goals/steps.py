@@ -27,7 +27,7 @@ class Role(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class GoalStep:
     """One thing to be done.
 
     Attributes:
@@ -51,7 +51,7 @@ class Step:
     besides: bool = False
 
 
-def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
+def in_order(clauses: Sequence[Clause]) -> tuple[GoalStep, ...]:
     """The steps of a text in the order of doing; what is to be kept is no step."""
     heading = next((clause for clause in clauses if clause.heading), None)
     if heading is not None and not heading.implied:
@@ -62,30 +62,32 @@ def in_order(clauses: Sequence[Clause]) -> tuple[Step, ...]:
     return tuple(step for number, clause in ordered for step in _steps(clause, number))
 
 
-def _steps(clause: Clause, number: int) -> Iterator[Step]:
+def _steps(clause: Clause, number: int) -> Iterator[GoalStep]:
     guards = tuple(c for c in clause.conditions if c.word in GUARDS)
     if clause.mood is Mood.KEEP:
         if clause.result and clause.result != "alone":
-            yield Step(replace(clause, verb="be", mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
+            yield GoalStep(replace(clause, verb="be", mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
         elif guards:
-            yield Step(clause, number, Role.MAIN, guards, clause.otherwise)  # "if it is there, leave it, otherwise …"
+            yield GoalStep(
+                clause, number, Role.MAIN, guards, clause.otherwise
+            )  # "if it is there, leave it, otherwise …"
         return
     for condition in clause.conditions:
         if condition.word in EARLIER and not condition.negated:
             for inner in condition.clauses:
                 awaited = inner.verb == "be"
-                yield Step(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True, awaited=awaited)
-    yield Step(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
+                yield GoalStep(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True, awaited=awaited)
+    yield GoalStep(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
     if clause.duration and not clause.verb.startswith("wait"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause("wait", span=clause.span, text=clause.text)
-        yield Step(waiting, number, Role.LATER, guards, clause.otherwise, optional=True)
+        yield GoalStep(waiting, number, Role.LATER, guards, clause.otherwise, optional=True)
     for condition in clause.conditions:
         if condition.word in LATER and not condition.negated:
             for inner in condition.clauses:
                 # "before you leave" says when, and is nothing to be done where nobody knows how
                 said = condition.word
-                yield Step(
+                yield GoalStep(
                     inner,
                     number,
                     Role.LATER,

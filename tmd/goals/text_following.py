@@ -11,7 +11,7 @@ from tmd.goals.reading.nouns import Bound, Memory, Referent
 from tmd.goals.reading.reader import GoalReader
 from tmd.goals.reading.states import BE
 from tmd.goals.sources.senses import words_of
-from tmd.goals.steps import PARTINGS, Step, in_order
+from tmd.goals.steps import PARTINGS, GoalStep, in_order
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
 from tmd.language.lexicon.coverage import REMINDER
 from tmd.language.syntax.pronouns import is_pronoun
@@ -52,7 +52,7 @@ class Target:
         ways: What shall hold on the way, before the goal does.
     """
 
-    step: Step
+    step: GoalStep
     goal: ClauseGoal | None
     already: bool = False
     note: str = ""
@@ -61,7 +61,7 @@ class Target:
 
 
 @dataclass(frozen=True)
-class Constraints:
+class TextConstraints:
     """What must not happen, and what must stay as it is.
 
     Attributes:
@@ -86,7 +86,7 @@ class Follower:
         self.reader = reader
         self.task = reader.world.task
 
-    def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[Step, ...], Context, Constraints] | Refused:
+    def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[GoalStep, ...], Context, TextConstraints] | Refused:
         """The steps of a text, what is known before the first, and what holds throughout."""
         unread = [piece for piece in parsed.skipped if piece.reason == REMINDER]
         if unread and not self.reader.nouns.guess:
@@ -98,7 +98,7 @@ class Follower:
             return constraints
         return in_order(parsed.clauses), Context(memory, constraints.kept), constraints
 
-    def target(self, step: Step, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
+    def target(self, step: GoalStep, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
         """What a step asks for in ``state``."""
         due = self._due(step, context, state)
         if isinstance(due, Refused):
@@ -177,7 +177,7 @@ class Follower:
 
     # ------------------------------------------------------------------ conditions
 
-    def _due(self, step: Step, context: Context, state: Bits) -> bool | Refused:
+    def _due(self, step: GoalStep, context: Context, state: Bits) -> bool | Refused:
         """Whether a step is to be done in ``state``."""
         if step.otherwise:
             return context.guard is False
@@ -214,7 +214,7 @@ class Follower:
 
     # ------------------------------------------------------------------ constraints
 
-    def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> Constraints | Refused:
+    def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> TextConstraints | Refused:
         """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
         forbidden = Cube(0, 0)
         names: set[str] = set()
@@ -234,7 +234,7 @@ class Follower:
                     return preserved
                 kept += preserved
         task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
-        return Constraints(task, tuple(kept))
+        return TextConstraints(task, tuple(kept))
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
         """The literals that must not come to hold, the things that must not be handled, and literals to keep."""

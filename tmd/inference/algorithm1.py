@@ -12,8 +12,8 @@ from collections.abc import Iterable, Sequence
 
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
-from tmd.inference.proposers import Candidate, Instructions, Proposer, Situation
-from tmd.inference.ranking import Choice, Inferred, Path, Refusal, Step, cheapest, ranked
+from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
+from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, Refusal, cheapest, ranked
 from tmd.language.clause import Clause
 from tmd.pddl.constraints import Constraints
 from tmd.pddl.task import Bits
@@ -74,7 +74,7 @@ class Inference:
         kept = {end: cheapest(paths, top) for end, paths in found.items()}
         return {end: kept[end] for end in sorted(kept, key=lambda end: kept[end][0].order)[: self.beam]}
 
-    def _queue(self, situations: Iterable[Situation], refusals: Refusals) -> list[tuple[float, Situation, Candidate]]:
+    def _queue(self, situations: Iterable[Situation], refusals: Refusals) -> list[tuple[float, Situation, Proposal]]:
         """Every candidate in every E'_{j-1}, by what it costs at least; the planner can only add to that."""
         queue = []
         for situation in situations:
@@ -102,13 +102,13 @@ class Inference:
             return Filled((), state, 0)
         return self.planner.fill(state, self.constraints.of(instructions))
 
-    def _update(self, found: Alpha, situation: Situation, candidate: Candidate, latent: Instructions) -> None:
+    def _update(self, found: Alpha, situation: Situation, candidate: Proposal, latent: Instructions) -> None:
         """Φ, the energy, and α_j[E'_j], for a candidate with what the planner puts before it."""
         own = candidate.instructions
         middle = self._simulated(situation.state, latent)  # E_j, line 10
         end = self._simulated(middle, own)  # E'_j, line 11
-        steps = tuple(Step(i, situation.number, latent=True) for i in latent)
-        steps += tuple(Step(i, situation.number, latent=False) for i in own)
+        steps = tuple(PlanStep(i, situation.number, latent=True) for i in latent)
+        steps += tuple(PlanStep(i, situation.number, latent=False) for i in own)
         raw = dict(candidate.raw)  # ψ_j
         if self.knowledge:
             raw |= self.energy.of_end(situation.clause.verb, candidate.names, end)  # ψ'_j

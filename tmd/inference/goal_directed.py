@@ -16,13 +16,12 @@ from itertools import islice
 from tmd.goals.clause_goal import Refused, Why, text_of
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.grounder import TRUE
-from tmd.goals.steps import Role
-from tmd.goals.steps import Step as GoalStep
-from tmd.goals.text_following import Constraints, Context, Follower, Target
+from tmd.goals.steps import GoalStep, Role
+from tmd.goals.text_following import Context, Follower, Target, TextConstraints
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
-from tmd.inference.proposers import PLANNER_SOURCE, Candidate, Instructions, Proposer, Situation
-from tmd.inference.ranking import Choice, Inferred, Path, RankedPlan, Refusal, Step, StepGoal, why_lost
+from tmd.inference.proposers import PLANNER_SOURCE, Instructions, Proposal, Proposer, Situation
+from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, RankedPlan, Refusal, StepGoal, why_lost
 from tmd.language.clause import Clause, Parsed
 from tmd.pddl.constraints import Constraints as Needs
 from tmd.pddl.model import And, Formula, Instruction
@@ -53,7 +52,7 @@ class _Way:
 
 _KEPT_AT_MOST = 4
 """So many more steps may be made to keep what earlier clauses reached: to open a door again, and to close it."""
-_Executable = tuple[Candidate, Instructions, Instructions]
+_Executable = tuple[Proposal, Instructions, Instructions]
 """A candidate that can be done, what must be done before it, and its own instructions."""
 _NOTHING = Choice(None, (), {}, {})
 
@@ -107,7 +106,7 @@ class GoalInference:
                 return Inferred((), tuple(text.refusals), (step.number, found))
             ways = found
         nothing = self._shows_nothing(steps, ways)
-        if nothing is not None and constraints == Constraints(self.world.task) and not self.config.guess:
+        if nothing is not None and constraints == TextConstraints(self.world.task) and not self.config.guess:
             return Inferred((), tuple(text.refusals), (0, nothing))
         ways = _distinct([text.finished(way, state) for way in ways], top)
         plans = [RankedPlan(way.path.choices, way.path.state, goals=way.goals) for way in ways]
@@ -127,7 +126,9 @@ class GoalInference:
 class _Text:
     """The inference of one text."""
 
-    def __init__(self, inference: GoalInference, clauses: Sequence[Clause], constraints: Constraints, top: int) -> None:
+    def __init__(
+        self, inference: GoalInference, clauses: Sequence[Clause], constraints: TextConstraints, top: int
+    ) -> None:
         self.inference = inference
         self.clauses = clauses
         self.task = constraints.task
@@ -199,7 +200,7 @@ class _Text:
             return way
         last = way.path.choices[-1]
         number = way.goals[-1].clause
-        steps = (*last.steps, *(Step(i, number, latent=True) for i in done))
+        steps = (*last.steps, *(PlanStep(i, number, latent=True) for i in done))
         path = replace(way.path, choices=(*way.path.choices[:-1], replace(last, steps=steps)))
         path = replace(path, state=self._simulated(way.path.state, done))
         goal = way.goals[-1]
@@ -341,7 +342,7 @@ class _Text:
             if isinstance(answer, Filled):
                 yield candidate, answer.plan, candidate.instructions
 
-    def _queue(self, situation: Situation) -> Iterator[Candidate]:
+    def _queue(self, situation: Situation) -> Iterator[Proposal]:
         proposed = []
         for proposer in self.inference.proposers:
             for candidate in proposer.propose(situation):
@@ -413,8 +414,8 @@ class _Text:
         state = way.path.state
         middle = self._simulated(state, latent)
         end = self._simulated(middle, own)
-        steps = tuple(Step(i, step.number, latent=True) for i in latent)
-        steps += tuple(Step(i, step.number, latent=False) for i in own)
+        steps = tuple(PlanStep(i, step.number, latent=True) for i in latent)
+        steps += tuple(PlanStep(i, step.number, latent=False) for i in own)
         situation = Situation(self.clauses, step.number, [way.path])
         names = world.mentions.meant(situation.clause, [a for i in own for a in i.args], state)
         factors = dict(raw)

@@ -66,7 +66,7 @@ class Situation:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class Proposal:
     """What may be done for a clause, before the planner is asked what else that needs.
 
     Attributes:
@@ -87,7 +87,7 @@ class Candidate:
 class Proposer(Protocol):
     """A source of candidates. It keeps nothing of a text between calls."""
 
-    def propose(self, situation: Situation) -> Iterable[Candidate | Refusal]:
+    def propose(self, situation: Situation) -> Iterable[Proposal | Refusal]:
         """Candidates for a clause in an environment, and why there are not more."""
         ...
 
@@ -112,9 +112,9 @@ class TemplateProposer(Proposer):
         self.energy = energy
         self.config = config
 
-    def propose(self, situation: Situation) -> Iterator[Candidate | Refusal]:
+    def propose(self, situation: Situation) -> Iterator[Proposal | Refusal]:
         """Each distinct trimmed instantiation, at its cheapest."""
-        best: dict[tuple[Instructions, tuple[str, ...]], Candidate] = {}
+        best: dict[tuple[Instructions, tuple[str, ...]], Proposal] = {}
         for template in self.library.propose(situation.clause):
             for proposed in self._of_template(template, situation):
                 if isinstance(proposed, Refusal):
@@ -125,7 +125,7 @@ class TemplateProposer(Proposer):
                     best[key] = proposed
         yield from best.values()
 
-    def _of_template(self, template: Template, situation: Situation) -> Iterator[Candidate | Refusal]:
+    def _of_template(self, template: Template, situation: Situation) -> Iterator[Proposal | Refusal]:
         clause, state = situation.clause, situation.state
         made = instantiate(template, clause, self.world, state, pair_nouns=self.config.extended)
         if made is None:
@@ -144,7 +144,7 @@ class TemplateProposer(Proposer):
                 return t
         return 0
 
-    def _trimmings(self, made: Instantiation, situation: Situation, first: int) -> Iterator[Candidate]:
+    def _trimmings(self, made: Instantiation, situation: Situation, first: int) -> Iterator[Proposal]:
         """I[t..] for every t from ``first`` on that is allowed."""
         whole = made.instructions
         fixed = self.energy.of_template(made, situation.clause)
@@ -152,7 +152,7 @@ class TemplateProposer(Proposer):
         most = len(whole) if self.config.trim is None else min(self.config.trim, len(whole))
         for t in range(first, most + 1):
             raw = {**fixed, **self.energy.of_sequence(whole[t:], len(whole), names)}
-            yield Candidate(made.template.source, whole[t:], names, raw, self.energy.total(raw))
+            yield Proposal(made.template.source, whole[t:], names, raw, self.energy.total(raw))
 
 
 class SequenceModel(Protocol):
@@ -203,17 +203,17 @@ class PolicyProposer(Proposer):
         known = max(len(library), 1)
         self.trust = known / (known + config.few)
 
-    def propose(self, situation: Situation) -> Iterator[Candidate]:
+    def propose(self, situation: Situation) -> Iterator[Proposal]:
         """The likeliest sequences, without what can never be done here."""
         clause = situation.clause
         if not self._has_say(clause):
             return
-        found: dict[Instructions, Candidate] = {}
+        found: dict[Instructions, Proposal] = {}
         for _, proposed in self.policy.best(clause, situation.earlier, situation.done, self.config.generated):
             kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
             names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], situation.state)
             raw = {"generated": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
-            found.setdefault(kept, Candidate(POLICY_SOURCE, kept, names, raw, self.energy.total(raw)))
+            found.setdefault(kept, Proposal(POLICY_SOURCE, kept, names, raw, self.energy.total(raw)))
         yield from found.values()
 
     def judge(self, situation: Situation, instructions: Instructions, end: Bits) -> Factors:

@@ -11,7 +11,7 @@ from tmd.pddl.task import Bits
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class PlanStep:
     """One instruction of a plan.
 
     Attributes:
@@ -38,7 +38,7 @@ class Choice:
     """
 
     source: str | None
-    steps: tuple[Step, ...]
+    steps: tuple[PlanStep, ...]
     factors: Mapping[str, float]
     raw: Mapping[str, float]
 
@@ -124,7 +124,7 @@ class RankedPlan:
     goals: tuple[StepGoal, ...] = ()
 
     @property
-    def steps(self) -> tuple[Step, ...]:
+    def steps(self) -> tuple[PlanStep, ...]:
         """All steps in order."""
         return tuple(step for choice in self.choices for step in choice.steps)
 

@@ -16,7 +16,7 @@ from tmd.language.lexicon.word_lists import section
 from tmd.language.rewriting.causatives import NEGATED
 from tmd.language.rewriting.requests import rewrite_requests
 from tmd.language.rewriting.sentences import rewrite_words
-from tmd.language.syntax.attachment import Draft, drafts
+from tmd.language.syntax.attachment import ClauseDraft, drafts
 from tmd.language.syntax.chunking import chunk
 from tmd.language.syntax.grammar import parse_tokens
 from tmd.language.syntax.pronouns import resolve, resolve_alone
@@ -78,9 +78,9 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     return Parsed(text, clauses, skipped(text, clauses, rest), constraints)
 
 
-def _read_subordinates(found: Sequence[Draft], lexicon: Lexicon, read: Reader) -> None:
+def _read_subordinates(found: Sequence[ClauseDraft], lexicon: Lexicon, read: Reader) -> None:
     """Read what was folded into each clause; a condition in front of a sentence holds for the whole of it."""
-    before: Draft | None = None
+    before: ClauseDraft | None = None
     asked: list[Condition] = []
     for draft in found:
         for token in draft.folds:
@@ -115,7 +115,7 @@ def _purpose(words: list[str]) -> list[str]:
     return words if words and words[0] in section("subjects") | section("pronouns") else ["you", *words]
 
 
-def _add_relative(draft: Draft, token: Token, lexicon: Lexicon, read: Reader) -> None:
+def _add_relative(draft: ClauseDraft, token: Token, lexicon: Lexicon, read: Reader) -> None:
     """Add what a relative clause says to the noun before it."""
     ahead = [phrase for phrase in draft.mentions() if phrase.place < token.span.start]
     if not ahead:

@@ -52,7 +52,7 @@ class Rollout:
         return [self.task.decode(bits) for bits in self.states]
 
 
-class Simulator:
+class ForcedExecution:
     """Forced execution in one environment.
 
     Only the instructions that are really run are ground, so this is quick where the full task is large.
@@ -166,8 +166,8 @@ def _general_types(problem: Problem) -> frozenset[str]:
 
 
 def rollout(problem: Problem, instructions: Sequence[Instruction]) -> Rollout:
-    """Execute one sequence by force; for many in the same environment use a :class:`Simulator`."""
-    return Simulator(problem, instructions).run(instructions)
+    """Execute one sequence by force; for many in the same environment use a :class:`ForcedExecution`."""
+    return ForcedExecution(problem, instructions).run(instructions)
 
 
 def _without(operator: Operator, real: Bits) -> Operator:

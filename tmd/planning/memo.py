@@ -21,7 +21,7 @@ Goal = tuple[Cube, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class MemoEntry:
     """A plan, and the states from which it reaches the goal."""
 
     needs: Cube
@@ -41,13 +41,13 @@ class Memo:
         self._operators = operators
         self._generalise = generalise
         self._exact: dict[tuple[Bits, Goal], Answer] = {}
-        self._entries: dict[Goal, list[Entry]] = {}
+        self._entries: dict[Goal, list[MemoEntry]] = {}
 
     def exact(self, state: Bits, goal: Goal) -> Answer | None:
         """The answer that was given for the very same question."""
         return self._exact.get((state, goal))
 
-    def matching(self, state: Bits, goal: Goal) -> Entry | None:
+    def matching(self, state: Bits, goal: Goal) -> MemoEntry | None:
         """The cheapest remembered plan that works from ``state``; the oldest among equals."""
         for entry in self._entries.get(goal, ()):
             if entry.needs.holds(state):
@@ -61,7 +61,7 @@ class Memo:
             cube = next(cube for cube in goal if cube.holds(answer.state))
             needs = needs_of([self._operators[step] for step in steps], state, cube)
             entries = self._entries.setdefault(goal, [])
-            entries.append(Entry(needs, tuple(steps), answer.cost))
+            entries.append(MemoEntry(needs, tuple(steps), answer.cost))
             entries.sort(key=lambda entry: entry.cost)
 
     def clear(self) -> None:

@@ -19,7 +19,7 @@ Message: TypeAlias = dict[str, Any]
 """One line, decoded."""
 
 
-class Engine:
+class PlannerEngine:
     """The problem and the engine of this process; the problem is built once and cloned for each question."""
 
     def __init__(self, opening: Message) -> None:
@@ -67,7 +67,7 @@ def serve(questions: IO[str], answers: IO[str]) -> None:
         answers.flush()
 
     try:
-        engine = Engine(cast(Message, json.loads(questions.readline())))
+        engine = PlannerEngine(cast(Message, json.loads(questions.readline())))
     except Exception as error:
         say(fault(error))
         return

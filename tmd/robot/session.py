@@ -13,7 +13,7 @@ import numpy as np
 from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
-from tmd.robot.monitor.faults import Fault, FaultyPerformer, Happening
+from tmd.robot.monitor.faults import FaultyPerformer, Happening, InjectedFault
 from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.pr2.pr2 import Pr2
@@ -22,7 +22,7 @@ from tmd.robot.setup import show_state
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.performer import RobotPerformer
-from tmd.robot.skills.results import Execution, Step
+from tmd.robot.skills.results import ExecutedStep, Execution
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
@@ -32,7 +32,7 @@ TICK = 1 / 15
 """Seconds that a kinematic tick is shown for: it is a stride of a few centimetres."""
 
 
-class Stage:
+class SimulationSession:
     """An environment with a PR2 in it.
 
     Args:
@@ -101,7 +101,7 @@ class Stage:
         *,
         planner: str = IN_PROCESS,
         repairs: int = MOST_REPAIRS,
-        fault: Fault | None = None,
+        fault: InjectedFault | None = None,
     ) -> Execution:
         """Carry out a plan.
 
@@ -131,13 +131,13 @@ class Stage:
 class _Signs:
     """Lets contents and signs look as the state that was observed."""
 
-    def __init__(self, stage: Stage) -> None:
+    def __init__(self, stage: SimulationSession) -> None:
         self._stage = stage
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """Nothing has changed yet."""
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """What was poured is there now, a burner glows."""
         show_state(self._stage.cell.scene, self._stage.skills, step.state)
 

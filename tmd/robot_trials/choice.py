@@ -11,7 +11,7 @@ from tmd.inference.config import DEFAULT
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class TrialChoice:
     """A prediction to carry out.
 
     Attributes:
@@ -25,7 +25,7 @@ class Choice:
     line: Line | None
 
 
-def choices(run: Run) -> list[Choice]:
+def choices(run: Run) -> list[TrialChoice]:
     """One for each environment that was tested in, in the order of the run.
 
     The row is the model that ships, so that the films show what users get; where a run is without it, the row with the
@@ -39,7 +39,7 @@ def choices(run: Run) -> list[Choice]:
     lines = run.of(best)
     environments = sorted({line.environment for line in lines})
     return [
-        Choice(where, best, _first([line for line in lines if line.environment == where and _works(line)]))
+        TrialChoice(where, best, _first([line for line in lines if line.environment == where and _works(line)]))
         for where in environments
     ]
 

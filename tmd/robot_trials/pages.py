@@ -14,7 +14,7 @@ from tmd.evaluation.runs.records import Line, Run, read_run
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.evaluation.runs.trial_records import Trial, Trials, read_trials
 from tmd.files import make_directory, write_text
-from tmd.inference.ranking import Choice, RankedPlan, Step
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
@@ -113,7 +113,7 @@ def _ranked(line: Line) -> RankedPlan | None:
     choices = []
     for number, clause in enumerate(line.clauses):
         texts = [(text, True) for text in clause.latent] + [(text, False) for text in clause.said]
-        steps = tuple(Step(parse_instruction(text), number, latent) for text, latent in texts)
+        steps = tuple(PlanStep(parse_instruction(text), number, latent) for text, latent in texts)
         choices.append(Choice(clause.source, steps, clause.factors, {}))
     return RankedPlan(tuple(choices), 0)
 

@@ -9,14 +9,14 @@ from pathlib import Path
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.evaluation.runs.records import Line
-from tmd.evaluation.runs.trial_records import Asked, Trial, TrialStep
+from tmd.evaluation.runs.trial_records import Trial, TrialRequest, TrialStep
 from tmd.files import write_text
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.session import Stage
+from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.skills.results import Step
+from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.video.film import Film, open_movie
 from tmd.robot.video.movie_file import MovieFile
 from tmd.veil.corpus import Corpus
@@ -40,7 +40,7 @@ class Job:
         out: Where record and films go.
     """
 
-    asked: Asked
+    asked: TrialRequest
     line: Line
     domain: Path
     problems: Path
@@ -81,7 +81,7 @@ def _carried_out(job: Job) -> Trial:
         if movie is not None:
             stack.enter_context(movie)
         stage = stack.enter_context(
-            Stage(
+            SimulationSession(
                 environment,
                 corpus.folder,
                 problem,
@@ -143,7 +143,7 @@ class _Notes:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         said = step.failure or "; ".join(map(str, step.mismatches)) or step.evidence
         outcome = "failed" if step.failure else "mismatch" if step.mismatches else "ok"

@@ -13,10 +13,19 @@ from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.evaluation.runs.backends import in_processes
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
 from tmd.evaluation.runs.records import read_run
-from tmd.evaluation.runs.trial_records import FOLDER, SKIPPED, Asked, Skip, Trial, Trials, read_trial, read_trials
+from tmd.evaluation.runs.trial_records import (
+    FOLDER,
+    SKIPPED,
+    Skip,
+    Trial,
+    TrialRequest,
+    Trials,
+    read_trial,
+    read_trials,
+)
 from tmd.files import make_directory, write_text
 from tmd.robot.skills.skill_file import load_skills
-from tmd.robot_trials.choice import Choice, choices
+from tmd.robot_trials.choice import TrialChoice, choices
 from tmd.robot_trials.perform import Job, perform
 from tmd.world.folder import DomainFolder, find_domain, find_root
 
@@ -98,9 +107,9 @@ def _absolute(domain: DomainFolder) -> Path:
     return domain.path.resolve()
 
 
-def _asked(choice: Choice, config: ExperimentConfig, mode: Mode) -> Asked:
+def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRequest:
     line = choice.line
-    return Asked(
+    return TrialRequest(
         environment=choice.environment,
         model=choice.model,
         id=None if line is None else line.id,
@@ -112,7 +121,7 @@ def _asked(choice: Choice, config: ExperimentConfig, mode: Mode) -> Asked:
     )
 
 
-def _is_done(folder: Path, asked: Asked) -> bool:
+def _is_done(folder: Path, asked: TrialRequest) -> bool:
     """Whether the same trial was made before, and its films are there."""
     path = folder / f"{asked.environment}.json"
     if not path.is_file():
@@ -135,7 +144,7 @@ def _forget_others(folder: Path, environments: set[str]) -> None:
                 raise OutputError(f"{path} cannot be removed: {error.strerror}") from None
 
 
-def _without_plan(folder: Path, asked: Asked) -> None:
+def _without_plan(folder: Path, asked: TrialRequest) -> None:
     reason = f"no prediction of {asked.model} can be executed there under PDDL"
     text = Trial(asked=asked, status="no_plan", reason=reason).model_dump_json(indent=2)
     write_text(folder / f"{asked.environment}.json", text + "\n")

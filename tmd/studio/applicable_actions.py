@@ -27,7 +27,7 @@ class Offer:
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class ActionGroup:
     """The instructions of one action, those that apply first."""
 
     action: str
@@ -58,7 +58,7 @@ class Offers:
             if not operator.instruction.args:
                 self._without.append(operator)
 
-    def of(self, name: str, state: Bits, *, parts: bool = False) -> tuple[Group, ...]:
+    def of(self, name: str, state: Bits, *, parts: bool = False) -> tuple[ActionGroup, ...]:
         """Every instruction that mentions the object ``name``, by action: first those that apply, then by name.
 
         Args:
@@ -75,17 +75,17 @@ class Offers:
         names = [name, *(part for _, part in self.world.profiles.parts.get(name, ()) if parts)]
         return self._groups((o for n in names for o in self._by_object.get(n, ())), state)
 
-    def anywhere(self, state: Bits) -> tuple[Group, ...]:
+    def anywhere(self, state: Bits) -> tuple[ActionGroup, ...]:
         """The instructions that mention no object, such as ``wait()``."""
         return self._groups(self._without, state)
 
-    def _groups(self, operators: Iterable[Operator], state: Bits) -> tuple[Group, ...]:
+    def _groups(self, operators: Iterable[Operator], state: Bits) -> tuple[ActionGroup, ...]:
         found: dict[str, dict[Instruction, Offer]] = {}
         decoded = self.world.task.decode(state)
         for operator in operators:
             own = found.setdefault(operator.instruction.name, {})
             own[operator.instruction] = self._offer(operator, state, decoded)
-        groups = [Group(action, tuple(sorted(own.values(), key=_order))) for action, own in found.items()]
+        groups = [ActionGroup(action, tuple(sorted(own.values(), key=_order))) for action, own in found.items()]
         return tuple(sorted(groups, key=lambda group: (not group.applies, group.action)))
 
     def _offer(self, operator: Operator, state: Bits, decoded: State) -> Offer:

@@ -10,7 +10,7 @@ from tmd.diagnostics import TmdError
 from tmd.robot.assets.room import build_room
 from tmd.robot.skills.skill_file import visible
 from tmd.robot.video.symbolic_renderer import Picture, Still
-from tmd.studio.view3d.meshes import Piece, pieces
+from tmd.studio.view3d.meshes import MeshPiece, pieces
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 from tmd.world.environment import load_environment
@@ -30,8 +30,8 @@ class Look:
 
     still: Still
     first: Picture
-    room: tuple[Piece, ...]
-    objects: dict[str, tuple[Piece, ...]]
+    room: tuple[MeshPiece, ...]
+    objects: dict[str, tuple[MeshPiece, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +80,7 @@ def open_setting(corpus: Corpus, world: World, path: Path) -> Setting:
 def _look(folder: DomainFolder, world: World, path: Path) -> Look:
     still = Still(load_environment(path), folder, visible(folder))
     objects = {}
-    known: dict[str, tuple[Piece, ...]] = {}
+    known: dict[str, tuple[MeshPiece, ...]] = {}
     for name, blueprint in still.blueprints.items():
         if blueprint.class_name not in known:
             model = blueprint.model

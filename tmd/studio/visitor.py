@@ -14,7 +14,7 @@ import numpy as np
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.robot.sim.pose import Vector
-from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -248,7 +248,7 @@ class Visitor:
 
     # messages
 
-    def open_correction(self, text: str, plan: Sequence[Step]) -> None:
+    def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
         self.correct.open(text, plan)
 

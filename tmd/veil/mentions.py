@@ -11,7 +11,7 @@ from collections.abc import Collection, Mapping
 
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.nouns import Candidate, Match, rank
+from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.hierarchy import hierarchy
 from tmd.pddl.task import Bits
 from tmd.veil.profiles import Profiles
@@ -44,10 +44,10 @@ class Mentions:
         self._candidates = tuple(self._candidate(name) for name in self.types)
         self._known: dict[str, tuple[Match, ...]] = {}
 
-    def _candidate(self, name: str) -> Candidate:
+    def _candidate(self, name: str) -> NounMatch:
         types, kind = self.types[name], self.kinds[name]
         above = types[1:] if kind == types[0] else types
-        return Candidate(name, kind, above, _words(name, self.profiles.wholes.get(name)))
+        return NounMatch(name, kind, above, _words(name, self.profiles.wholes.get(name)))
 
     def of(self, noun: str, state: Bits) -> list[Match]:
         """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""

@@ -11,7 +11,7 @@ from tmd.view.markup import templates
 
 
 @dataclass(frozen=True, slots=True)
-class Refused:
+class RefusedCandidate:
     """Templates of a clause that cannot be used here for one and the same reason."""
 
     clause: int
@@ -46,10 +46,12 @@ def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
     return sorted((name for name in weight if weight[name]), key=lambda name: (-weight[name], name))
 
 
-def grouped(refusals: Sequence[Refusal]) -> list[Refused]:
+def grouped(refusals: Sequence[Refusal]) -> list[RefusedCandidate]:
     """Refusals by clause and reason, the most frequent reasons of a clause first."""
     found: dict[tuple[int, str], list[str]] = {}
     for refusal in refusals:
         found.setdefault((refusal.clause, refusal.reason), []).append(refusal.source)
-    rows = [Refused(clause, reason, tuple(sorted(set(sources)))) for (clause, reason), sources in found.items()]
+    rows = [
+        RefusedCandidate(clause, reason, tuple(sorted(set(sources)))) for (clause, reason), sources in found.items()
+    ]
     return sorted(rows, key=lambda row: (row.clause, -len(row.sources), row.reason))

@@ -9,7 +9,7 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
-from tmd.inference.ranking import Choice, RankedPlan, Refusal, Step, StepGoal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_condition
@@ -98,7 +98,7 @@ class _Plan(_Record):
             raise ValueError("the goals do not have the steps one after the other")
 
     def ranked(self) -> RankedPlan:
-        steps = [Step(Instruction(s.action, s.args), s.clause, s.latent) for s in self.steps]
+        steps = [PlanStep(Instruction(s.action, s.args), s.clause, s.latent) for s in self.steps]
         goals = tuple(goal.step_goal() for goal in self.goals)
         own = [tuple(steps[g.first : g.last]) for g in goals] or [
             tuple(step for step in steps if step.clause == number) for number in range(len(self.choices))

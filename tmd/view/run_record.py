@@ -20,7 +20,7 @@ class _Record(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore")
 
 
-class Mismatch(_Record):
+class MismatchRecord(_Record):
     """A fact that is not as predicted."""
 
     fact: str
@@ -51,7 +51,7 @@ class RanStep(_Record):
     failure: str | None = None
     evidence: str | None = None
     confirmed: tuple[str, ...] = ()
-    mismatches: tuple[Mismatch, ...] = ()
+    mismatches: tuple[MismatchRecord, ...] = ()
 
     @property
     def instruction(self) -> Instruction:

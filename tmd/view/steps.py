@@ -9,7 +9,7 @@ from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
 from tmd.view.object_graph.anatomy import Anatomy, anatomy
-from tmd.view.object_graph.graph import Changes, draw
+from tmd.view.object_graph.graph import GraphChanges, draw
 from tmd.view.subject import PlannedStep
 
 BUDGET = 6_000_000
@@ -75,8 +75,8 @@ class _Sheet:
     def _drawing(self, name: str, before: State, after: State | None) -> Drawing:
         if after is None:
             return Drawing(name, draw(self.graph, before, name), "")
-        first = draw(self.graph, before, name, Changes(removed=before - after))
-        return Drawing(name, first, draw(self.graph, after, name, Changes(added=after - before)))
+        first = draw(self.graph, before, name, GraphChanges(removed=before - after))
+        return Drawing(name, first, draw(self.graph, after, name, GraphChanges(added=after - before)))
 
 
 def shown_steps(

@@ -61,7 +61,7 @@ def command(
     directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
     12 or 20 where none is found. One format fills DIR, several a directory each.
     """
-    from tmd.cli.inputs.export import Asked, NoPlan, planned_source
+    from tmd.cli.inputs.export import ExportRequest, NoPlan, planned_source
     from tmd.cli.inputs.text import said
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
@@ -70,7 +70,7 @@ def command(
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
     spoken = None if text is None and text_file is None else short_enough(said(text, text_file))
-    found = planned_source(roots, Asked(source, domain, plan, planner, spoken, goal, example, model))
+    found = planned_source(roots, ExportRequest(source, domain, plan, planner, spoken, goal, example, model))
     if isinstance(found, NoPlan):
         emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
         if as_json:

@@ -94,9 +94,9 @@ def command(
     from tmd.cli.signals import stoppable
     from tmd.language.tagging.length import short_enough
     from tmd.planning.backends import IN_PROCESS
-    from tmd.robot.monitor.faults import Fault
-    from tmd.robot.session import Stage
-    from tmd.robot.skills.results import Status
+    from tmd.robot.monitor.faults import InjectedFault
+    from tmd.robot.session import SimulationSession
+    from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
     from tmd.robot.video.film import Film, open_movie
     from tmd.world.environment import load_environment
@@ -124,7 +124,7 @@ def command(
         if strip:
             pillow()
         stage = stack.enter_context(
-            Stage(
+            SimulationSession(
                 load_environment(path), corpus.folder, world.task.problem,
                 kinematic=kinematic, seed=seed, urdf=urdf, gui=gui, pictures=bool(video or strip),
             )
@@ -163,13 +163,13 @@ def command(
             [told, film] if film else [told],
             planner=chosen,
             repairs=repairs,
-            fault=Fault(fault) if fault else None,
+            fault=InjectedFault(fault) if fault else None,
         )
         if film:
             film.close(execution)
         told.log_ending(execution, stage.sim.steps)
     told.print_ending(execution, stage.sim.steps)
-    return ExitCode.NOT_EXECUTED if execution.status is Status.STOPPED else ExitCode.OK
+    return ExitCode.NOT_EXECUTED if execution.status is SkillStatus.STOPPED else ExitCode.OK
 
 
 def _check_writable(path: Path | None) -> None:

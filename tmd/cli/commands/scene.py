@@ -12,7 +12,7 @@ from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import TmdError
 
 if TYPE_CHECKING:
-    from tmd.robot.skills.reachability_report import Entry, Stance
+    from tmd.robot.skills.reachability_report import ReachabilityEntry, Stance
     from tmd.robot.video.captions import Pixels
     from tmd.world.environment import Environment
     from tmd.world.folder import DomainFolder
@@ -106,7 +106,7 @@ def _draw(path: Path, pixels: Pixels) -> None:
     write_bytes(path, data.getvalue())
 
 
-def _text(name: str, entries: list[Entry], stances: dict[str, Stance | None] | None) -> str:
+def _text(name: str, entries: list[ReachabilityEntry], stances: dict[str, Stance | None] | None) -> str:
     items = sum(entry.item for entry in entries)
     lines = [f"{name}: {len(entries) - items} pieces of furniture, {items} things to carry"]
     width = max((len(entry.name) for entry in entries), default=0)
@@ -122,7 +122,7 @@ def _text(name: str, entries: list[Entry], stances: dict[str, Stance | None] | N
     return "\n".join(lines) + "\n"
 
 
-def _json(entry: Entry, stances: dict[str, Stance | None] | None) -> dict[str, object]:
+def _json(entry: ReachabilityEntry, stances: dict[str, Stance | None] | None) -> dict[str, object]:
     found: dict[str, object] = {
         "name": entry.name,
         "kind": entry.kind,

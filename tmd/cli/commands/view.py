@@ -63,7 +63,7 @@ def command(
         raise click.UsageError("give PLAN|RUN, or --environment and --text")
 
     from tmd.cli.inputs.text import said
-    from tmd.cli.inputs.view import STANDARD, Asked
+    from tmd.cli.inputs.view import STANDARD, ViewRequest
     from tmd.cli.inputs.view_source import subject_of_file, subject_of_text
     from tmd.files import write_text
     from tmd.language.tagging.length import short_enough
@@ -72,7 +72,7 @@ def command(
     if source is None:
         found = subject_of_text(roots, short_enough(said(text, text_file)), environment or "", domain_name, options)
     else:
-        found = subject_of_file(roots, Asked(source, environment, domain_name, problem, demonstration, strip))
+        found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
     _refuse_to_overwrite(target, source, problem, strip)
     page = render(found.subject)

@@ -24,7 +24,7 @@ ASKED, CHANGED = "asked", "changed"
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ExportRequest:
     """The options that say what is to be exported."""
 
     source: str
@@ -45,7 +45,7 @@ class NoPlan:
     code: ExitCode
 
 
-def planned_source(roots: Roots, asked: Asked) -> Planned | NoPlan:
+def planned_source(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     """The problem and the plan that were asked for.
 
     Raises:
@@ -69,7 +69,7 @@ def planned_source(roots: Roots, asked: Asked) -> Planned | NoPlan:
     return _of_environment(roots, asked)
 
 
-def _of_problem(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
+def _of_problem(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     if asked.text is not None:
         raise click.UsageError("a text is for an environment; a PDDL problem has a goal")
     problem = load_problem(roots, path, asked.domain)
@@ -121,7 +121,7 @@ def _domain_name(text: str, path: Path) -> str:
     )
 
 
-def _of_environment(roots: Roots, asked: Asked) -> Planned | NoPlan:
+def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     from tmd.cli.inputs.environment import load_scene
     from tmd.cli.inputs.plan import orders_of_text
     from tmd.planning.backends import IN_PROCESS
@@ -145,7 +145,7 @@ def _of_environment(roots: Roots, asked: Asked) -> Planned | NoPlan:
     return refused or _checked(problem, plan.instructions, None)
 
 
-def _of_json(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
+def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
     from tmd.cli.inputs.environment import load_scene
     from tmd.export.record import FORMAT, parse_record
@@ -167,7 +167,7 @@ def _of_json(roots: Roots, path: Path, asked: Asked) -> Planned | NoPlan:
     return _checked(world.task.problem, steps, _goal(asked, value))
 
 
-def _goal(asked: Asked, grounding: Mapping[str, Any]) -> str | None:
+def _goal(asked: ExportRequest, grounding: Mapping[str, Any]) -> str | None:
     """The goal for the plan of a text; ``None`` for everything that the plan changes.
 
     Raises:

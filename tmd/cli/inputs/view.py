@@ -15,7 +15,7 @@ _TITLE = 90
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
+class ViewRequest:
     """The options that say what a file is and where it belongs."""
 
     source: str
@@ -37,7 +37,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class FoundSubject:
     """What is to be shown.
 
     Attributes:

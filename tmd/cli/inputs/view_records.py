@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from tmd import __version__
 from tmd.cli.inputs.environment import load_scene
 from tmd.cli.inputs.paths import Roots
-from tmd.cli.inputs.view import STANDARD, Asked, Found, title_of
+from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
 from tmd.diagnostics import Location, TmdError
 from tmd.language import parse
 from tmd.pddl.model import Instruction
@@ -35,7 +35,7 @@ def made_rows(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
     return tuple((name.replace("_", " "), str(value)) for name, value in values.items() if value is not None)
 
 
-def grounding_found(roots: Roots, asked: Asked, value: Mapping[str, Any]) -> Found:
+def grounding_found(roots: Roots, asked: ViewRequest, value: Mapping[str, Any]) -> FoundSubject:
     """What ``tmd ground --json`` printed.
 
     Raises:
@@ -47,7 +47,7 @@ def grounding_found(roots: Roots, asked: Asked, value: Mapping[str, Any]) -> Fou
         raise _damaged(asked, "tmd ground --json", error) from None
     corpus, world = _scene(roots, asked, record.domain, record.environment, record.environment_file)
     rows = made_rows({**record.made_with, "domain": corpus.folder.name, "environment": world.name})
-    return Found(_grounding_subject(record, world, rows), _beside(asked), of_text=True)
+    return FoundSubject(_grounding_subject(record, world, rows), _beside(asked), of_text=True)
 
 
 def _grounding_subject(
@@ -72,7 +72,7 @@ def _grounding_subject(
     )
 
 
-def run_found(roots: Roots, asked: Asked, first: Mapping[str, Any], lines: Lines) -> Found:
+def run_found(roots: Roots, asked: ViewRequest, first: Mapping[str, Any], lines: Lines) -> FoundSubject:
     """What ``tmd run --json`` printed, or a log of ``tmd run``.
 
     Raises:
@@ -94,7 +94,7 @@ def run_found(roots: Roots, asked: Asked, first: Mapping[str, Any], lines: Lines
         subject = _grounding_subject(record, world, rows, done, strip)
     else:
         subject = _run_subject(plan, first.get("text"), corpus, world, made_rows(made), done, strip)
-    return Found(subject, _beside(asked), of_text=subject.said is not None)
+    return FoundSubject(subject, _beside(asked), of_text=subject.said is not None)
 
 
 def _run_subject(
@@ -113,7 +113,7 @@ def _run_subject(
     return Subject(title, world.task.problem, steps, said, ran=done, strip=strip, made=rows)
 
 
-def _events(asked: Asked, lines: Lines) -> list[Mapping[str, Any]]:
+def _events(asked: ViewRequest, lines: Lines) -> list[Mapping[str, Any]]:
     """The lines of a log; the last one may be cut off where the run was killed."""
     found: list[Mapping[str, Any]] = []
     for number, line in lines:
@@ -131,7 +131,7 @@ def _events(asked: Asked, lines: Lines) -> list[Mapping[str, Any]]:
     return found
 
 
-def _strip(asked: Asked, recorded: object, count: int) -> Strip | None:
+def _strip(asked: ViewRequest, recorded: object, count: int) -> Strip | None:
     """The filmstrip of a run: the one that was named, else what lies beside the log."""
     if asked.strip is not None:
         found = _picture(asked.strip, count)
@@ -153,7 +153,7 @@ def _picture(path: Path, count: int) -> Strip | None:
         raise TmdError(f"{path} cannot be read: {error.strerror}", hint="give what tmd run --strip wrote") from None
 
 
-def demonstration_found(roots: Roots, asked: Asked, lines: Lines) -> Found:
+def demonstration_found(roots: Roots, asked: ViewRequest, lines: Lines) -> FoundSubject:
     """One demonstration of a corpus.
 
     Raises:
@@ -164,10 +164,10 @@ def demonstration_found(roots: Roots, asked: Asked, lines: Lines) -> Found:
     corpus, world = _scene(roots, asked, None, chosen.environment, _bundled_beside(asked, chosen.environment))
     where = {"version": __version__, "domain": corpus.folder.name, "environment": world.name, "file": asked.path.name}
     subject = demonstrated_subject(chosen, world, corpus.lexicon, made_rows(where))
-    return Found(subject, asked.path.with_name(f"{_file_name(chosen.id)}.html"))
+    return FoundSubject(subject, asked.path.with_name(f"{_file_name(chosen.id)}.html"))
 
 
-def _chosen(asked: Asked, read: Sequence[Demonstration]) -> Demonstration:
+def _chosen(asked: ViewRequest, read: Sequence[Demonstration]) -> Demonstration:
     ids = [demonstration.id for demonstration in read]
     if asked.demonstration is None and len(read) == 1:
         return read[0]
@@ -184,7 +184,7 @@ def _file_name(text: str) -> str:
     return "".join(c if c.isalnum() or c in "-_." else "_" for c in text).lstrip(".")[:100] or "demonstration"
 
 
-def _bundled_beside(asked: Asked, environment: str) -> str | None:
+def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
     """The environment in the same problems as the corpus: ``<domain>/environments/`` beside ``<domain>/<task>/``."""
     directory = asked.path.resolve().parent.parent / "environments"
     paths = [directory / f"{Path(environment).name}{suffix}" for suffix in (".yaml", ".pddl")]
@@ -192,7 +192,9 @@ def _bundled_beside(asked: Asked, environment: str) -> str | None:
     return None if asked.source == STANDARD else found
 
 
-def _scene(roots: Roots, asked: Asked, domain: str | None, environment: str, file: object) -> tuple[Corpus, World]:
+def _scene(
+    roots: Roots, asked: ViewRequest, domain: str | None, environment: str, file: object
+) -> tuple[Corpus, World]:
     """The environment: the one that was named now, else the file that was named then, else the bundled one."""
     if asked.environment is not None:
         return load_scene(roots, asked.environment, asked.domain or _domain_of(asked.environment, domain))
@@ -210,11 +212,11 @@ def _domain_of(environment: str, recorded: str | None) -> str | None:
     return recorded if environment.endswith(".pddl") else None
 
 
-def _beside(asked: Asked) -> Path:
+def _beside(asked: ViewRequest) -> Path:
     return asked.path.with_suffix(".html")
 
 
-def _damaged(asked: Asked, what: str, error: Exception) -> TmdError:
+def _damaged(asked: ViewRequest, what: str, error: Exception) -> TmdError:
     """The first thing that is wrong, in one line."""
     hint = f"make it anew with {what}"
     if not isinstance(error, ValidationError):

@@ -13,7 +13,7 @@ from tmd.cli.inputs.environment import load_scene
 from tmd.cli.inputs.export import load_problem
 from tmd.cli.inputs.grounding import GroundingOptions, answer
 from tmd.cli.inputs.paths import Roots
-from tmd.cli.inputs.view import STANDARD, Asked, Found, title_of
+from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
 from tmd.cli.show.warnings import refusal, remarks
 from tmd.diagnostics import Location, TmdError
@@ -29,7 +29,9 @@ MAX_STEPS = 10_000
 _KINDS = "what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
 
 
-def subject_of_text(roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions) -> Found:
+def subject_of_text(
+    roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions
+) -> FoundSubject:
     """Ground a text now.
 
     Raises:
@@ -50,10 +52,10 @@ def subject_of_text(roots: Roots, text: str, environment: str, domain: str | Non
         refused=refusal(grounded),
     )
     told = tuple(remarks(grounded, found.warnings))
-    return Found(subject, Path(f"{found.world.name}.html"), told, of_text=True)
+    return FoundSubject(subject, Path(f"{found.world.name}.html"), told, of_text=True)
 
 
-def subject_of_file(roots: Roots, asked: Asked) -> Found:
+def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     """What a file holds: its content says what kind of file it is.
 
     Raises:
@@ -71,7 +73,7 @@ def subject_of_file(roots: Roots, asked: Asked) -> Found:
     return found
 
 
-def _read(asked: Asked) -> str:
+def _read(asked: ViewRequest) -> str:
     if asked.source != STANDARD:
         return read_text(asked.path)
     try:
@@ -80,7 +82,7 @@ def _read(asked: Asked) -> str:
         raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
 
 
-def _of_text(roots: Roots, asked: Asked, text: str) -> Found:
+def _of_text(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     lines = [(number, line) for number, line in enumerate(text.splitlines(), start=1) if line.strip()]
     if not lines:
         raise TmdError(f"{asked.name} is empty", hint=f"give {_KINDS}")
@@ -93,7 +95,7 @@ def _of_text(roots: Roots, asked: Asked, text: str) -> Found:
     return _of_json(roots, asked, first, lines)
 
 
-def _of_json(roots: Roots, asked: Asked, first: dict[str, Any], lines: list[tuple[int, str]]) -> Found:
+def _of_json(roots: Roots, asked: ViewRequest, first: dict[str, Any], lines: list[tuple[int, str]]) -> FoundSubject:
     if "segments" in first:
         _only(asked, "demonstration", "environment", "domain")
         return demonstration_found(roots, asked, lines)
@@ -112,7 +114,7 @@ def _of_json(roots: Roots, asked: Asked, first: dict[str, Any], lines: list[tupl
     raise TmdError(f"{asked.name} is JSON of no kind that can be shown", hint=f"give {_KINDS}")
 
 
-def _only(asked: Asked, *meant: str) -> None:
+def _only(asked: ViewRequest, *meant: str) -> None:
     """Refuse options that this kind of file has no use for."""
     names = {"problem": "--problem", "environment": "--environment", "domain": "--domain"}
     names |= {"demonstration": "--id", "strip": "--strip"}
@@ -129,7 +131,7 @@ def _object(text: str) -> dict[str, Any] | None:
     return value if isinstance(value, dict) else None
 
 
-def _not_json(asked: Asked, text: str) -> TmdError:
+def _not_json(asked: ViewRequest, text: str) -> TmdError:
     """What is wrong with a text that begins as JSON does."""
     try:
         json.loads(text)
@@ -141,7 +143,7 @@ def _not_json(asked: Asked, text: str) -> TmdError:
     return TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
 
 
-def _plan_found(roots: Roots, asked: Asked, text: str) -> Found:
+def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     """A plan file, in a problem or an environment."""
     if (asked.problem is None) == (asked.environment is None):
         raise click.UsageError(f"for the plan {asked.name} give one of --problem and --environment")
@@ -155,9 +157,9 @@ def _plan_found(roots: Roots, asked: Asked, text: str) -> Found:
     return _plan_of(asked, problem, plan)
 
 
-def _plan_of(asked: Asked, problem: Problem, plan: Plan) -> Found:
+def _plan_of(asked: ViewRequest, problem: Problem, plan: Plan) -> FoundSubject:
     where = {"problem": asked.problem, "environment": asked.environment or problem.name, "domain": problem.domain.name}
     steps = tuple(PlannedStep(instruction) for instruction in restored(problem, plan.instructions))
     subject = Subject(f"{asked.path.name}: a plan in {problem.name}", problem, steps, made=made_rows(where))
     told = f"warning: {plan.overlap}: instructions overlap in time; they are taken one after the other\n"
-    return Found(subject, asked.path.with_suffix(".html"), (told,) if plan.overlap else (), plan.locations)
+    return FoundSubject(subject, asked.path.with_suffix(".html"), (told,) if plan.overlap else (), plan.locations)

@@ -14,7 +14,7 @@ from tmd.pddl.model import GroundAtom
 from tmd.robot.monitor.faults import Happening
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.sim.engine import STEPS_PER_SECOND
-from tmd.robot.skills.results import Execution, Status, Step
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
 _FACTS = 2
 """So many confirmed facts are told on a line."""
@@ -30,7 +30,7 @@ def _order_json(order: Order) -> dict[str, object]:
     return {"action": action, "args": list(args), "clause": order.clause, "latent": order.latent}
 
 
-def step_json(title: Title, step: Step) -> dict[str, object]:
+def step_json(title: Title, step: ExecutedStep) -> dict[str, object]:
     """One step: what was done, and what was seen."""
     action, args = step.instruction
     return {
@@ -48,7 +48,7 @@ def step_json(title: Title, step: Step) -> dict[str, object]:
     }
 
 
-def outcome(step: Step) -> str:
+def outcome(step: ExecutedStep) -> str:
     """``ok``, ``failed`` or ``mismatch``."""
     return "failed" if step.failure else "mismatch" if step.mismatches else "ok"
 
@@ -108,7 +108,7 @@ class Telling:
         """An instruction begins: the log of a run that was killed says what it was doing."""
         self._log({"event": "begin", "number": title.number, "instruction": str(title.instruction)})
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         for happening in self._happenings()[self._told :]:
             self._told += 1
@@ -142,7 +142,7 @@ class Telling:
             self._journal.write(entry)
 
 
-def _found(step: Step) -> str:
+def _found(step: ExecutedStep) -> str:
     """What was seen, in one line; all of it is in the JSON record."""
     if step.failure:
         return f"failed: {step.failure}"
@@ -168,9 +168,11 @@ def _origin(order: Order) -> str:
 def _ending(execution: Execution, steps: int) -> str:
     how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
     told = {
-        Status.DONE: "every effect of every instruction is confirmed" if execution.steps else "there was nothing to do",
-        Status.RECOVERED: f"everything that the plan is for is confirmed, {how}",
-        Status.STOPPED: execution.reason,
+        SkillStatus.DONE: "every effect of every instruction is confirmed"
+        if execution.steps
+        else "there was nothing to do",
+        SkillStatus.RECOVERED: f"everything that the plan is for is confirmed, {how}",
+        SkillStatus.STOPPED: execution.reason,
     }[execution.status]
     count = _count(len(execution.steps), "instruction")
     return f"{execution.status}: {told}; {count}, {steps / STEPS_PER_SECOND:.1f} s simulated\n"

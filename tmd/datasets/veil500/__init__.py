@@ -5,21 +5,21 @@ The data are not part of this project; give the directory of your copy to :func:
 """
 
 from tmd.datasets.veil500.compile import absent_types, compile_environment, veil_domain
-from tmd.datasets.veil500.data import Group, Point, VeilData, load
+from tmd.datasets.veil500.data import Point, VeilData, VeilGroup, load
 from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
 from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil
 from tmd.datasets.veil500.repair import executability, repair, repaired
 from tmd.datasets.veil500.report import DataReport, check
-from tmd.pddl.forced_execution import Rollout, Simulator, rollout
+from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 
 __all__ = [
     "DataReport",
-    "Group",
+    "ForcedExecution",
     "Point",
     "Rollout",
-    "Simulator",
     "VeilData",
     "VeilEnvironment",
+    "VeilGroup",
     "VeilObject",
     "absent_types",
     "check",

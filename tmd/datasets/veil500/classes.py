@@ -15,7 +15,7 @@ IGNORED_STATES = frozenset({"Color"})
 
 
 @dataclass(frozen=True, slots=True)
-class ObjectClass:
+class VeilObjectClass:
     """A class: its states with their values at the start, in file order, and its affordances."""
 
     name: str
@@ -34,7 +34,7 @@ def is_true(value: str) -> bool:
     return value == "True" or (value.isdecimal() and int(value) > 0)
 
 
-def read_classes(path: Path) -> dict[str, ObjectClass]:
+def read_classes(path: Path) -> dict[str, VeilObjectClass]:
     """The classes of ``Objects.xml``. Blocks about one class add up; the first default of a state counts.
 
     Raises:
@@ -57,7 +57,7 @@ def read_classes(path: Path) -> dict[str, ObjectClass]:
             location=root.location,
             hint="copy Objects.xml again from the release",
         )
-    return {name: ObjectClass(name, own, frozenset(affordances[name])) for name, own in states.items()}
+    return {name: VeilObjectClass(name, own, frozenset(affordances[name])) for name, own in states.items()}
 
 
 def _states(block: Element) -> list[tuple[str, bool]]:

@@ -11,10 +11,10 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from tmd.datasets.veil500.classes import ObjectClass, read_classes
+from tmd.datasets.veil500.classes import VeilObjectClass, read_classes
 from tmd.datasets.veil500.environment import FOLDERS, KITCHEN, LIVING_ROOM, VeilEnvironment, read_environment
 from tmd.datasets.veil500.forms import from_veil
-from tmd.datasets.veil500.text import Segment, clean
+from tmd.datasets.veil500.text import VeilSegment, clean
 from tmd.datasets.veil500.xml import Element, read_xml
 from tmd.diagnostics import DataError
 from tmd.pddl.model import Instruction
@@ -28,7 +28,7 @@ _OBJECTIVE_FILLER = re.compile(r"^(making|make|prepare room for)\s+|\bthe\s+", r
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class VeilGroup:
     """Actions between two marks, and the text segments (by index) they belong to."""
 
     segments: tuple[int, ...]
@@ -60,8 +60,8 @@ class Point:
     task: str
     raw: str
     text: str
-    segments: tuple[Segment, ...]
-    groups: tuple[Group, ...]
+    segments: tuple[VeilSegment, ...]
+    groups: tuple[VeilGroup, ...]
     repeats_removed: int = 0
     line: int = 0
 
@@ -83,7 +83,7 @@ class VeilData:
     directory: Path
     points: tuple[Point, ...]
     environments: dict[tuple[str, int], VeilEnvironment]
-    classes: dict[str, ObjectClass]
+    classes: dict[str, VeilObjectClass]
 
     def environment_of(self, point: Point) -> VeilEnvironment:
         """The environment that a demonstration was made in."""
@@ -126,7 +126,7 @@ def environment_path(root: Path, world: str, number: int) -> Path:
     return root / ENVIRONMENTS / folder / f"{folder}{number}.xml"
 
 
-def _environments(root: Path, classes: dict[str, ObjectClass]) -> dict[tuple[str, int], VeilEnvironment]:
+def _environments(root: Path, classes: dict[str, VeilObjectClass]) -> dict[tuple[str, int], VeilEnvironment]:
     found = {}
     for world, folder in FOLDERS.items():
         numbered = []
@@ -188,7 +188,7 @@ def task_slug(objective: str) -> str:
     return re.sub(r"[^a-z0-9]+", "_", words.lower()).strip("_")
 
 
-def _groups(sequence: Element, segments: int) -> tuple[Group, ...]:
+def _groups(sequence: Element, segments: int) -> tuple[VeilGroup, ...]:
     """The actions, split at the marks. The last group belongs to all segments that are left."""
     runs: list[list[Instruction]] = [[]]
     for child in sequence.children:
@@ -202,6 +202,6 @@ def _groups(sequence: Element, segments: int) -> tuple[Group, ...]:
             )
     last = len(runs) - 1
     return tuple(
-        Group(tuple(range(min(i, segments), segments if i == last else min(i + 1, segments))), tuple(run))
+        VeilGroup(tuple(range(min(i, segments), segments if i == last else min(i + 1, segments))), tuple(run))
         for i, run in enumerate(runs)
     )

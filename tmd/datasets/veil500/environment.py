@@ -9,7 +9,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple
 
-from tmd.datasets.veil500.classes import IGNORED_STATES, ObjectClass, class_of, is_true
+from tmd.datasets.veil500.classes import IGNORED_STATES, VeilObjectClass, class_of, is_true
 from tmd.datasets.veil500.forms import pddl_name
 from tmd.datasets.veil500.parts import PartGraph, graph_of, parents
 from tmd.datasets.veil500.xml import Element, read_xml
@@ -111,7 +111,7 @@ class VeilEnvironment:
         return graph_of(name, thing.kind, thing.states, frozenset(self.by_name))
 
 
-def read_environment(path: Path, world: str, number: int, classes: Mapping[str, ObjectClass]) -> VeilEnvironment:
+def read_environment(path: Path, world: str, number: int, classes: Mapping[str, VeilObjectClass]) -> VeilEnvironment:
     """An environment file.
 
     Raises:
@@ -143,7 +143,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
     objects: list[VeilObject] = []
     dropped: list[tuple[str, str]] = []
     for name, element in raw.items():
-        own = classes.get(kinds[name], ObjectClass(kinds[name]))
+        own = classes.get(kinds[name], VeilObjectClass(kinds[name]))
         states, unknown = _states(name, element, own)
         dropped += unknown
         placeholder = positions[name] == PLACEHOLDER
@@ -166,7 +166,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
     return VeilEnvironment(world, number, tuple(objects), tuple(dropped), tuple(repeated), str(path))
 
 
-def _states(name: str, element: Element, own: ObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
+def _states(name: str, element: Element, own: VeilObjectClass) -> tuple[Mapping[str, bool], list[tuple[str, str]]]:
     """An object's states, and the file's states that its class does not declare."""
     states = dict(own.states)
     dropped = []

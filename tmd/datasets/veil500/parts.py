@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True, slots=True)
-class Vertex:
+class VeilVertex:
     """A part: its name in the graph, the object of the data set that stands for it, and its states."""
 
     part: str
@@ -25,7 +25,7 @@ class PartGraph:
     """The directed graph of one object: the first vertex is the object itself."""
 
     object: str
-    vertices: tuple[Vertex, ...]
+    vertices: tuple[VeilVertex, ...]
     edges: tuple[tuple[str, str], ...] = ()
 
 
@@ -99,12 +99,12 @@ def graph_of(name: str, object_class: str, states: Iterable[str], present: froze
     kind = _KINDS.get(object_class)
     declared = tuple(states)
     if kind is None:
-        return PartGraph(name, (Vertex("root", name, declared),))
-    vertices = [Vertex(kind.body, name, kind.body_states)]
+        return PartGraph(name, (VeilVertex("root", name, declared),))
+    vertices = [VeilVertex(kind.body, name, kind.body_states)]
     for part, pattern, own in kind.parts:
         instance = pattern.format(name)
         if instance in present:
-            vertices.append(Vertex(part, instance, own))
+            vertices.append(VeilVertex(part, instance, own))
     known = {vertex.part for vertex in vertices}
     edges = tuple(edge for edge in kind.edges if edge[0] in known and edge[1] in known)
     return PartGraph(name, tuple(vertices), edges)

@@ -20,7 +20,7 @@ LITERAL_REACH = 25.0
 """The literal rule places a thing on the nearest support if it is nearer than this."""
 
 
-class Relation(NamedTuple):
+class VeilRelation(NamedTuple):
     """``thing`` is ``on`` or ``in`` ``place`` (PDDL constants), all by VEIL name."""
 
     thing: str
@@ -62,7 +62,7 @@ _ON_FLOOR = frozenset({"GarbageBag", "GarbageBin"})
 """Classes whose centre is high although they stand on the floor."""
 
 
-def initial_relations(environment: VeilEnvironment, rule: RelationRule = "literal") -> tuple[Relation, ...]:
+def initial_relations(environment: VeilEnvironment, rule: RelationRule = "literal") -> tuple[VeilRelation, ...]:
     """The relations at the start, in file order of the things.
 
     Raises:
@@ -84,7 +84,7 @@ def _graspable(environment: VeilEnvironment) -> list[VeilObject]:
     return [thing for thing in environment.objects if "IsGraspable" in thing.affordances]
 
 
-def _literal(environment: VeilEnvironment) -> tuple[Relation, ...]:
+def _literal(environment: VeilEnvironment) -> tuple[VeilRelation, ...]:
     places = [
         place
         for place in environment.objects
@@ -98,7 +98,7 @@ def _literal(environment: VeilEnvironment) -> tuple[Relation, ...]:
         if distances and min(distances) < LITERAL_REACH:
             place = places[distances.index(min(distances))]
             kind = "on" if "IsPlaceableOn" in place.affordances else "in"
-            found.append(Relation(thing.name, kind, place.name))
+            found.append(VeilRelation(thing.name, kind, place.name))
     return tuple(found)
 
 
@@ -107,43 +107,43 @@ def _plan(a: VeilObject, b: VeilObject) -> float:
     return math.hypot(a.position.x - b.position.x, a.position.z - b.position.z)
 
 
-def _kitchen(environment: VeilEnvironment) -> tuple[Relation, ...]:
+def _kitchen(environment: VeilEnvironment) -> tuple[VeilRelation, ...]:
     return tuple(
         relation for thing in _graspable(environment) if (relation := _in_kitchen(thing, environment)) is not None
     )
 
 
-def _in_kitchen(thing: VeilObject, environment: VeilEnvironment) -> Relation | None:
+def _in_kitchen(thing: VeilObject, environment: VeilEnvironment) -> VeilRelation | None:
     named = environment.by_name
     fridge, door, sink = named.get("Fridge"), named.get("MicrowaveDoor"), named.get("Sink")
     if fridge is not None:
         offset = abs(thing.position.x - fridge.position.x), abs(thing.position.z - fridge.position.z)
         if max(offset) <= 25:
-            return Relation(thing.name, "in", fridge.name)
+            return VeilRelation(thing.name, "in", fridge.name)
     if door is not None and "Microwave" in named and math.dist(thing.position, door.position) < 8:
-        return Relation(thing.name, "in", "Microwave")
+        return VeilRelation(thing.name, "in", "Microwave")
     for fire in environment.objects:
         if fire.kind == "StoveFire" and _plan(thing, fire) < 8:
-            return Relation(thing.name, "on", fire.name)
+            return VeilRelation(thing.name, "on", fire.name)
     if sink is not None and _plan(thing, sink) < 12:
-        return Relation(thing.name, "on", sink.name)
+        return VeilRelation(thing.name, "on", sink.name)
     counters = [place for place in environment.objects if place.kind == "Counter"]
     if not counters:
         return None
-    return Relation(thing.name, "on", min(counters, key=lambda counter: _plan(thing, counter)).name)
+    return VeilRelation(thing.name, "on", min(counters, key=lambda counter: _plan(thing, counter)).name)
 
 
 def _living_room(
     environment: VeilEnvironment,
-) -> tuple[tuple[Relation, ...], tuple[str, ...], tuple[str, ...]]:
-    found: list[Relation] = []
+) -> tuple[tuple[VeilRelation, ...], tuple[str, ...], tuple[str, ...]]:
+    found: list[VeilRelation] = []
     floor: list[str] = []
     unknown: list[str] = []
     for thing in _graspable(environment):
         places = [place for place in environment.objects if place is not thing and _rests(thing, place)]
         if places:
             nearest = min(places, key=lambda place: _plan(thing, place))
-            found.append(Relation(thing.name, "on", nearest.name))
+            found.append(VeilRelation(thing.name, "on", nearest.name))
         elif thing.position.y < _FLOOR or thing.kind in _ON_FLOOR:
             floor.append(thing.name)
         else:

@@ -13,9 +13,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.datasets.veil500.compile import compile_environment
-from tmd.datasets.veil500.data import Group, Point, VeilData
+from tmd.datasets.veil500.data import Point, VeilData, VeilGroup
 from tmd.datasets.veil500.environment import VeilEnvironment
-from tmd.pddl.forced_execution import Simulator
+from tmd.pddl.forced_execution import ForcedExecution
 from tmd.pddl.model import And, Atom, Effect, Equals, GroundAtom, Instruction, Not, Problem, TypedName
 from tmd.pddl.task import Bits, Cube, Task
 
@@ -52,13 +52,13 @@ class Repairer:
     """Repairs demonstrations; keeps one simulator for each environment."""
 
     def __init__(self, data: VeilData) -> None:
-        self._simulators: dict[tuple[str, int], Simulator] = {}
+        self._simulators: dict[tuple[str, int], ForcedExecution] = {}
         recorded = _recorded(data.points)
         for key, environment in data.environments.items():
             problem = compile_environment(environment)
-            self._simulators[key] = Simulator(problem, [*recorded[key], *_candidates(environment)])
+            self._simulators[key] = ForcedExecution(problem, [*recorded[key], *_candidates(environment)])
 
-    def simulator(self, point: Point) -> Simulator:
+    def simulator(self, point: Point) -> ForcedExecution:
         """The literal simulator of a demonstration's environment."""
         return self._simulators[point.key]
 
@@ -82,7 +82,7 @@ class Repairer:
         last = point.groups[-1]
         place = step - before_last
         instructions = (*last.instructions[:place], fix, *last.instructions[place:])
-        groups = (*point.groups[:-1], Group(last.segments, instructions))
+        groups = (*point.groups[:-1], VeilGroup(last.segments, instructions))
         return Repaired(replace(point, groups=groups), fix, step)
 
     def executability(self, points: Sequence[Point], *, two_hands: bool = False) -> Executability:
@@ -113,11 +113,13 @@ def executability(data: VeilData, *, two_hands: bool = False, exclusive_near: bo
     simulators = {}
     for key, environment in data.environments.items():
         problem = compile_environment(environment)
-        simulators[key] = Simulator(_exclusive(problem) if exclusive_near else problem, recorded[key])
+        simulators[key] = ForcedExecution(_exclusive(problem) if exclusive_near else problem, recorded[key])
     return _count(data.points, simulators, two_hands)
 
 
-def _count(points: Sequence[Point], simulators: Mapping[tuple[str, int], Simulator], two_hands: bool) -> Executability:
+def _count(
+    points: Sequence[Point], simulators: Mapping[tuple[str, int], ForcedExecution], two_hands: bool
+) -> Executability:
     executable = failing = steps = 0
     for point in points:
         done = simulators[point.key].run(point.instructions)

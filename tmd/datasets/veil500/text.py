@@ -17,7 +17,7 @@ _WORD = re.compile(r"[A-Za-z0-9]")
 
 
 @dataclass(frozen=True, slots=True)
-class Segment:
+class VeilSegment:
     """A piece of a text: ``text == cleaned[start:end]``; it may be empty or hold only a full stop."""
 
     text: str
@@ -35,7 +35,7 @@ class CleanText:
     """A cleaned text with its segments, and how many repeated runs were deleted."""
 
     text: str
-    segments: tuple[Segment, ...]
+    segments: tuple[VeilSegment, ...]
     repeats_removed: int
 
 
@@ -52,7 +52,7 @@ def clean(raw: str) -> CleanText:
     return CleanText(*_join(pieces), repeats_removed=removed)
 
 
-def _join(pieces: list[str]) -> tuple[str, tuple[Segment, ...]]:
+def _join(pieces: list[str]) -> tuple[str, tuple[VeilSegment, ...]]:
     """The pieces as one text with single blanks between those that hold anything."""
     text = ""
     segments = []
@@ -61,7 +61,7 @@ def _join(pieces: list[str]) -> tuple[str, tuple[Segment, ...]]:
             text += " "
         start = len(text)
         text += piece
-        segments.append(Segment(piece, start, len(text)))
+        segments.append(VeilSegment(piece, start, len(text)))
     return text, tuple(segments)
 
 

@@ -32,7 +32,7 @@ from typing import Self
 import numpy as np
 
 from tmd.evaluation.models.prediction import Prediction, by_clause
-from tmd.evaluation.models.template_file import Kind, PredefinedLibrary, PredefinedTemplate, load_templates
+from tmd.evaluation.models.template_file import PredefinedLibrary, PredefinedTemplate, TemplateKind, load_templates
 from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.language import parse
 from tmd.language.clause import Clause
@@ -115,7 +115,7 @@ def serve(
 
 
 def _groundings(
-    template: PredefinedTemplate, kinds: Sequence[Kind], clause: Clause, world: World, state: Bits
+    template: PredefinedTemplate, kinds: Sequence[TemplateKind], clause: Clause, world: World, state: Bits
 ) -> Iterator[Mapping[str, str]]:
     """The objects of the variables, for each way to read the clause as the template, in order of mention."""
     nouns = list(clause.resolved())
@@ -147,7 +147,7 @@ def _beginnings(template: PredefinedTemplate, clause: Clause, nouns: Sequence[st
 
 def _ground(
     template: PredefinedTemplate,
-    kinds: Sequence[Kind],
+    kinds: Sequence[TemplateKind],
     first: Sequence[str],
     nouns: Sequence[str],
     world: World,
@@ -179,7 +179,7 @@ def _among(noun: str, words: Sequence[str]) -> bool:
     return noun in words or noun.rpartition("_")[2] in words
 
 
-def _meant(noun: str, kinds: Sequence[Kind], world: World, state: Bits) -> Iterator[str]:
+def _meant(noun: str, kinds: Sequence[TemplateKind], world: World, state: Bits) -> Iterator[str]:
     """The objects that ``noun`` may mean, likeliest first."""
     matches = world.mentions.of(noun, state)
     yield from (match.name for match in matches if match.how not in _LOOSE)

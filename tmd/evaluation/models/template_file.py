@@ -24,7 +24,7 @@ FILE = "templates.yaml"
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class TemplateKind:
     """What a variable may stand for.
 
     Attributes:
@@ -67,7 +67,7 @@ class PredefinedTemplate:
     relations: tuple[str, ...]
     says: tuple[str, ...]
     each: bool
-    variables: Mapping[str, Kind]
+    variables: Mapping[str, TemplateKind]
     where: tuple[Instruction, ...]
     instructions: tuple[Instruction, ...]
 
@@ -82,7 +82,7 @@ class PredefinedLibrary:
     """What is in a file: the templates in their order, and its kinds, whose words hold for every template."""
 
     templates: tuple[PredefinedTemplate, ...]
-    kinds: tuple[Kind, ...] = ()
+    kinds: tuple[TemplateKind, ...] = ()
 
 
 def load_templates(folder: DomainFolder) -> PredefinedLibrary:
@@ -162,16 +162,18 @@ class _Reader:
         self.actions = {a.name: a.parameters for a in domain.actions}
         self.predicates = {p.name: p.parameters for p in domain.predicates}
 
-    def kind(self, at: _Path, entry: _KindEntry) -> Kind:
+    def kind(self, at: _Path, entry: _KindEntry) -> TemplateKind:
         """A kind of the file's own."""
         if self.hierarchy.known(str(at[-1])):
             raise self.source.error(at, f"'{at[-1]}' is a type of the domain", "give the kind another name")
         for place, name in enumerate(entry.types):
             if not self.hierarchy.known(name):
                 raise self._unknown((*at, "types", place), "type", name, self.types)
-        return Kind(entry.types, entry.called, entry.words)
+        return TemplateKind(entry.types, entry.called, entry.words)
 
-    def template(self, at: _Path, entry: _TemplateEntry, kinds: Mapping[str, Kind], folder: str) -> PredefinedTemplate:
+    def template(
+        self, at: _Path, entry: _TemplateEntry, kinds: Mapping[str, TemplateKind], folder: str
+    ) -> PredefinedTemplate:
         """A template whose variables, facts and instructions all fit together."""
         for key in ("verb", "instructions"):
             if not getattr(entry, key):
@@ -204,20 +206,20 @@ class _Reader:
             tuple(instructions),
         )
 
-    def _variable(self, at: _Path, words: Sequence[str], kinds: Mapping[str, Kind]) -> Kind:
+    def _variable(self, at: _Path, words: Sequence[str], kinds: Mapping[str, TemplateKind]) -> TemplateKind:
         """One kind of the file's own, or some types."""
         if len(words) == 1 and words[0] in kinds:
             return kinds[words[0]]
         for place, name in enumerate(words):
             if not self.hierarchy.known(name):
                 raise self._unknown((*at, place), "type or kind", name, [*kinds, *self.types])
-        return Kind(tuple(words))
+        return TemplateKind(tuple(words))
 
     def _applied(
         self,
         at: _Path,
         text: str,
-        variables: Mapping[str, Kind],
+        variables: Mapping[str, TemplateKind],
         signatures: Mapping[str, tuple[TypedName, ...]],
         what: str,
     ) -> Instruction:

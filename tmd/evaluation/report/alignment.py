@@ -18,7 +18,7 @@ class Mark(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class AlignedStep:
     """One line of an alignment.
 
     Attributes:
@@ -45,7 +45,7 @@ def name(instruction: str) -> str:
     return next(iter(words(instruction)), "")
 
 
-def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[Step, ...]:
+def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[AlignedStep, ...]:
     """A Levenshtein alignment: as few steps that do not match as possible.
 
     Of several such alignments one that puts most instructions of the same name beside each other is taken, as it
@@ -58,13 +58,13 @@ def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[Step, ...]:
     while i < len(mine) or j < len(theirs):
         here = costs[i][j]
         if i < len(mine) and j < len(theirs) and here == costs[i + 1][j + 1] + _beside(mine[i], theirs[j]):
-            steps.append(Step(Mark.MATCH if mine[i] == theirs[j] else Mark.SUBSTITUTED, i, j))
+            steps.append(AlignedStep(Mark.MATCH if mine[i] == theirs[j] else Mark.SUBSTITUTED, i, j))
             i, j = i + 1, j + 1
         elif j < len(theirs) and here == costs[i][j + 1] + _ALONE:
-            steps.append(Step(Mark.MISSING, None, j))
+            steps.append(AlignedStep(Mark.MISSING, None, j))
             j += 1
         else:
-            steps.append(Step(Mark.SUPERFLUOUS, i, None))
+            steps.append(AlignedStep(Mark.SUPERFLUOUS, i, None))
             i += 1
     return tuple(steps)
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from tmd.evaluation.report.alignment import Mark, align, name
-from tmd.evaluation.runs.records import Clause, Line, Segment
+from tmd.evaluation.runs.records import ClauseRecord, Line, SegmentRecord
 
 NO_CLAUSE = "(no clause)"
 """Stands for the verb where people did something for words in which no clause was found."""
@@ -87,7 +87,7 @@ def by_verb(lines: Iterable[Line]) -> list[VerbErrors]:
     return sorted(found.values(), key=lambda v: (-v.clauses, v.verb))
 
 
-def _count(found: dict[str, VerbErrors], clauses: Sequence[Clause], recorded: Sequence[str]) -> None:
+def _count(found: dict[str, VerbErrors], clauses: Sequence[ClauseRecord], recorded: Sequence[str]) -> None:
     """Add what became of the clauses of one segment."""
     predicted = [step for clause in clauses for step in (*clause.latent, *clause.said)]
     owner = [n for n, clause in enumerate(clauses) for _ in (*clause.latent, *clause.said)]
@@ -119,7 +119,7 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[Clause], recorded: Se
                 errors.substituted[gold, mine] += 1
 
 
-def belonging(text: str, clauses: Sequence[Clause], segments: Sequence[Segment]) -> list[int | None]:
+def belonging(text: str, clauses: Sequence[ClauseRecord], segments: Sequence[SegmentRecord]) -> list[int | None]:
     """For each clause the number of the segment it shares most characters with; ``None`` where it meets none.
 
     Both are found by their words, one after the other, since both stand in the order of the text.

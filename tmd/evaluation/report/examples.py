@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmd.evaluation.report.alignment import Mark, align
-from tmd.evaluation.runs.records import Clause, Line
+from tmd.evaluation.runs.records import ClauseRecord, Line
 
 SHOWN = 10
 """How many of the best, and how many of the worst."""
@@ -15,7 +15,7 @@ SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark
 
 
 @dataclass(frozen=True, slots=True)
-class ShownStep:
+class ExampleStep:
     """A line of the alignment as it is shown.
 
     Attributes:
@@ -79,7 +79,7 @@ class Shown:
     """
 
     line: Line
-    steps: tuple[ShownStep, ...]
+    steps: tuple[ExampleStep, ...]
     clauses: tuple[ShownClause, ...]
     whole: bool
 
@@ -113,13 +113,13 @@ def shown(line: Line) -> Shown:
         origin = origins[step.predicted] if whole and step.predicted is not None else (None, False)
         predicted = "" if step.predicted is None else line.predicted[step.predicted]
         gold = "" if step.gold is None else line.gold[step.gold]
-        steps.append(ShownStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
+        steps.append(ExampleStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
     longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
     clauses = tuple(_clause(number, clause, longest) for number, clause in enumerate(line.clauses, 1))
     return Shown(line, tuple(steps), clauses, whole)
 
 
-def _clause(number: int, clause: Clause, longest: float) -> ShownClause:
+def _clause(number: int, clause: ClauseRecord, longest: float) -> ShownClause:
     bars = tuple(
         Bar(name, value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
     )

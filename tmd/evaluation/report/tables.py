@@ -19,7 +19,7 @@ _WEIGHTS = 40
 
 
 @dataclass(frozen=True, slots=True)
-class Learned:
+class LearnedWeights:
     """What one row learned.
 
     Attributes:
@@ -70,7 +70,7 @@ def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
     return {"tasks": tasks, "rows": found, "all": len(tasks) == len(paper_table.TASKS), "metrics": paper_table.METRICS}
 
 
-def learned(fits: Sequence[Fit], model: str) -> Learned:
+def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
     """What one row learned, over its training sets."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
@@ -86,7 +86,7 @@ def learned(fits: Sequence[Fit], model: str) -> Learned:
         weights.append((name, cells))
     order = sorted(weights, key=lambda w: -max(abs(cell[0]) for cell in w[1] if cell))[:_WEIGHTS]
     kept = [weight for weight in weights if weight in order]
-    return Learned(model, len(own), learning_curves(own, model), worlds, kept, len(weights) - len(kept))
+    return LearnedWeights(model, len(own), learning_curves(own, model), worlds, kept, len(weights) - len(kept))
 
 
 def errors(run: Run, model: str) -> Errors:

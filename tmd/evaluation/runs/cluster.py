@@ -27,7 +27,7 @@ from tmd import __version__
 from tmd.diagnostics import DataError, MissingToolError, TmdError
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import forget_datasets, open_dataset
-from tmd.evaluation.runs.jobs import GO_ON, Outcome, Unit, WorkerLostError, do
+from tmd.evaluation.runs.jobs import GO_ON, JobOutcome, EvaluationJob, WorkerLostError, do
 
 PACKAGE = Path(__file__).resolve().parents[2]
 CONNECT = 20.0
@@ -56,7 +56,7 @@ class Expected:
     fingerprint: str
 
 
-def on_cluster(config: ExperimentConfig, units: Sequence[Unit], fingerprint: str) -> Iterator[Outcome]:
+def on_cluster(config: ExperimentConfig, units: Sequence[EvaluationJob], fingerprint: str) -> Iterator[JobOutcome]:
     """Do the units on the workers of ``config.scheduler``; yield what came out of each as soon as it is there.
 
     Raises:
@@ -108,7 +108,7 @@ def _sent(config: ExperimentConfig) -> ExperimentConfig:
     return replace(config, out=Path(), jobs=1, shard=None, veil500=veil500, domains=domains, problems=problems)
 
 
-def remote(config: ExperimentConfig, unit: Unit, expected: Expected) -> Outcome:
+def remote(config: ExperimentConfig, unit: EvaluationJob, expected: Expected) -> JobOutcome:
     """Do a unit on a worker, if it has what is expected of it.
 
     Raises:
@@ -234,13 +234,13 @@ def _ended(
     return set(), now if gone_since is None else gone_since
 
 
-def _outcome(distributed: ModuleType, future: Any, address: str) -> Outcome:  # noqa: ANN401
+def _outcome(distributed: ModuleType, future: Any, address: str) -> JobOutcome:  # noqa: ANN401
     """What came out of a unit, or the error that it ended with."""
     with _connected(address):
         error = future.exception()
         if error is None:
             outcome = pickle.loads(future.result())
-            assert isinstance(outcome, Outcome)
+            assert isinstance(outcome, JobOutcome)
             return outcome
     if isinstance(error, distributed.KilledWorker):
         raise WorkerLostError(

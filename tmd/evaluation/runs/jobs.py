@@ -78,7 +78,7 @@ class Restorable(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Unit:
+class EvaluationJob:
     """What is done in one go.
 
     Attributes:
@@ -100,7 +100,7 @@ class Unit:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class JobOutcome:
     """What came out of a unit.
 
     Attributes:
@@ -109,20 +109,20 @@ class Outcome:
         fit: The text of the file on what was learned, if the model tells.
     """
 
-    unit: Unit
+    unit: EvaluationJob
     parts: dict[str, str]
     fit: str | None
 
 
-def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[Unit]:
+def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[EvaluationJob]:
     """All units of a run, always in the same order."""
     sets: dict[str, list[str]] = {}
     for fold in folds:
         sets.setdefault(fold.training_set, []).append(fold.name)
-    return [Unit(model, training_set, tuple(names)) for model in models for training_set, names in sets.items()]
+    return [EvaluationJob(model, training_set, tuple(names)) for model in models for training_set, names in sets.items()]
 
 
-def do(config: ExperimentConfig, unit: Unit, fits: Path | None) -> Outcome:
+def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobOutcome:
     """Train, predict, score.
 
     Args:
@@ -133,11 +133,11 @@ def do(config: ExperimentConfig, unit: Unit, fits: Path | None) -> Outcome:
     data = open_dataset(config)
     folds = {fold.name: fold for fold in folds_of(config, data)}
     model, fit = _fitted(config, unit, folds[unit.folds[0]], data, fits)
-    return Outcome(unit, {name: _tested(config, unit, model, folds[name], data) for name in unit.folds}, fit)
+    return JobOutcome(unit, {name: _tested(config, unit, model, folds[name], data) for name in unit.folds}, fit)
 
 
 def _fitted(
-    config: ExperimentConfig, unit: Unit, fold: Fold, data: Dataset, fits: Path | None
+    config: ExperimentConfig, unit: EvaluationJob, fold: Fold, data: Dataset, fits: Path | None
 ) -> tuple[Model, str | None]:
     """The model, learned or restored, and the text that tells what it learned."""
     model = make_model(unit.model)
@@ -153,7 +153,7 @@ def _fitted(
 
 
 @contextmanager
-def _journal(model: Model, unit: Unit, fits: Path | None) -> Iterator[None]:
+def _journal(model: Model, unit: EvaluationJob, fits: Path | None) -> Iterator[None]:
     """Give the model its journal. Where another process is at the same unit, that one has it, and this one has none."""
     if fits is None or not isinstance(model, Journaled):
         yield
@@ -181,7 +181,7 @@ def _alone(lock: Path) -> Iterator[bool]:
         yield True
 
 
-def journal_files(fits: Path, unit: Unit) -> tuple[Path, ...]:
+def journal_files(fits: Path, unit: EvaluationJob) -> tuple[Path, ...]:
     """What a finished unit needs no more."""
     journal = fits / f"{unit.name}.journal.jsonl"
     return journal, journal.with_suffix(".lock")
@@ -203,7 +203,7 @@ def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
     return json.dumps(said, ensure_ascii=False, indent=2) + "\n"
 
 
-def _tested(config: ExperimentConfig, unit: Unit, model: Model, fold: Fold, data: Dataset) -> str:
+def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: Fold, data: Dataset) -> str:
     """The lines on one fold."""
     done = []
     for example in fold.test:

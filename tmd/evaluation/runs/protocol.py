@@ -33,7 +33,7 @@ class ProtocolFile(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class TrainingGroup:
     """Tasks that are tested with the same training tasks.
 
     Attributes:
@@ -76,7 +76,7 @@ def training_groups(
     trained_with: Callable[[str], frozenset[str]],
     train_tasks: Sequence[str] | None,
     tasks: Collection[str],
-) -> list[Group]:
+) -> list[TrainingGroup]:
     """The tested tasks, put together by what they are trained on, in the order of their first tasks.
 
     Args:
@@ -95,4 +95,4 @@ def training_groups(
     for task in sorted(set(tested)):
         trained = frozenset(train_tasks) if train_tasks is not None else trained_with(task)
         found.setdefault(trained, []).append(task)
-    return [Group(tuple(own), tuple(sorted(trained))) for trained, own in found.items()]
+    return [TrainingGroup(tuple(own), tuple(sorted(trained))) for trained, own in found.items()]

@@ -19,7 +19,7 @@ class _Record(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore")
 
 
-class Clause(_Record):
+class ClauseRecord(_Record):
     """What was done for one clause; see :class:`~tmd.evaluation.models.prediction.Served`."""
 
     text: str
@@ -30,7 +30,7 @@ class Clause(_Record):
     factors: dict[str, float] = {}
 
 
-class Segment(_Record):
+class SegmentRecord(_Record):
     """A piece of the text, and what the person did for it."""
 
     text: str
@@ -54,8 +54,8 @@ class Line(_Record):
     END: float
     EED: float
     EED_trim: float
-    clauses: list[Clause] = []
-    segments: list[Segment] = []
+    clauses: list[ClauseRecord] = []
+    segments: list[SegmentRecord] = []
 
 
 class CurvePoint(_Record):

@@ -21,7 +21,7 @@ from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.summary import METRICS, SUCCESS
-from tmd.evaluation.runs.jobs import Outcome, Unit, journal_files
+from tmd.evaluation.runs.jobs import JobOutcome, EvaluationJob, journal_files
 
 PREDICTIONS = "predictions.jsonl"
 METRICS_FILE = "metrics.json"
@@ -102,13 +102,13 @@ class RunDirectory:
         handler.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
         return handler
 
-    def left_of(self, unit: Unit, folds: dict[str, Fold]) -> Unit | None:
+    def left_of(self, unit: EvaluationJob, folds: dict[str, Fold]) -> EvaluationJob | None:
         """The unit with the folds that are not done, and with what it learned before; ``None`` if all are done."""
         waiting = tuple(name for name in unit.folds if self.part(unit.model, folds[name]) is None)
         if not waiting:
             self._tidy(unit)
             return None
-        return Unit(unit.model, unit.training_set, waiting, self._saved(unit))
+        return EvaluationJob(unit.model, unit.training_set, waiting, self._saved(unit))
 
     def part(self, model: str, fold: Fold) -> list[dict[str, Any]] | None:
         """The lines on one model and fold; ``None`` if there are none, or they are damaged."""
@@ -130,7 +130,7 @@ class RunDirectory:
     def _part_path(self, model: str, fold: str) -> Path:
         return self.path / "parts" / f"{model}-{fold}.jsonl"
 
-    def _saved(self, unit: Unit) -> dict[str, Any] | None:
+    def _saved(self, unit: EvaluationJob) -> dict[str, Any] | None:
         path = self.fits / f"{unit.name}.json"
         if not path.exists():
             return None
@@ -143,7 +143,7 @@ class RunDirectory:
         self.log.info("damaged, so to be learned again: %s", path.name)
         return None
 
-    def keep(self, outcome: Outcome) -> None:
+    def keep(self, outcome: JobOutcome) -> None:
         """Write what came out of a unit.
 
         Raises:
@@ -156,7 +156,7 @@ class RunDirectory:
             self.log.info("done: %s fold %s", outcome.unit.model, fold)
         self._tidy(outcome.unit)
 
-    def _tidy(self, unit: Unit) -> None:
+    def _tidy(self, unit: EvaluationJob) -> None:
         for path in journal_files(self.fits, unit):
             with suppress(OSError):
                 path.unlink(missing_ok=True)

@@ -38,7 +38,7 @@ class TrialStep(_Record):
     confirmed: list[str] = []
 
 
-class Asked(_Record):
+class TrialRequest(_Record):
     """What decides the outcome of a trial.
 
     Attributes:
@@ -76,7 +76,7 @@ class Trial(_Record):
         strip: The file of the filmstrip.
     """
 
-    asked: Asked
+    asked: TrialRequest
     status: Literal["done", "recovered", "stopped", "no_plan", "no_scene"]
     reason: str = ""
     repairs: int = 0

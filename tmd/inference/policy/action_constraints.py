@@ -17,7 +17,7 @@ from tmd.veil.world import World
 _DIGITS = re.compile(r"_?\d+")
 
 
-class Things:
+class KnownObjects:
     """What an instruction may name in one environment, and of which kinds it is.
 
     A type that some action asks for (``item``, ``part``) says what a thing is fit for, not what it is; the other
@@ -68,7 +68,7 @@ class Syntax:
     needs: Mapping[tuple[str, int], tuple[str, ...]]
     longest: int
 
-    def menu(self, things: Things) -> list[Instruction]:
+    def menu(self, things: KnownObjects) -> list[Instruction]:
         """The instructions of an environment that have a seen shape, sorted."""
         found: set[Instruction] = set()
         for name, kinds in self.shapes:
@@ -76,7 +76,7 @@ class Syntax:
                 found.add(Instruction(name, args))
         return sorted(i for i in found if things.well_formed(i))
 
-    def about(self, things: Things, mentioned: Collection[str]) -> list[Instruction]:
+    def about(self, things: KnownObjects, mentioned: Collection[str]) -> list[Instruction]:
         """The well-formed instructions about ``mentioned`` objects alone, seen or not, sorted.
 
         Places for words of the domain (relations, settings) take those seen there.
@@ -95,7 +95,7 @@ class Syntax:
 
 
 def learn_syntax(
-    sequences: Iterable[tuple[Things, Sequence[Sequence[Instruction]]]], *, certain: float, cover: float
+    sequences: Iterable[tuple[KnownObjects, Sequence[Sequence[Instruction]]]], *, certain: float, cover: float
 ) -> Syntax:
     """Learn the constraints.
 

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.inference.policy.action_constraints import Syntax, Things
+from tmd.inference.policy.action_constraints import KnownObjects, Syntax
 from tmd.pddl.model import Instruction
 
 Floats = NDArray[np.float64]
@@ -36,7 +36,7 @@ REALS = 2
 """The features that are numbers: the share of instructions that are no repeats, and (of STOP) the length so far."""
 
 
-def properties(choice: Instruction, things: Things) -> list[tuple[str, ...]]:
+def properties(choice: Instruction, things: KnownObjects) -> list[tuple[str, ...]]:
     """What the words can go with: the action, its arguments' kinds and names, and all kinds together."""
     found: list[tuple[str, ...]] = [(choice.name,)]
     for place, arg in enumerate(choice.args):
@@ -48,7 +48,7 @@ def properties(choice: Instruction, things: Things) -> list[tuple[str, ...]]:
     return list(dict.fromkeys(found))
 
 
-def followers(before: Instruction | None, position: int, things: Things) -> list[str]:
+def followers(before: Instruction | None, position: int, things: KnownObjects) -> list[str]:
     """The words that stand for the sequence so far: the instruction before (with its kinds), and the position."""
     found = [f"at {min(position, _POSITIONS)}"]
     if before is not None:
@@ -117,7 +117,7 @@ class Menu:
         needs: Rows (choice, action, thing): the choice needs that the action named the thing before.
     """
 
-    def __init__(self, features: Features, things: Things, choices: Sequence[Instruction]) -> None:
+    def __init__(self, features: Features, things: KnownObjects, choices: Sequence[Instruction]) -> None:
         self.features = features
         self.things = things
         self.choices = (*choices, STOP)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tmd.inference.policy.action_constraints import Things
+from tmd.inference.policy.action_constraints import KnownObjects
 from tmd.inference.policy.features import (
     EARLIER,
     FIRST,
@@ -74,7 +74,7 @@ class Policy:
         bonus: float = 0.5,
         slack: float = 3.0,
     ) -> None:
-        things = Things(world)
+        things = KnownObjects(world)
         self.reward = reward
         self.menu = Menu(reward.features, things, reward.features.syntax.menu(things))
         self.grounded = grounded
@@ -165,13 +165,13 @@ def _verb(verb: str) -> str:
     return f"verb {verb}"
 
 
-def nothing(things: Things) -> Ints:
+def nothing(things: KnownObjects) -> Ints:
     """The levels of :func:`mentioned` where nothing is."""
     levels: Ints = np.zeros(len(things.kinds) + 1, np.int64)
     return levels
 
 
-def mentioned(clause: Clause, earlier: Sequence[Clause], things: Things) -> Ints:
+def mentioned(clause: Clause, earlier: Sequence[Clause], things: KnownObjects) -> Ints:
     """How far each thing is mentioned (0 not at all), by the evidence of words alone; with a last 0 for no thing."""
     numbers = {name: number for number, name in enumerate(things.kinds)}
     levels: Ints = np.zeros(len(numbers) + 1, np.int64)

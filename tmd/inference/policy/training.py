@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tmd.inference.policy.action_constraints import Syntax, Things, learn_syntax
+from tmd.inference.policy.action_constraints import KnownObjects, Syntax, learn_syntax
 from tmd.inference.policy.features import STOP, Features, Ints, Menu, Node, followers, properties, steps
 from tmd.inference.policy.log_linear import Made, ascend, likelihood
 from tmd.inference.policy.policy import Reward, bag, mentioned, nothing
@@ -22,10 +22,10 @@ _COVER = 0.99
 """This share of the training sequences is not longer than what is searched."""
 
 
-class Lesson(NamedTuple):
+class PolicyLesson(NamedTuple):
     """A demonstration as it is learned from: each clause (or none) with its well-formed instructions."""
 
-    things: Things
+    things: KnownObjects
     clauses: list[tuple[Clause | None, tuple[Instruction, ...]]]
 
 
@@ -63,7 +63,7 @@ def learn_policy(
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
     syntax = learn_syntax(sequences, certain=certain, cover=_COVER)
     features = number_features(lessons, syntax, grounded=grounded)
-    menus: dict[Things, Menu] = {}
+    menus: dict[KnownObjects, Menu] = {}
     data = []
     for lesson in lessons:
         if lesson.things not in menus:
@@ -75,24 +75,26 @@ def learn_policy(
     return Reward(features, theta, before, after)
 
 
-def study(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon) -> list[Lesson]:
+def study(
+    demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
+) -> list[PolicyLesson]:
     """What each demonstration shows, clause by clause, without instructions that are not well-formed."""
-    known: dict[str, Things] = {}
+    known: dict[str, KnownObjects] = {}
     found = []
     for demonstration in demonstrations:
         place = demonstration.environment
         if place not in known:
-            known[place] = Things(world_of(place))
+            known[place] = KnownObjects(world_of(place))
         things = known[place]
         pairs: list[tuple[Clause | None, tuple[Instruction, ...]]] = [
             (lesson.clause, tuple(i for i in lesson.instructions if things.well_formed(i)))
             for lesson in lessons(demonstration, world_of(place), lexicon)
         ]
-        found.append(Lesson(things, pairs))
+        found.append(PolicyLesson(things, pairs))
     return found
 
 
-def number_features(lessons: Sequence[Lesson], syntax: Syntax, *, grounded: bool) -> Features:
+def number_features(lessons: Sequence[PolicyLesson], syntax: Syntax, *, grounded: bool) -> Features:
     """Number the features that the training data have."""
     words: set[str] = set()
     seen: set[tuple[str, ...]] = set()
@@ -108,7 +110,7 @@ def number_features(lessons: Sequence[Lesson], syntax: Syntax, *, grounded: bool
     return Features(words, seen, syntax)
 
 
-def steps_made(lesson: Lesson, menu: Menu, *, grounded: bool) -> list[Made]:
+def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made]:
     """The sequence of each clause as choices from the menu, with the STOP at its end."""
     found = []
     done: tuple[Instruction, ...] = ()

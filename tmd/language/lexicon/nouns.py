@@ -32,7 +32,7 @@ _ANCESTOR_DECAY = 0.05
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class NounMatch:
     """A thing of the environment: an object, a part of one, or a substance.
 
     Attributes:
@@ -85,7 +85,7 @@ def words_in_name(name: str) -> frozenset[str]:
 
 def rank(
     noun: str,
-    candidates: Sequence[Candidate],
+    candidates: Sequence[NounMatch],
     lexicon: Lexicon | None = None,
     learned: Mapping[str, Mapping[str, float]] | None = None,
     threshold: float = SIMILAR,
@@ -139,14 +139,14 @@ def _parse(noun: str) -> _Noun:
 
 
 @lru_cache(maxsize=4096)
-def _vocabulary(candidate: Candidate) -> tuple[tuple[str, ...], ...]:
+def _vocabulary(candidate: NounMatch) -> tuple[tuple[str, ...], ...]:
     """Return the ways to name a candidate, each as its words without numbers, nearest first."""
     names = (candidate.name, candidate.class_name, *candidate.ancestors)
     spelled = [tuple(singular(w) for w in split_name(name) if not w.isdigit()) for name in names]
     return tuple(words for words in spelled if words)
 
 
-def _by_name(noun: _Noun, candidates: Sequence[Candidate]) -> list[Match]:
+def _by_name(noun: _Noun, candidates: Sequence[NounMatch]) -> list[Match]:
     found = []
     for candidate in candidates:
         score = max(
@@ -202,14 +202,14 @@ def _spellings(noun: str, parsed: _Noun) -> list[str]:
     return list(dict.fromkeys(forms))
 
 
-def _names(candidate: Candidate, target: str) -> bool:
+def _names(candidate: NounMatch, target: str) -> bool:
     wanted = "".join(split_name(target))
     own = (candidate.name, candidate.class_name, *candidate.ancestors)
     return any("".join(split_name(name)) == wanted for name in own if name)
 
 
 def _by_alias(
-    noun: str, parsed: _Noun, candidates: Sequence[Candidate], aliases: Mapping[str, tuple[str, ...]]
+    noun: str, parsed: _Noun, candidates: Sequence[NounMatch], aliases: Mapping[str, tuple[str, ...]]
 ) -> list[Match]:
     for form in _spellings(noun, parsed):
         found: dict[str, Match] = {}
@@ -223,7 +223,7 @@ def _by_alias(
 
 
 def _by_learned(
-    noun: str, parsed: _Noun, candidates: Sequence[Candidate], learned: Mapping[str, Mapping[str, float]]
+    noun: str, parsed: _Noun, candidates: Sequence[NounMatch], learned: Mapping[str, Mapping[str, float]]
 ) -> list[Match]:
     for form in _spellings(noun, parsed):
         table = learned.get(form, {})
@@ -237,7 +237,7 @@ def _by_learned(
     return []
 
 
-def _by_wordnet(noun: _Noun, candidates: Sequence[Candidate], threshold: float) -> list[Match]:
+def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) -> list[Match]:
     whole = "_".join(noun.words)
     word = whole if wordnet.known(whole) else noun.head
     found = []

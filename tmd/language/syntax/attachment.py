@@ -107,7 +107,7 @@ _FIRST = re.compile(r"\s+first(?=\s*(?:[.!?;]|$))", re.IGNORECASE)
 
 
 @dataclass(slots=True)
-class Draft:
+class ClauseDraft:
     """A clause before pronouns are resolved.
 
     Attributes:
@@ -179,9 +179,9 @@ class Draft:
         return _MULTIPLE.join(parts) or None
 
 
-def drafts(tree: Tree[Leaf]) -> list[Draft]:
+def drafts(tree: Tree[Leaf]) -> list[ClauseDraft]:
     """Return the clauses of a parse tree in order."""
-    result: list[Draft] = []
+    result: list[ClauseDraft] = []
     for unit in tree.children:
         if not isinstance(unit, Tree):
             continue
@@ -203,9 +203,9 @@ def _leaves(node: Tree[Leaf] | Leaf) -> Iterator[Token]:
             yield from _leaves(child)
 
 
-def _clause_drafts(clause: Tree[Leaf], front: list[Tree[Leaf] | Leaf]) -> list[Draft]:
+def _clause_drafts(clause: Tree[Leaf], front: list[Tree[Leaf] | Leaf]) -> list[ClauseDraft]:
     verbs = [t for t in _leaves(clause.children[0]) if t.kind is Kind.V]
-    result = [Draft(verb, spans=[verb.span, *verb.parts]) for verb in verbs]
+    result = [ClauseDraft(verb, spans=[verb.span, *verb.parts]) for verb in verbs]
     last, arguments = result[-1], list(clause.children[1:])
     for node in (*front, *arguments):
         for token in _leaves(node):
@@ -223,12 +223,12 @@ def _clause_drafts(clause: Tree[Leaf], front: list[Tree[Leaf] | Leaf]) -> list[D
     return result
 
 
-def _add_fold(draft: Draft, node: Tree[Leaf] | Leaf) -> None:
+def _add_fold(draft: ClauseDraft, node: Tree[Leaf] | Leaf) -> None:
     if isinstance(node, Leaf) and node.source.kind is Kind.MOD:
         draft.folds.append(node.source)
 
 
-def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[Leaf]]) -> None:
+def _attach(draft: ClauseDraft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[Leaf]]) -> None:
     state = _Attachment(draft)
     for position, node in enumerate(arguments):
         following = arguments[position + 1] if position + 1 < len(arguments) else None
@@ -251,7 +251,7 @@ def _attach(draft: Draft, arguments: list[Tree[Leaf] | Leaf], front: list[Tree[L
 class _Attachment:
     """Attaches the arguments of one clause from left to right."""
 
-    def __init__(self, draft: Draft) -> None:
+    def __init__(self, draft: ClauseDraft) -> None:
         self.draft = draft
         self.host: list[Phrase] = []
         """The nouns the next preposition of place stands beside."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from tmd.language.clause import Clause, Condition
 from tmd.language.lexicon.morphology import singular
 from tmd.language.lexicon.word_lists import section
-from tmd.language.syntax.attachment import Draft, Phrase
+from tmd.language.syntax.attachment import ClauseDraft, Phrase
 from tmd.language.tagging.tokens import Kind, Token
 
 SINGULAR = frozenset({"it", "this", "that", "itself"})
@@ -46,7 +46,7 @@ class _Scene:
     """Its direct objects, if they can be meant by a plural pronoun."""
 
 
-def resolve(drafts: Sequence[Draft], text: str, statements: Sequence[Token] = ()) -> tuple[Clause, ...]:
+def resolve(drafts: Sequence[ClauseDraft], text: str, statements: Sequence[Token] = ()) -> tuple[Clause, ...]:
     """Return the clauses with their antecedents filled in.
 
     Args:
@@ -121,7 +121,7 @@ def _named(clause: Clause) -> list[str]:
     return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
 
 
-def _condition(condition: Condition, draft: Draft, scenes: list[_Scene]) -> Condition:
+def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -> Condition:
     """A condition with the antecedents of its pronouns: from the clauses before, or from its own."""
     ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
     recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
@@ -168,14 +168,14 @@ def is_one(name: str) -> bool:
     return name == "one" or name.endswith("_one")
 
 
-def _open_places(draft: Draft, clause: Clause) -> list[str]:
+def _open_places(draft: ClauseDraft, clause: Clause) -> list[str]:
     places = [name for name in clause.objects if is_pronoun(name)]
     if not draft.direct and clause.verb not in section("intransitive"):
         places.append("")
     return places
 
 
-def _rank(pronoun: str, draft: Draft, scenes: list[_Scene]) -> tuple[tuple[str, ...], int]:
+def _rank(pronoun: str, draft: ClauseDraft, scenes: list[_Scene]) -> tuple[tuple[str, ...], int]:
     """Return the candidates, likeliest first, and how many of the first are meant together."""
     recent = scenes[-_REACH:][::-1]
     own = {p.name for p in draft.mentions()}
@@ -208,7 +208,7 @@ def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(pair))
 
 
-def _scored(recent: list[_Scene], own: set[str], draft: Draft) -> list[tuple[str, int]]:
+def _scored(recent: list[_Scene], own: set[str], draft: ClauseDraft) -> list[tuple[str, int]]:
     best: dict[str, int] = {}
     moving = draft.verb.stem in section("moving")
     for age, scene in enumerate(recent):
@@ -221,7 +221,7 @@ def _scored(recent: list[_Scene], own: set[str], draft: Draft) -> list[tuple[str
     return sorted(best.items(), key=lambda pair: pair[1])
 
 
-def _scene(draft: Draft, clause: Clause) -> _Scene:
+def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     direct = [p for p in draft.direct if p.name != "me"]
     spread = _COORDINATED if len(direct) > 1 else 0
     mentions: list[_Mention] = []

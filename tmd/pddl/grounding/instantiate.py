@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from tmd.diagnostics import TmdError
 from tmd.pddl.formulas import conjuncts, free_variables, predicates_of, signed_atoms
 from tmd.pddl.grounding.ground_action import GroundAction, GroundEffect, grouped
-from tmd.pddl.grounding.join import Check, Join, Query, Relation, Row, plan_join
+from tmd.pddl.grounding.join import Check, Join, JoinQuery, JoinRelation, Row, plan_join
 from tmd.pddl.grounding.normal_form import FALSE, TRUE, Literals, Tree, conjunctive, disjunctive, expand
 from tmd.pddl.grounding.reachability import Reachability
 from tmd.pddl.hierarchy import Universe, universe
@@ -92,7 +92,7 @@ class _Instantiation:
         changing |= {atom.predicate for atom in somewhere - everywhere}
         self.changing = frozenset(changing)
         self.static: State = frozenset(a for a in everywhere if a.predicate not in changing)
-        self.relations = {p.name: Relation() for p in problem.domain.predicates}
+        self.relations = {p.name: JoinRelation() for p in problem.domain.predicates}
         for atom in sorted(self.static):
             self.relations[atom.predicate].add(atom.args)
         fluent = sorted(a for a in somewhere if a.predicate in changing)
@@ -190,7 +190,7 @@ class _Instantiation:
             for p in static
             if not isinstance(p, Atom)
         ]
-        return plan_join(Query(variables, [*atoms, *fluent], self.relations, checks, given))
+        return plan_join(JoinQuery(variables, [*atoms, *fluent], self.relations, checks, given))
 
     def effect_plan(self, effect: Effect, given: tuple[str, ...]) -> _EffectPlan:
         if not effect.parameters:

@@ -20,7 +20,7 @@ _UNKNOWN = 1_000_000
 """The size a relation is taken to have that is still to grow."""
 
 
-class Relation:
+class JoinRelation:
     """The known atoms of one predicate, with an index for each set of argument places asked for."""
 
     def __init__(self) -> None:
@@ -54,7 +54,7 @@ class Check:
 
 
 @dataclass(frozen=True, slots=True)
-class Query:
+class JoinQuery:
     """What to find: values for ``variables`` (each from its list) such that all atoms and checks hold.
 
     ``atoms`` are matched against ``relations``. ``given`` variables have their values already.
@@ -62,7 +62,7 @@ class Query:
 
     variables: Mapping[str, Sequence[str]]
     atoms: Sequence[Atom]
-    relations: Mapping[str, Relation]
+    relations: Mapping[str, JoinRelation]
     checks: Sequence[Check] = ()
     given: Sequence[str] = ()
 
@@ -71,7 +71,7 @@ class Query:
 class _Match:
     """Extend a row by what a relation tells."""
 
-    relation: Relation
+    relation: JoinRelation
     places: tuple[int, ...]
     key: tuple[int | str, ...]
     new: tuple[int, ...]
@@ -134,7 +134,7 @@ class Join:
         return rows
 
 
-def plan_join(query: Query) -> Join:
+def plan_join(query: JoinQuery) -> Join:
     """Order the steps: checks as soon as possible, then the atom with the most bound places."""
     join = Join(list(query.given))
     waiting = list(query.atoms)
@@ -157,13 +157,13 @@ def plan_join(query: Query) -> Join:
         join.order.append(unbound[0])
 
 
-def _effort(atom: Atom, bound: set[str], query: Query) -> tuple[int, int, int]:
+def _effort(atom: Atom, bound: set[str], query: JoinQuery) -> tuple[int, int, int]:
     new = len({t for t in atom.terms if t.startswith("?") and t not in bound})
     known = len(atom.terms) - new
     return (min(new, 1), -known, len(query.relations[atom.predicate].rows) or _UNKNOWN)
 
 
-def _match(atom: Atom, query: Query, order: list[str]) -> _Match:
+def _match(atom: Atom, query: JoinQuery, order: list[str]) -> _Match:
     """The step for ``atom``; its new variables join ``order``."""
     places: list[int] = []
     key: list[int | str] = []

@@ -101,7 +101,7 @@ def enlarged(table: Table, words: int) -> Table:
     return wide
 
 
-class Query(NamedTuple):
+class SearchQuery(NamedTuple):
     """One bound of one search. ``usable`` lists the operators worth trying, ``near`` what each may change."""
 
     t: Tables
@@ -116,12 +116,12 @@ class Query(NamedTuple):
     near: Ints
 
 
-def needed(q: Query, operator: int) -> int:
+def needed(q: SearchQuery, operator: int) -> int:
     """Whether an operator is in a cut, with or without effects under conditions."""
     return q.s.in_cut[operator] | q.s.in_cut[q.t.operators + 1 + operator]
 
 
-def descend(q: Query, start: Ints, bound: int, cap: int, counter: Ints) -> tuple[int, int, Ints]:
+def descend(q: SearchQuery, start: Ints, bound: int, cap: int, counter: Ints) -> tuple[int, int, Ints]:
     """Depth-first search for a plan within ``bound``; the canonical one where none is cheaper than ``bound``.
 
     ``counter`` counts generated states, and notes whether the bound kept anything from being searched: if not,
@@ -242,7 +242,7 @@ def search(t: Tables, g: Goal, start: Ints, cap: int) -> tuple[int, int, int, In
                 usable[width], change_near[width] = operator, g.near[operator]
                 width += 1
         r = relaxed(t, allowed, g.fact_start, g.fact, nothing)
-        q = Query(
+        q = SearchQuery(
             t, r, scratch(t, r), g.positive, g.negative, len(g.fact_start) - 1, g.distance, g.mask, usable, change_near
         )
         status, value, plan = descend(q, begin, limit, cap, counter)

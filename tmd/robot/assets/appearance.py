@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.assets.urdf_builder import UrdfModel
 from tmd.robot.sim.pose import Vector
 
 
 @dataclass(frozen=True, slots=True)
-class Look:
+class Appearance:
     """A shape with nothing left open.
 
     Attributes:
@@ -34,18 +34,18 @@ class Look:
 class Parts:
     """The parts of an object and how they look, in the order of its class."""
 
-    looks: dict[str, Look]
+    looks: dict[str, Appearance]
 
-    def of(self, *kinds: str) -> list[tuple[str, Look]]:
+    def of(self, *kinds: str) -> list[tuple[str, Appearance]]:
         """Those of some kinds."""
         return [(name, look) for name, look in self.looks.items() if look.kind in kinds]
 
 
-Builder = Callable[[Model, Look, Parts], None]
+Builder = Callable[[UrdfModel, Appearance, Parts], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Kind:
+class ShapeKind:
     """A kind of shape.
 
     Attributes:
@@ -56,7 +56,7 @@ class Kind:
     """
 
     sort: str
-    default: Look
+    default: Appearance
     build: Builder | None = None
     takes: tuple[tuple[str, int], ...] = ()
 

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from tmd.robot.assets.appearance import Look, Parts, rows
+from tmd.robot.assets.appearance import Appearance, Parts, rows
 from tmd.robot.assets.fittings import DOOR, DOWN, INTO, button, door, fronts, knob, side_board, tap_lever
 from tmd.robot.assets.furniture import ROOM, WALL, chamber
-from tmd.robot.assets.urdf_builder import ROOT, Model
+from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 SIDE = 0.34
 """Width of a side board."""
 
 
-def cooker(model: Model, look: Look, parts: Parts) -> None:
+def cooker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A stove with an oven; burners on top in two columns, the first two in front, knobs in front."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -27,7 +27,7 @@ def cooker(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, height, "oak")
 
 
-def hotplate(model: Model, look: Look, parts: Parts) -> None:
+def hotplate(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A camping stove on a table."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -41,7 +41,7 @@ def hotplate(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
-def heater(model: Model, look: Look, parts: Parts) -> None:
+def heater(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A plate on a stand that heats what stands on it; its knob is in front."""
     depth, width, height = look.size
     x, y, stand = depth / 2, width / 2, height - 0.1
@@ -63,7 +63,7 @@ def heater(model: Model, look: Look, parts: Parts) -> None:
         knob(model, part, said, (front, half - 0.1, (stand + height) / 2))
 
 
-def _hob(model: Model, parts: Parts, front: float, sides: tuple[float, float], top: float, knobs: float) -> None:
+def _hob(model: UrdfModel, parts: Parts, front: float, sides: tuple[float, float], top: float, knobs: float) -> None:
     """Burners on a top and knobs before it."""
     burners, middle, width = parts.of("burner"), (sides[0] + sides[1]) / 2, sides[1] - sides[0]
     columns = 2 if len(burners) > 1 else 1
@@ -84,7 +84,7 @@ def _hob(model: Model, parts: Parts, front: float, sides: tuple[float, float], t
         knob(model, part, look, (front, sides[0] + (index + 0.5) * width / len(dials), knobs))
 
 
-def sink(model: Model, look: Look, parts: Parts) -> None:
+def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A sink with a shallow basin in a cabinet, the tap behind it and its lever beside it."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -116,7 +116,9 @@ def sink(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, height, "oak")
 
 
-def _stream(model: Model, part: str, at: tuple[float, float], low: float, high: float, colour: str = "water") -> None:
+def _stream(
+    model: UrdfModel, part: str, at: tuple[float, float], low: float, high: float, colour: str = "water"
+) -> None:
     """A stream of liquid, seen while the part is active."""
     name = f"{part}_stream"
     model.link(name, part=part)
@@ -124,7 +126,7 @@ def _stream(model: Model, part: str, at: tuple[float, float], low: float, high: 
     model.lamp(part, "active", name, colour, None)
 
 
-def microwave(model: Model, look: Look, parts: Parts) -> None:
+def microwave(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A microwave oven on a stand: its door opens to the left, the buttons are on the right."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -154,7 +156,7 @@ def microwave(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
-def fridge(model: Model, look: Look, parts: Parts) -> None:
+def fridge(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A fridge above a freezer; with a dispenser, a panel with niche and button beside the door."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -190,7 +192,7 @@ def fridge(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, 0.82, "oak")
 
 
-def coffee_maker(model: Model, look: Look, parts: Parts) -> None:
+def coffee_maker(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A coffee maker on a stand: a plate for one cup, the spout above it, a slot for the pod on top."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2

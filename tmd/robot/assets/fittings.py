@@ -7,9 +7,9 @@ from __future__ import annotations
 
 import math
 
-from tmd.robot.assets.appearance import Look, rows
+from tmd.robot.assets.appearance import Appearance, rows
 from tmd.robot.assets.features import Frame, Grip
-from tmd.robot.assets.urdf_builder import ROOT, Model
+from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
 INTO, DOWN, LEFT, UP = (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0)
@@ -26,7 +26,7 @@ _FAST = {"knob": 0.12, "door": 1.2}
 
 
 def bar_handle(
-    model: Model, link: str, centre: Vector, length: float, colour: str, *, upright: bool, face: float
+    model: UrdfModel, link: str, centre: Vector, length: float, colour: str, *, upright: bool, face: float
 ) -> None:
     """A bar in front of a face at x = ``face``, on two posts."""
     x, y, z = centre
@@ -39,9 +39,9 @@ def bar_handle(
 
 
 def door(
-    model: Model,
+    model: UrdfModel,
     part: str,
-    look: Look,
+    look: Appearance,
     low: Vector,
     high: Vector,
     *,
@@ -86,7 +86,7 @@ def door(
     model.grips.append(Grip(opens, "door", part, tool, BAR + 0.04, 0.0, WIDE_OPEN))
 
 
-def button(model: Model, part: str, look: Look, face: Vector, *, lamp: tuple[str, str] | None = None) -> None:
+def button(model: UrdfModel, part: str, look: Appearance, face: Vector, *, lamp: tuple[str, str] | None = None) -> None:
     """A button that is pressed towards −x and comes back; ``lamp``: the part and predicate that it shows."""
     depth, width, height = look.size
     model.link(
@@ -102,7 +102,7 @@ def button(model: Model, part: str, look: Look, face: Vector, *, lamp: tuple[str
         model.lamp(lamp[0], lamp[1], name, "lamp", "dark_grey")
 
 
-def knob(model: Model, part: str, look: Look, face: Vector) -> None:
+def knob(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
     """A knob on a front face: a disc with a bar that the fingers take, turned about x."""
     depth, width, _ = look.size
     model.link(
@@ -122,7 +122,7 @@ def settings(names: tuple[str, ...]) -> tuple[tuple[str, float], ...]:
     return tuple((name, round(index / last * math.pi * 0.7, 4)) for index, name in enumerate(names))
 
 
-def tap_lever(model: Model, part: str, look: Look, foot: Vector) -> None:
+def tap_lever(model: UrdfModel, part: str, look: Appearance, foot: Vector) -> None:
     """A lever on a post, turned about z: off lies along the front."""
     _, length, height = look.size
     model.link(
@@ -135,7 +135,7 @@ def tap_lever(model: Model, part: str, look: Look, foot: Vector) -> None:
     model.grips.append(Grip(part, "knob", part, tool, 0.05, 0.0, math.pi * 0.75, settings(look.settings)))
 
 
-def side_board(model: Model, front: float, back: float, low: float, high: float, top: float, colour: str) -> None:
+def side_board(model: UrdfModel, front: float, back: float, low: float, high: float, top: float, colour: str) -> None:
     """A board on the +y side, for what stands next to an appliance."""
     model.slab((back, low, top - 0.03), (front, high, top), colour)
     model.slab((back, high - 0.03, 0.0), (front, high, top - 0.03), colour)
@@ -144,7 +144,7 @@ def side_board(model: Model, front: float, back: float, low: float, high: float,
     model.region("next_to", (back, low, top), (front, high, top + 0.4), DOWN, spots, part=ROOT)
 
 
-def fronts(model: Model, face: float, low: tuple[float, float], high: tuple[float, float], count: int, colour: str,
+def fronts(model: UrdfModel, face: float, low: tuple[float, float], high: tuple[float, float], count: int, colour: str,
            accent: str) -> None:  # fmt: skip
     """Painted door fronts on a solid body: for the eye only."""
     width = (high[0] - low[0]) / count

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from tmd.robot.assets.appearance import Look, Parts, rows
+from tmd.robot.assets.appearance import Appearance, Parts, rows
 from tmd.robot.assets.features import Frame, Grip
 from tmd.robot.assets.fittings import BAR, DOOR, DOWN, INTO, STAND_OFF, UP, bar_handle, door, fronts
-from tmd.robot.assets.urdf_builder import ROOT, Model
+from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 WALL = 0.02
 ROWS = (0.13, 0.29)
@@ -18,14 +18,14 @@ ROOM = 0.6
 """The height above a surface that still counts as on it."""
 
 
-def surface(model: Model, front: float, width: float, top: float, depth: float) -> None:
+def surface(model: UrdfModel, front: float, width: float, top: float, depth: float) -> None:
     """Let things stand on a whole top."""
     low, high = (front - depth, -width / 2, top), (front, width / 2, top + ROOM)
     fitting = tuple(row for row in ROWS if row + 0.05 <= depth) or (depth / 2,)
     model.region("on", low, high, DOWN, rows(front, width - 0.16, fitting), overhang=OVERHANG)
 
 
-def counter(model: Model, look: Look, parts: Parts) -> None:
+def counter(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A kitchen counter: a closed body with a worktop."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
@@ -36,7 +36,7 @@ def counter(model: Model, look: Look, parts: Parts) -> None:
     surface(model, x, width, height, depth)
 
 
-def table(model: Model, look: Look, parts: Parts) -> None:
+def table(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A table on four legs."""
     depth, width, height = look.size
     x, y, leg = depth / 2, width / 2, 0.05
@@ -49,7 +49,7 @@ def table(model: Model, look: Look, parts: Parts) -> None:
     surface(model, x, width, height, depth)
 
 
-def shelf(model: Model, look: Look, parts: Parts) -> None:
+def shelf(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """An open bookcase whose top is used; what stands below is decoration."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
@@ -72,7 +72,7 @@ def shelf(model: Model, look: Look, parts: Parts) -> None:
 
 
 def chamber(
-    model: Model, low: tuple[float, float, float], high: tuple[float, float, float], colour: str, inside: str,
+    model: UrdfModel, low: tuple[float, float, float], high: tuple[float, float, float], colour: str, inside: str,
     levels: tuple[float, ...], spots: tuple[float, ...] = (0.09, 0.13, 0.17, 0.21),
 ) -> None:  # fmt: skip
     """A hollow with an open front between two corners (outside measures), with boards at some heights.
@@ -104,7 +104,7 @@ def chamber(
         )  # fmt: skip
 
 
-def cupboard(model: Model, look: Look, parts: Parts) -> None:
+def cupboard(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A cupboard: two levels behind a door, a closed body below."""
     depth, width, height = look.size
     x, y = depth / 2 - DOOR, width / 2
@@ -119,7 +119,7 @@ def cupboard(model: Model, look: Look, parts: Parts) -> None:
              latched=said.kind == "latched_door", window=False)  # fmt: skip
 
 
-def drawer(model: Model, look: Look, parts: Parts) -> None:
+def drawer(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A chest whose top drawer slides; the whole is the drawer."""
     depth, width, height = look.size
     x, y = depth / 2 - DOOR, width / 2
@@ -136,7 +136,7 @@ def drawer(model: Model, look: Look, parts: Parts) -> None:
     _tray(model, ROOT, "tray", (x, y), (low, high), depth - DOOR - 0.03, look)
 
 
-def desk(model: Model, look: Look, parts: Parts) -> None:
+def desk(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A desk on four legs, with a drawer under its top."""
     depth, width, height = look.size
     x, y, top, under = depth / 2, width / 2, height - 0.035, height - 0.2
@@ -154,7 +154,7 @@ def desk(model: Model, look: Look, parts: Parts) -> None:
     surface(model, x, width, height, depth)
 
 
-def chest(model: Model, look: Look, parts: Parts) -> None:
+def chest(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A chest of drawers: things stand on it, and its drawers are parts; the first is the uppermost."""
     depth, width, height = look.size
     x, y, drawers = depth / 2 - DOOR, width / 2, parts.of("sliding_drawer")
@@ -174,8 +174,8 @@ def chest(model: Model, look: Look, parts: Parts) -> None:
 
 
 def _tray(
-    model: Model, part: str, link: str, front: tuple[float, float], between: tuple[float, float], inner: float,
-    look: Look,
+    model: UrdfModel, part: str, link: str, front: tuple[float, float], between: tuple[float, float], inner: float,
+    look: Appearance,
 ) -> None:  # fmt: skip
     """A drawer that slides out of a body.
 
@@ -206,7 +206,7 @@ def _tray(
     model.grips.append(Grip(part, "drawer", link, tool, BAR + 0.04, 0.0, inner - 0.04))
 
 
-def basket(model: Model, look: Look, parts: Parts) -> None:
+def basket(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """An open box on the floor or on legs: things are dropped into it from above."""
     depth, width, height = look.size
     x, y, floor = depth / 2, width / 2, max(height - DEEP, 0.02)
@@ -219,7 +219,7 @@ def basket(model: Model, look: Look, parts: Parts) -> None:
                  heap=True)  # fmt: skip
 
 
-def seat(model: Model, look: Look, parts: Parts) -> None:
+def seat(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A sofa or an armchair: a seat that things lie on, a back and two arms."""
     depth, width, height = look.size
     x, y, back, arm = depth / 2, width / 2, 0.22, 0.16

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmd.robot.assets.appearance import Builder, Kind, Look
+from tmd.robot.assets.appearance import Appearance, Builder, ShapeKind
 from tmd.robot.assets.appliances import coffee_maker, cooker, fridge, heater, hotplate, microwave, sink
 from tmd.robot.assets.furniture import basket, chest, counter, cupboard, desk, drawer, seat, shelf, table
 from tmd.robot.assets.living_room_fixtures import bin_, ceiling_lamp, lamp, player, tv, window
@@ -14,8 +14,8 @@ _Size = tuple[float, float, float]
 
 def _fixture(
     build: Builder, kind: str, size: _Size, colour: str, accent: str, takes: tuple[tuple[str, int], ...] = ()
-) -> Kind:
-    return Kind("fixture", Look(kind, size, colour, accent, 20.0), build, takes)
+) -> ShapeKind:
+    return ShapeKind("fixture", Appearance(kind, size, colour, accent, 20.0), build, takes)
 
 
 def _item(
@@ -26,12 +26,12 @@ def _item(
     accent: str,
     mass: float,
     takes: tuple[tuple[str, int], ...] = (),
-) -> Kind:
-    return Kind("item", Look(kind, size, colour, accent, mass), build, takes)
+) -> ShapeKind:
+    return ShapeKind("item", Appearance(kind, size, colour, accent, mass), build, takes)
 
 
-def _part(kind: str, size: _Size, colour: str, accent: str, settings: tuple[str, ...] = ()) -> Kind:
-    return Kind("part", Look(kind, size, colour, accent, 0.1, settings))
+def _part(kind: str, size: _Size, colour: str, accent: str, settings: tuple[str, ...] = ()) -> ShapeKind:
+    return ShapeKind("part", Appearance(kind, size, colour, accent, 0.1, settings))
 
 
 _DOORS = (("door", 1), ("latched_door", 1))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tmd.robot.assets.appearance import Look, Parts
+from tmd.robot.assets.appearance import Appearance, Parts
 from tmd.robot.assets.appliances import SIDE
 from tmd.robot.assets.features import Frame, Grip
 from tmd.robot.assets.fittings import (
@@ -22,10 +22,10 @@ from tmd.robot.assets.fittings import (
     side_board,
 )
 from tmd.robot.assets.furniture import basket
-from tmd.robot.assets.urdf_builder import ROOT, Model
+from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 
 
-def tv(model: Model, look: Look, parts: Parts) -> None:
+def tv(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A television on its stand, with a bar of buttons below the screen."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -52,7 +52,7 @@ def tv(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
-def player(model: Model, look: Look, parts: Parts) -> None:
+def player(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A console or player on a stand: a tray on top that takes a disc from above, buttons in front beside it."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -85,7 +85,7 @@ def player(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
-def lamp(model: Model, look: Look, parts: Parts) -> None:
+def lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A lamp on a small cabinet, or (a tall one) on a pole above it: switch or knob in front."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -104,7 +104,7 @@ def lamp(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, stand, "oak")
 
 
-def ceiling_lamp(model: Model, look: Look, parts: Parts) -> None:
+def ceiling_lamp(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A lamp that hangs from an arm high up; its switch is on a post."""
     depth, width, height = look.size
     x, y = depth / 2, width / 2
@@ -118,7 +118,7 @@ def ceiling_lamp(model: Model, look: Look, parts: Parts) -> None:
         button(model, part, said, (x, 0.0, 0.95))
 
 
-def window(model: Model, look: Look, parts: Parts) -> None:
+def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A window: below a sash on hinges, above it a curtain or blind that slides sideways."""
     depth, width, height = look.size
     x, right, y0 = depth / 2, width / 2, -width / 2
@@ -131,7 +131,7 @@ def window(model: Model, look: Look, parts: Parts) -> None:
         model.slab((back, low, sill), (front, high, height - 0.05), look.colour)
     model.slab((back, y0 + 0.05, beam - 0.02), (front, y1 - 0.05, beam + 0.02), look.colour)
     model.slab((back, y0 + 0.05, beam + 0.02), (back + 0.02, y1 - 0.05, height - 0.05), "light_blue")
-    sash = Look("door", look.size, "light_blue", "steel", 1.0)
+    sash = Appearance("door", look.size, "light_blue", "steel", 1.0)
     door(model, "sash", sash, (front, y0 + 0.02, sill), (front, y1 - 0.02, beam), height=0.9, latched=False,
          window=False, part_of=ROOT)  # fmt: skip
     for part, said in parts.of("curtain"):
@@ -150,7 +150,7 @@ def window(model: Model, look: Look, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, sill, "oak")
 
 
-def bin_(model: Model, look: Look, parts: Parts) -> None:
+def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
     depth, width, height = look.size
     basket(model, look, Parts({}))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.assets.urdf_builder import UrdfModel
 from tmd.robot.scene.furniture_layout import Room
 
 WALL_HEIGHT = 1.7
@@ -14,7 +14,7 @@ TILE = 0.8
 
 def build_room(room: Room) -> str:
     """The room as URDF text, in the world's frame."""
-    model = Model("room", 1000.0)
+    model = UrdfModel("room", 1000.0)
     (x0, y0), (x1, y1) = room.low, room.high
     west, south = x0 - 2.0, y0 - 2.0
     rows, columns = math.ceil((x1 - west) / TILE), math.ceil((y1 + 2.0 - south) / TILE)

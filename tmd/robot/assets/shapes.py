@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import nearest
-from tmd.robot.assets.appearance import Kind, Look, Parts
+from tmd.robot.assets.appearance import Appearance, Parts, ShapeKind
 from tmd.robot.assets.colours import PALETTE
 from tmd.robot.assets.kinds import KINDS
-from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.assets.urdf_builder import UrdfModel
 from tmd.world.classes import ROOT, Classes, Shape
 from tmd.world.folder import DomainFolder
 
@@ -37,8 +37,8 @@ class Blueprint:
 
     class_name: str
     sort: str
-    look: Look
-    model: Model
+    look: Appearance
+    model: UrdfModel
     urdf: str
 
 
@@ -82,11 +82,11 @@ class Shapes:
             self._check_parts(class_name, kind, look, parts)
         if kind.build is None:
             raise AssertionError(f"{look.kind} is no whole object")
-        model = Model(class_name, look.mass)
+        model = UrdfModel(class_name, look.mass)
         kind.build(model, look, parts)
         return Blueprint(class_name, sort, look, model, model.text())
 
-    def _like_its_whole(self, look: Look, shape: Shape | None, whole: Look) -> Look:
+    def _like_its_whole(self, look: Appearance, shape: Shape | None, whole: Appearance) -> Appearance:
         """A door that says no colour has the colour of what it closes."""
         if look.kind not in ("door", "latched_door", "lid") or (shape is not None and shape.colour is not None):
             return look
@@ -96,7 +96,7 @@ class Shapes:
         """``item``, ``part`` or ``fixture``, by the types above the class."""
         return next((sort for sort in ("item", "part") if self.classes.is_below(class_name, sort)), "fixture")
 
-    def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Look:
+    def _look(self, class_name: str, shape: Shape | None, sort: str, whole: str, part: str | None) -> Appearance:
         if shape is None:
             return KINDS[_PLAIN[sort]].default
         kind = KINDS.get(shape.kind)
@@ -121,7 +121,7 @@ class Shapes:
                     message = f"a {shape.kind} cannot have a {word} of {given:g} m"
                     hint = f"between {LEAST * normal:.3g} and {MOST * normal:.3g} m, {normal:g} m is usual"
                     raise self._error(class_name, whole, part, "size", message, hint)
-        return Look(
+        return Appearance(
             shape.kind,
             shape.size or usual.size,
             shape.colour or usual.colour,
@@ -130,7 +130,7 @@ class Shapes:
             shape.settings or usual.settings,
         )
 
-    def _check_parts(self, class_name: str, kind: Kind, look: Look, parts: Parts) -> None:
+    def _check_parts(self, class_name: str, kind: ShapeKind, look: Appearance, parts: Parts) -> None:
         left = dict(kind.takes)
         for name, part in parts.looks.items():
             if part.kind == "plain_part":

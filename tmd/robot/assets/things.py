@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 
-from tmd.robot.assets.appearance import Look, Parts
+from tmd.robot.assets.appearance import Appearance, Parts
 from tmd.robot.assets.features import Frame, Grip
 from tmd.robot.assets.fittings import TIP
-from tmd.robot.assets.urdf_builder import Model
+from tmd.robot.assets.urdf_builder import UrdfModel
 from tmd.robot.assets.vessels import bar_grasps, grasp, post_grasps
 
 _LOW = TIP + 0.004
 
 
-def utensil(model: Model, look: Look, parts: Parts) -> None:
+def utensil(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A spoon, fork, knife or scoop that lies: a raised handle in front, its head behind.
 
     What dips has a short head and a high handle: the head gets into a jar while the handle stays above the rim.
@@ -33,20 +33,20 @@ def utensil(model: Model, look: Look, parts: Parts) -> None:
         model.contents = ["content"]
 
 
-def _spoon(model: Model, look: Look, low: float, high: float) -> None:
+def _spoon(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
     width = look.size[1]
     model.slab((low + 0.004, -width / 2 + 0.004, 0.0), (high - 0.004, width / 2 - 0.004, 0.006), look.colour)
     model.slab((low, -width / 2, 0.006), (high, width / 2, 0.012), look.colour)
 
 
-def _scoop(model: Model, look: Look, low: float, high: float) -> None:
+def _scoop(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
     width = look.size[1]
     middle = (low + high) / 2
     model.cylinder((middle, 0.0, 0.004), width / 2 - 0.004, 0.008, look.colour)
     model.tube(width / 2, 0.004, 0.006, 0.022, look.colour, centre=(middle, 0.0))
 
 
-def _fork(model: Model, look: Look, low: float, high: float) -> None:
+def _fork(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
     width = look.size[1]
     model.slab((high - 0.02, -width / 2, 0.0), (high, width / 2, 0.008), look.colour)
     for place in (-1.5, -0.5, 0.5, 1.5):
@@ -54,12 +54,12 @@ def _fork(model: Model, look: Look, low: float, high: float) -> None:
         model.slab((low, y - width / 12, 0.0), (high - 0.02, y + width / 12, 0.008), look.colour)
 
 
-def _knife(model: Model, look: Look, low: float, high: float) -> None:
+def _knife(model: UrdfModel, look: Appearance, low: float, high: float) -> None:
     width = look.size[1]
     model.slab((low, -width / 2, 0.0), (high + 0.02, width / 2, 0.008), look.colour)
 
 
-def block(model: Model, look: Look, parts: Parts) -> None:
+def block(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A box: a packet, a book, a folded towel; taken across its width."""
     depth, width, height = look.size
     model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
@@ -76,7 +76,7 @@ def block(model: Model, look: Look, parts: Parts) -> None:
         grasp(model, (0.0, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (1.0, 0.0, 0.0), depth)
 
 
-def egg(model: Model, look: Look, parts: Parts) -> None:
+def egg(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """An egg in its stand: it does not roll."""
     _, width, height = look.size
     radius = width / 2
@@ -87,7 +87,7 @@ def egg(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (max(height * 0.6, _LOW),), (2 * radius, 2 * radius), height)
 
 
-def tin(model: Model, look: Look, parts: Parts) -> None:
+def tin(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A tin, a pod: an upright cylinder."""
     _, width, height = look.size
     model.cylinder((0.0, 0.0, height / 2), width / 2, height, look.colour)
@@ -95,7 +95,7 @@ def tin(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (max(height * 0.55, _LOW),), (width, width), height)
 
 
-def strapped(model: Model, look: Look, parts: Parts) -> None:
+def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """Something wide and soft, or flat: a pillow, a blanket, a box of pizza; taken by a strap on top."""
     depth, width, height = look.size
     body = height - 0.04
@@ -108,9 +108,9 @@ def strapped(model: Model, look: Look, parts: Parts) -> None:
     bar_grasps(model, [(0.0, 0.0, height - 0.006), (0.02, 0.0, height - 0.006)], 0.022)
 
 
-def remote(model: Model, look: Look, parts: Parts) -> None:
+def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A remote control: its buttons are on top, pressed from above."""
-    block(model, Look("block", look.size, look.colour, look.colour, look.mass), Parts({}))
+    block(model, Appearance("block", look.size, look.colour, look.colour, look.mass), Parts({}))
     depth, _, height = look.size
     buttons = parts.of("button")
     for index, (part, said) in enumerate(buttons):
@@ -125,7 +125,7 @@ def remote(model: Model, look: Look, parts: Parts) -> None:
         model.grips.append(Grip(part, "button", part, tool, 0.0, 0.0, 0.003))
 
 
-def sack(model: Model, look: Look, parts: Parts) -> None:
+def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear in front."""
     depth, width, height = look.size
     ear = 0.05

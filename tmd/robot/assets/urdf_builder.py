@@ -1,7 +1,7 @@
 """A model under construction: links, boxes and joints of one object as URDF text, and what its surfaces are good for.
 
 Everything is in the frame of the link it belongs to; a link that does not move relative to the whole has the whole's
-frame (see :meth:`Model.link`), so builders think in one frame as long as nothing moves.
+frame (see :meth:`UrdfModel.link`), so builders think in one frame as long as nothing moves.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0
 
 
 @dataclass(slots=True)
-class Link:
+class UrdfLink:
     """One link and the joint it hangs on."""
 
     name: str
@@ -40,7 +40,7 @@ class Link:
     boxes: list[tuple[Vector, Vector]] = field(default_factory=list)
 
 
-class Model:
+class UrdfModel:
     """An object under construction.
 
     Args:
@@ -51,7 +51,7 @@ class Model:
     def __init__(self, name: str, mass: float) -> None:
         self.name = name
         self.mass = mass
-        self.links: dict[str, Link] = {}
+        self.links: dict[str, UrdfLink] = {}
         self.regions: list[Region] = []
         self.grips: list[Grip] = []
         self.grasps: list[Grasp] = []
@@ -61,7 +61,7 @@ class Model:
         self.link_parts: dict[str, str] = {ROOT: ROOT}
         self.low: list[float] = [math.inf] * 3
         self.high: list[float] = [-math.inf] * 3
-        self._add(Link(ROOT, ROOT, "root", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 0.0, 0.0, 0.0, mass))
+        self._add(UrdfLink(ROOT, ROOT, "root", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0), 0.0, 0.0, 0.0, 0.0, mass))
 
     def link(
         self,
@@ -94,12 +94,12 @@ class Model:
         Returns:
             ``name``.
         """
-        self._add(Link(name, parent, kind, origin, axis, *limits, friction, spring, mass or 0.001))
+        self._add(UrdfLink(name, parent, kind, origin, axis, *limits, friction, spring, mass or 0.001))
         self.part_links.setdefault(part, name)
         self.link_parts[name] = part
         return name
 
-    def _add(self, link: Link) -> None:
+    def _add(self, link: UrdfLink) -> None:
         self.links[link.name] = link
 
     def offset(self, link: str) -> Vector:
@@ -180,7 +180,7 @@ class Model:
                 lines += _joint(link)
         return "\n".join([*lines, "</robot>", ""])
 
-    def _physics(self, link: Link) -> list[str]:
+    def _physics(self, link: UrdfLink) -> list[str]:
         low, high = _bounds(link.boxes)
         size = [max(b - a, 0.005) for a, b in zip(low, high, strict=True)]
         centre = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
@@ -218,7 +218,7 @@ class Model:
             self.high[axis] = max(self.high[axis], high[axis] + shift)
 
 
-def _joint(link: Link) -> list[str]:
+def _joint(link: UrdfLink) -> list[str]:
     # pybullet applies damping explicitly: more than a joint's inertia times 240 steps a second throws it about
     lines = [
         f'<joint name="{link.name}" type="{link.kind}">',

@@ -10,10 +10,10 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 
-from tmd.robot.assets.appearance import Look, Parts
+from tmd.robot.assets.appearance import Appearance, Parts
 from tmd.robot.assets.features import Frame, Grasp, Grip
 from tmd.robot.assets.fittings import DOWN, INTO, LEFT, TIP
-from tmd.robot.assets.urdf_builder import ROOT, Model
+from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
 
 CLEARANCE = 0.02
@@ -22,12 +22,12 @@ WIDEST = 0.085
 _AXES: tuple[Vector, ...] = ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 
 
-def grasp(model: Model, position: Vector, approach: Vector, across: Vector, width: float) -> None:
+def grasp(model: UrdfModel, position: Vector, approach: Vector, across: Vector, width: float) -> None:
     """Offer a grasp of something ``width`` wide."""
     model.grasps.append(Grasp(Frame(position, approach, across), min(width + CLEARANCE, WIDEST)))
 
 
-def post_grasps(model: Model, heights: tuple[float, ...], width: tuple[float, float], top: float) -> None:
+def post_grasps(model: UrdfModel, heights: tuple[float, ...], width: tuple[float, float], top: float) -> None:
     """Grasps of an upright body: from the sides, and from above.
 
     Args:
@@ -48,7 +48,7 @@ def post_grasps(model: Model, heights: tuple[float, ...], width: tuple[float, fl
     grasp(model, (0.0, 0.0, over), DOWN, (1.0, 0.0, 0.0), width[0])
 
 
-def bar_grasps(model: Model, places: Iterable[Vector], width: float) -> None:
+def bar_grasps(model: UrdfModel, places: Iterable[Vector], width: float) -> None:
     """Grasps of a level bar along x: from its end, from above, and slanting between the two."""
     slant = math.sqrt(0.5)
     for place in places:
@@ -57,7 +57,7 @@ def bar_grasps(model: Model, places: Iterable[Vector], width: float) -> None:
         grasp(model, place, (-slant, 0.0, -slant), LEFT, width)
 
 
-def rim_grasps(model: Model, radius: float, top: float, wall: float, angles: Iterable[float]) -> None:
+def rim_grasps(model: UrdfModel, radius: float, top: float, wall: float, angles: Iterable[float]) -> None:
     """Grasps of a wall from above, one finger inside."""
     for angle in angles:
         across: Vector = (math.cos(angle), math.sin(angle), 0.0)
@@ -65,7 +65,7 @@ def rim_grasps(model: Model, radius: float, top: float, wall: float, angles: Ite
         grasp(model, place, DOWN, across, wall + 0.015)
 
 
-def contents(model: Model, radius: float, floor: float, level: float) -> None:
+def contents(model: UrdfModel, radius: float, floor: float, level: float) -> None:
     """What the vessel contains, not seen yet: a filling, and something on top of it."""
     model.link("content")
     model.cylinder((0.0, 0.0, (floor + level) / 2), radius, level - floor, "water", link="content", solid=False)
@@ -77,13 +77,13 @@ def contents(model: Model, radius: float, floor: float, level: float) -> None:
     model.contents = ["content", "topping"]
 
 
-def round_body(model: Model, look: Look, radius: float, height: float, wall: float, floor: float) -> None:
+def round_body(model: UrdfModel, look: Appearance, radius: float, height: float, wall: float, floor: float) -> None:
     """A hollow round body with a bottom."""
     model.cylinder((0.0, 0.0, floor / 2), radius * 0.96, floor, look.colour)
     model.tube(radius, wall, floor, height, look.colour)
 
 
-def cup(model: Model, look: Look, parts: Parts) -> None:
+def cup(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A cup, mug or glass: narrow enough to be taken round its body; the depth beyond the width is its handle's."""
     depth, width, height = look.size
     radius = width / 2
@@ -102,7 +102,7 @@ def cup(model: Model, look: Look, parts: Parts) -> None:
     rim_grasps(model, radius, height, 0.005, (math.pi / 2, 0.0, -math.pi / 2))
 
 
-def bowl(model: Model, look: Look, parts: Parts) -> None:
+def bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A bowl or a deep plate: a foot, a wall, and an ear in front that the fingers take."""
     depth, width, height = look.size
     radius, ear = width / 2, height - 0.008
@@ -117,7 +117,7 @@ def bowl(model: Model, look: Look, parts: Parts) -> None:
     rim_grasps(model, radius, height, 0.007, (math.pi / 2, -math.pi / 2, math.pi))
 
 
-def pot(model: Model, look: Look, parts: Parts) -> None:
+def pot(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A pot with a long handle."""
     depth, width, height = look.size
     radius, end, level = width / 2, depth - width / 2, height - 0.008
@@ -129,7 +129,7 @@ def pot(model: Model, look: Look, parts: Parts) -> None:
     rim_grasps(model, radius, height, 0.005, (math.pi / 2, -math.pi / 2))
 
 
-def kettle(model: Model, look: Look, parts: Parts) -> None:
+def kettle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A kettle with a loop over its opening; the spout points to the front."""
     _, width, height = look.size
     radius, body = width / 2, height - 0.09
@@ -142,7 +142,7 @@ def kettle(model: Model, look: Look, parts: Parts) -> None:
     bar_grasps(model, [(0.0, 0.0, height - 0.009), (0.03, 0.0, height - 0.009)], 0.022)
 
 
-def carafe(model: Model, look: Look, parts: Parts) -> None:
+def carafe(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A coffee pot with an upright handle in front."""
     depth, width, height = look.size
     radius, bar = width / 2, depth - width / 2 - 0.01
@@ -159,7 +159,7 @@ def carafe(model: Model, look: Look, parts: Parts) -> None:
     rim_grasps(model, radius, height, 0.005, (math.pi / 2, -math.pi / 2))
 
 
-def jar(model: Model, look: Look, parts: Parts) -> None:
+def jar(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A jar, tub or carton with a lid on a hinge, or (no accent lid) an open sugar bowl: see ``lidded``."""
     _, width, height = look.size
     radius = width / 2
@@ -170,7 +170,7 @@ def jar(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (height * 0.5, height * 0.35), (width, width), height)
 
 
-def carton(model: Model, look: Look, parts: Parts) -> None:
+def carton(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A carton of milk or juice: square, with a flap for a lid."""
     depth, width, height = look.size
     x, y, top = depth / 2, width / 2, height - 0.012
@@ -184,7 +184,7 @@ def carton(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (height * 0.5, height * 0.35), (depth, width), height)
 
 
-def lid(model: Model, look: Look, radius: float, height: float, *, aside: bool = False) -> None:
+def lid(model: UrdfModel, look: Appearance, radius: float, height: float, *, aside: bool = False) -> None:
     """A lid with a tab by which it is lifted: in front with the hinge behind, or (``aside``) on the left.
 
     What is opened in a hand has it aside: the hand that holds it, from the front, is not in the way of the other one.
@@ -207,7 +207,7 @@ def lid(model: Model, look: Look, radius: float, height: float, *, aside: bool =
     model.grips.append(Grip(ROOT, "lid", "lid", tool, 0.04, 0.0, 1.75))
 
 
-def sugar_bowl(model: Model, look: Look, parts: Parts) -> None:
+def sugar_bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """An open bowl, narrow enough to be taken round its body."""
     _, width, height = look.size
     round_body(model, look, width / 2, height, 0.005, 0.008)
@@ -216,7 +216,7 @@ def sugar_bowl(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (height * 0.55,), (width, width), height)
 
 
-def bottle(model: Model, look: Look, parts: Parts) -> None:
+def bottle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A bottle: body, shoulder, neck."""
     _, width, height = look.size
     radius, shoulder = width / 2, height * 0.68
@@ -227,7 +227,7 @@ def bottle(model: Model, look: Look, parts: Parts) -> None:
     post_grasps(model, (height * 0.35, height * 0.5), (width, width), height)
 
 
-def capped_bottle(model: Model, look: Look, parts: Parts) -> None:
+def capped_bottle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A bottle whose cap opens on a hinge."""
     bottle(model, replace(look, size=(look.size[0], look.size[1], look.size[2] - 0.012)), parts)
     lid(model, look, look.size[1] * 0.22, look.size[2])

@@ -16,7 +16,7 @@ from tmd.planning.result import Filled, Unreachable
 from tmd.planning.search.in_process import DEFAULT_CAP
 from tmd.robot.monitor.failure_memory import Setback, Setbacks, careful, without
 from tmd.robot.monitor.observation import Mismatch, Observer
-from tmd.robot.skills.results import Execution, SkillError, Status, Step
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillStatus
 
 MOST_REPAIRS = 6
 """So often a plan is mended before the robot stops."""
@@ -46,7 +46,7 @@ class Performer(Protocol):
         ...
 
 
-Watcher = Callable[[Step], None]
+Watcher = Callable[[ExecutedStep], None]
 
 
 class Executor:
@@ -80,7 +80,7 @@ class Executor:
 
     def execute(self, plan: Sequence[Instruction]) -> Execution:
         """Carry out ``plan``."""
-        self._steps: list[Step] = []
+        self._steps: list[ExecutedStep] = []
         self._repairs = 0
         self._setbacks = Setbacks(self.observer.skills.seen)
         self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
@@ -115,7 +115,7 @@ class Executor:
             if isinstance(mended, str):
                 return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
             waiting = mended
-        status = Status.DONE if smooth and not self._repairs else Status.RECOVERED
+        status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
         return Execution(status, "", tuple(self._steps), self._repairs, state)
 
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
@@ -131,7 +131,7 @@ class Executor:
             state = apply(instruction, state, self.problem)
         return True
 
-    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[Step, State]:
+    def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
         try:
@@ -143,7 +143,7 @@ class Executor:
         self._setbacks.observed(now)
         mismatches = self.observer.mismatches(predicted, now)
         confirmed = tuple(sorted((predicted - state) & now))
-        step = Step(
+        step = ExecutedStep(
             instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock, now
         )
         self._steps.append(step)
@@ -199,7 +199,7 @@ class Executor:
         return gained, frozenset(a for a in state - end if a.predicate not in aside)
 
     def _stopped(self, reason: str, state: State) -> Execution:
-        return Execution(Status.STOPPED, reason, tuple(self._steps), self._repairs, state)
+        return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state)
 
     def _last(self) -> str:
         """What went wrong last."""

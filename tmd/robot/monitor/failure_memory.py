@@ -14,10 +14,10 @@ from itertools import product
 
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
-from tmd.robot.skills.results import Stage
+from tmd.robot.skills.results import SkillPhase
 from tmd.robot.skills.skill_file import Skills
 
-TRIES = {Stage.PRECONDITION: 1, Stage.STANCE: 1, Stage.PATH: 2}
+TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
 """So often something is tried before a way round it is looked for, by the stage at which it fails.
 
 Another try finds another path, and no other place to stand. What failed at other stages was within reach.
@@ -61,7 +61,7 @@ class Setbacks:
         self._known: set[Setback] = set()
         self.standing: list[Setback] = []
 
-    def failed(self, instruction: Instruction, state: State, stage: Stage) -> None:
+    def failed(self, instruction: Instruction, state: State, stage: SkillPhase) -> None:
         """Take note that an instruction failed."""
         self._failures[instruction] += 1
         if stage not in TRIES or self._failures[instruction] < TRIES[stage]:

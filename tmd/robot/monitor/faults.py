@@ -21,10 +21,10 @@ from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.skill_file import Skills, Task
+from tmd.robot.skills.skill_file import Skills, SkillTask
 
 
-class Fault(StrEnum):
+class InjectedFault(StrEnum):
     """What can go wrong."""
 
     SLIP = "slip"
@@ -37,7 +37,7 @@ class Fault(StrEnum):
     """What carries a button shifts just before the finger is there, which then presses beside it."""
 
 
-_SKILLS = {Fault.SLIP: ("pick",), Fault.STUCK: ("open", "close"), Fault.MISSED: ("push",)}
+_SKILLS = {InjectedFault.SLIP: ("pick",), InjectedFault.STUCK: ("open", "close"), InjectedFault.MISSED: ("push",)}
 _HELD_FOR = (0.03, 0.25)
 """Metres that a thing is carried before it slips."""
 _SHIFT = (0.04, 0.06)
@@ -63,15 +63,15 @@ class Happening:
     text: str
 
 
-def opportunities(fault: Fault, plan: Sequence[Instruction], skills: Skills) -> list[int]:
+def opportunities(fault: InjectedFault, plan: Sequence[Instruction], skills: Skills) -> list[int]:
     """The indexes of the instructions of ``plan`` during which a fault can come about, as far as the plan tells."""
     tasks = [skills.task(instruction) for instruction in plan]
-    if fault is not Fault.MOVED:
+    if fault is not InjectedFault.MOVED:
         return [index for index, task in enumerate(tasks) if task.skill in _SKILLS[fault]]
     return [index for index in range(len(plan)) if _taken_later(index, plan, tasks)]
 
 
-def _taken_later(index: int, plan: Sequence[Instruction], tasks: Sequence[Task]) -> list[str]:
+def _taken_later(index: int, plan: Sequence[Instruction], tasks: Sequence[SkillTask]) -> list[str]:
     """What is first taken after an instruction that it has nothing to do with, in the order of taking."""
     before = {task.object for task in tasks[: index + 1] if task.skill == "pick"}
     later = dict.fromkeys(task.object for task in tasks[index + 1 :] if task.skill == "pick")
@@ -91,7 +91,9 @@ class FaultyPerformer:
         log: What came about; empty as long as nothing has.
     """
 
-    def __init__(self, performer: RobotPerformer, fault: Fault, rng: Generator, plan: Sequence[Instruction]) -> None:
+    def __init__(
+        self, performer: RobotPerformer, fault: InjectedFault, rng: Generator, plan: Sequence[Instruction]
+    ) -> None:
         self.log: list[Happening] = []
         self._performer = performer
         self._fault = fault
@@ -127,18 +129,20 @@ class FaultyPerformer:
         cell = self._performer.cell
         tasks = [self._performer.skills.task(instruction) for instruction in self._plan]
         match self._fault:
-            case Fault.SLIP:
+            case InjectedFault.SLIP:
                 return _slipping(cell, tasks[index].object, float(self._rng.uniform(*_HELD_FOR)), self.log)
-            case Fault.STUCK:
+            case InjectedFault.STUCK:
                 return _stuck(cell, tasks[index].object, self.log)
-            case Fault.MISSED:
+            case InjectedFault.MISSED:
                 way = float(self._rng.uniform(*_SHIFT)) * (1 if self._rng.random() < 0.5 else -1)
                 return _shifting(cell, tasks[index].object, way, self.log)
-            case Fault.MOVED:
+            case InjectedFault.MOVED:
                 return _moved(cell, _taken_later(index, self._plan, tasks), self._rng, self.log)
 
 
-def with_fault(performer: RobotPerformer, fault: Fault, rng: Generator, plan: Sequence[Instruction]) -> FaultyPerformer:
+def with_fault(
+    performer: RobotPerformer, fault: InjectedFault, rng: Generator, plan: Sequence[Instruction]
+) -> FaultyPerformer:
     """The same robot in a world where ``fault`` comes about once in ``plan``; its ``log`` says what happened."""
     return FaultyPerformer(performer, fault, rng, plan)
 

@@ -8,7 +8,7 @@ from typing import Protocol
 
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.robot.monitor.executor import Performer
-from tmd.robot.skills.results import Step
+from tmd.robot.skills.results import ExecutedStep
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ class Listener(Protocol):
         """An instruction begins; ``expected`` is what it should bring about, sorted."""
         ...
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         ...
 
@@ -89,7 +89,7 @@ class Recorder:
             listener.begin(title, sorted(gains))
         return self._performer.perform(instruction, gains, attempt)
 
-    def watch(self, step: Step) -> None:
+    def watch(self, step: ExecutedStep) -> None:
         """Tell that a step is over."""
         place = None if step.repair else self._place(step.instruction)
         title = self._title(step.instruction, place)

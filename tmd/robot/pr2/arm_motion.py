@@ -12,11 +12,11 @@ from typing import Protocol
 
 import numpy as np
 
-from tmd.robot.pr2.collision import Checker, CollisionModel, Held, Ignored
+from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Held, Ignored
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import plan, shorten
-from tmd.robot.pr2.trajectory_following import Group, exact
+from tmd.robot.pr2.trajectory_following import JointGroup, exact
 from tmd.robot.pr2.urdf import ARM
 from tmd.robot.sim.pose import Pose, Quaternion
 
@@ -43,7 +43,7 @@ class ArmModel(CollisionModel, Protocol):
 
     arm_kinematics: dict[str, ArmKinematics]
     arm_joints: dict[str, tuple[str, ...]]
-    arm_groups: dict[str, Group]
+    arm_groups: dict[str, JointGroup]
 
     def torso(self) -> float:
         """The height of the torso joint."""
@@ -119,7 +119,7 @@ def plan_arm(
         near: Array = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
         return near
 
-    with Checker(
+    with CollisionChecker(
         robot,
         robot.arm_joints[side],
         positions=robot.elsewhere(base, torso),
@@ -208,7 +208,7 @@ def plan_poses(
     height = robot.torso() if torso is None else torso
     back = robot.base_link(base).inverse()
     seeds = [tuple(arm)] if arm is not None else _first_rows(robot, side, poses[0], base, torso)
-    with Checker(
+    with CollisionChecker(
         robot,
         robot.arm_joints[side],
         positions=robot.elsewhere(base, torso),
@@ -228,7 +228,7 @@ def plan_poses(
 
 
 def _along(
-    checker: Checker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
+    checker: CollisionChecker, track: Callable[[Pose, Arm], Arm | None], seed: Arm, poses: Sequence[Pose]
 ) -> list[Arm] | None:
     """Free rows from ``seed`` on; what is blocked is noticed before all of them are worked out."""
     rows, looked_at = [seed], 0

@@ -14,10 +14,10 @@ from typing import Protocol
 
 import numpy as np
 
-from tmd.robot.pr2.collision import Checker, CollisionModel, Ignored
+from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import shorten
-from tmd.robot.pr2.trajectory_following import Group, exact
+from tmd.robot.pr2.trajectory_following import JointGroup, exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
 
 Base = tuple[float, float, float]
@@ -51,7 +51,7 @@ _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 class BaseModel(CollisionModel, Protocol):
     """What planning for the base asks of a robot besides."""
 
-    base_group: Group
+    base_group: JointGroup
 
     def base(self) -> tuple[float, float, float]:
         """Where the base is: x, y, theta."""
@@ -82,7 +82,7 @@ def plan_base(
     x, y, theta = robot.base()
     end = np.array([goal[0], goal[1], theta + (goal[2] - theta + pi) % tau - pi])
     start = np.array([x, y, theta])
-    with Checker(robot, BASE_JOINTS, ignore=ignore, margin=clearance) as checker:
+    with CollisionChecker(robot, BASE_JOINTS, ignore=ignore, margin=clearance) as checker:
         for near in (_NEAR * STRIDES, None):
             if not checker.allow(((start, DEEPEST), (end, 1e-3)), near):
                 return None
@@ -96,7 +96,7 @@ def plan_base(
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
 
 
-def _search(checker: Checker, start: Array, end: Array, budget: int) -> Array | None:
+def _search(checker: CollisionChecker, start: Array, end: Array, budget: int) -> Array | None:
     """A way from the start, or from somewhere straight away from what is close to the start."""
     lattice = _Lattice(checker, start, end)
     path = lattice.straight()
@@ -110,7 +110,7 @@ def _search(checker: Checker, start: Array, end: Array, budget: int) -> Array | 
     return None
 
 
-def _ways_out(checker: Checker, start: Array) -> list[Array]:
+def _ways_out(checker: CollisionChecker, start: Array) -> list[Array]:
     """Places that are reached straight from the start, backwards first; the farthest free one each way."""
     found = []
     for turn in _OUTWARDS:
@@ -123,7 +123,7 @@ def _ways_out(checker: Checker, start: Array) -> list[Array]:
     return found
 
 
-def free_line(checker: Checker, start: Array, end: Array) -> bool:
+def free_line(checker: CollisionChecker, start: Array, end: Array) -> bool:
     """Whether all poses from one to the other are free; the first is not looked at."""
     count = max(1, int(np.ceil(np.max(np.abs(end - start) / STRIDES))))
     return checker.free(start + (end - start) * np.linspace(0, 1, count + 1)[1:, None])
@@ -132,7 +132,7 @@ def free_line(checker: Checker, start: Array, end: Array) -> bool:
 class _Lattice:
     """Points (i, j, k): places and headings relative to the goal, which is (0, 0, 0)."""
 
-    def __init__(self, checker: Checker, start: Array, goal: Array) -> None:
+    def __init__(self, checker: CollisionChecker, start: Array, goal: Array) -> None:
         self._checker = checker
         self._start, self._goal = start, goal
         self._known: dict[Cell, bool] = {(0, 0, 0): True}

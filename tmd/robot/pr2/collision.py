@@ -49,7 +49,7 @@ class Held:
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class LinkBox:
     """A box in the frame of a link: centre and half of the edges, (3,) each."""
 
     centre: Array
@@ -61,7 +61,7 @@ class CollisionModel(Protocol):
 
     sim: Simulator
     tree: Tree
-    boxes: dict[str, Box]
+    boxes: dict[str, LinkBox]
     model: RobotDescription
     body: int
     index: dict[str, int]
@@ -78,7 +78,7 @@ class CollisionModel(Protocol):
         """What the hands hold, as it lies in them now."""
 
 
-class Checker:
+class CollisionChecker:
     """Collision checks for configurations that differ in some joints.
 
     Use it as a context: when it is left, the robot is where it was. The other bodies must not move meanwhile.
@@ -136,7 +136,7 @@ class Checker:
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
         self._pairs = self._self_pairs(frames)
 
-    def __enter__(self) -> Checker:
+    def __enter__(self) -> CollisionChecker:
         sim, body, joints = self._sim, self._robot.body, self._robot.movable
         positions, velocities = sim.joint_states(body, joints)
         for held in (*self._helds, *self._others):
@@ -360,7 +360,7 @@ class Checker:
         self._sim.set_joints(self._robot.body, joints, [float(value) for value in positions.values()])
 
 
-def link_boxes(root: ET.Element) -> dict[str, Box]:
+def link_boxes(root: ET.Element) -> dict[str, LinkBox]:
     """Boxes around the collision shapes of a URDF's links, from binary STL meshes and simple shapes.
 
     Links with other meshes are left out.
@@ -371,7 +371,7 @@ def link_boxes(root: ET.Element) -> dict[str, Box]:
         if clouds and all(cloud is not None for cloud in clouds):
             points = np.vstack([cloud for cloud in clouds if cloud is not None])
             low, high = points.min(axis=0), points.max(axis=0)
-            result[link.get("name", "")] = Box((low + high) / 2, (high - low) / 2)
+            result[link.get("name", "")] = LinkBox((low + high) / 2, (high - low) / 2)
     return result
 
 
@@ -396,7 +396,7 @@ def _corners(collision: ET.Element) -> Array | None:
     return moved
 
 
-def box_of(sim: Simulator, body: int) -> Box:
+def box_of(sim: Simulator, body: int) -> LinkBox:
     """A box round a body, in the frame of its root."""
     lower, upper = sim.extents(body)
     corners = np.array(
@@ -405,10 +405,10 @@ def box_of(sim: Simulator, body: int) -> Box:
     back = sim.pose(body).inverse().homogeneous()
     inside = corners @ back[:3, :3].T + back[:3, 3]
     low, high = inside.min(axis=0), inside.max(axis=0)
-    return Box((low + high) / 2, (high - low) / 2)
+    return LinkBox((low + high) / 2, (high - low) / 2)
 
 
-def moved(box: Box, frames: Array) -> tuple[Array, Array]:
+def moved(box: LinkBox, frames: Array) -> tuple[Array, Array]:
     """The least and the greatest corner of boxes round ``box`` at (n, 4, 4) frames: (n, 3) each."""
     centre = frames[:, :3, :3] @ box.centre + frames[:, :3, 3]
     half = np.abs(frames[:, :3, :3]) @ box.half

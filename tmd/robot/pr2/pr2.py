@@ -19,12 +19,12 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.assets.colours import robot_colour
-from tmd.robot.pr2.collision import Box, Checker, Collision, Held, Ignored, link_boxes
+from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
 from tmd.robot.pr2.posture import TUCK_BUDGET, TUCKED, tuck
 from tmd.robot.pr2.trajectory import unwound
-from tmd.robot.pr2.trajectory_following import Group, hold, jump, run
+from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
 from tmd.robot.pr2.urdf import BASE_JOINTS, FINGERS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
@@ -104,13 +104,13 @@ class Pr2:
         self._paint()
 
     def _make_groups(self) -> None:
-        def group(names: Sequence[str], speed: float, force: float, stride: float, tolerance: float) -> Group:
+        def group(names: Sequence[str], speed: float, force: float, stride: float, tolerance: float) -> JointGroup:
             count = len(names)
             joints = tuple(self.joint_index[name] for name in names)
-            return Group(joints, (speed,) * count, (force,) * count, (stride,) * count, tolerance)
+            return JointGroup(joints, (speed,) * count, (force,) * count, (stride,) * count, tolerance)
 
         base = tuple(self.joint_index[name] for name in BASE_JOINTS)
-        self.base_group = Group(base, (1.0, 1.0, 1.5), (5e3, 5e3, 5e3), (0.05, 0.05, 0.1), 0.005, window=72)
+        self.base_group = JointGroup(base, (1.0, 1.0, 1.5), (5e3, 5e3, 5e3), (0.05, 0.05, 0.1), 0.005, window=72)
         self.torso_group = group([TORSO], 0.15, 5e4, 0.02, 0.003)
         self.head_group = group(HEAD, 3.0, 100.0, 0.2, 0.02)
         self.arm_groups = {side: group(self.arm_joints[side], 2.0, 500.0, 0.1, 0.01) for side in ARMS}
@@ -118,7 +118,7 @@ class Pr2:
         self.finger_groups = {side: group(fingers[side], _FINGER_SPEED, 60.0, 0.05, 0.03) for side in ARMS}
 
     def _set_up(self, pose: tuple[float, float, float]) -> None:
-        starts: list[tuple[Group, Sequence[float]]] = [
+        starts: list[tuple[JointGroup, Sequence[float]]] = [
             (self.base_group, pose),
             (self.torso_group, (_TORSO_START,)),
             (self.head_group, (0.0, 0.3)),
@@ -132,7 +132,7 @@ class Pr2:
         for joint in sorted(rest):
             self.sim.drive_joint(self.body, joint, 0.0, 100.0)
 
-    def _find_boxes(self) -> dict[str, Box]:
+    def _find_boxes(self) -> dict[str, LinkBox]:
         known = link_boxes(self.model.root)
         names = {index: name for name, index in self.index.items()}
         for link in self.solid_links(self.body):
@@ -140,7 +140,7 @@ class Pr2:
                 lower, upper = np.array(self.sim.extents(self.body, link))
                 frame = self.sim.pose(self.body, link).homogeneous()
                 centre = frame[:3, :3].T @ ((lower + upper) / 2 - frame[:3, 3])
-                known[names[link]] = Box(centre, np.abs(frame[:3, :3].T) @ ((upper - lower) / 2))
+                known[names[link]] = LinkBox(centre, np.abs(frame[:3, :3].T) @ ((upper - lower) / 2))
         return {name: box for name, box in known.items() if name in self.tree.links}
 
     def _paint(self) -> None:
@@ -159,7 +159,7 @@ class Pr2:
         """The positions of all joints that move, by name."""
         return dict(zip(self._movable_names, self.sim.joint_states(self.body, self.movable)[0], strict=True))
 
-    def _where(self, group: Group) -> tuple[float, ...]:
+    def _where(self, group: JointGroup) -> tuple[float, ...]:
         return tuple(self.sim.joint_states(self.body, group.joints)[0])
 
     def base(self) -> tuple[float, float, float]:
@@ -188,7 +188,7 @@ class Pr2:
 
     # motion
 
-    def _go(self, group: Group, path: Sequence[Sequence[float]], endless: Sequence[int] = ()) -> bool:
+    def _go(self, group: JointGroup, path: Sequence[Sequence[float]], endless: Sequence[int] = ()) -> bool:
         """Follow a path from where the joints are."""
         rows = unwound(np.array([self._where(group), *path], dtype=float), endless)
         if self.kinematic:
@@ -261,7 +261,7 @@ class Pr2:
                 self.sim.step()
         return self.gap(side)
 
-    def _squeeze(self, group: Group, angles: Array, force: float) -> None:
+    def _squeeze(self, group: JointGroup, angles: Array, force: float) -> None:
         """Push the fingers to ``angles``; the tips follow their fingers, as the linkage of the real hand makes them."""
         actual = np.clip(self._where(group), *_FINGER_RANGE)
         targets = [angles[0], angles[1], actual[0], actual[1]]
@@ -395,7 +395,7 @@ class Pr2:
         return self.base_link(base) * Pose.from_matrix(frame)
 
     def elsewhere(self, base: tuple[float, float, float] | None = None, torso: float | None = None) -> dict[str, float]:
-        """Joint positions for :class:`Checker`: those of a base and a torso that would be elsewhere."""
+        """Joint positions for :class:`CollisionChecker`: those of a base and a torso that would be elsewhere."""
         result = {} if base is None else dict(zip(BASE_JOINTS, base, strict=True))
         return result if torso is None else result | {TORSO: torso}
 
@@ -431,14 +431,16 @@ class Pr2:
         if side is not None and arm is not None:
             positions |= dict(zip(self.arm_joints[side], arm, strict=True))
         helds = None if held is None else list(held)
-        with Checker(self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin) as checker:
+        with CollisionChecker(
+            self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin
+        ) as checker:
             return checker.collisions(())
 
     @contextmanager
     def as_if(self, base: tuple[float, float, float]) -> Iterator[None]:
         """As if the base, with all that it carries, were elsewhere; afterwards all is where it was, to the bit."""
         helds = self.helds()
-        with Checker(self, (), positions=self.elsewhere(base), helds=helds):
+        with CollisionChecker(self, (), positions=self.elsewhere(base), helds=helds):
             for held in helds:
                 self.sim.set_pose(held.body, self.tool(held.side) * held.grip)
             yield
@@ -447,7 +449,7 @@ class Pr2:
         """For many poses of the base, whether the robot as it is would touch nothing there."""
         if not bases:
             return []
-        with Checker(self, BASE_JOINTS) as checker:
+        with CollisionChecker(self, BASE_JOINTS) as checker:
             return checker.each_free(np.array(bases, dtype=float))
 
     def clear(
@@ -467,7 +469,7 @@ class Pr2:
         """
         if not arms:
             return []
-        with Checker(
+        with CollisionChecker(
             self,
             self.arm_joints[side],
             positions=self.elsewhere(base, torso),

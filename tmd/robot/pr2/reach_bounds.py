@@ -25,7 +25,7 @@ _SLACK = 0.005
 """Metres: what rounding could refuse wrongly."""
 
 
-class Span:
+class ReachBounds:
     """One arm's lengths.
 
     Args:
@@ -74,7 +74,7 @@ class Wrists:
 
     def __init__(self, robot: Pr2, sides: Sequence[str], poses: Sequence[Sequence[Pose]]) -> None:
         self._robot = robot
-        self._spans = {side: Span(robot, side) for side in sorted(set(sides))}
+        self._spans = {side: ReachBounds(robot, side) for side in sorted(set(sides))}
         self._sides = np.array(sides)
         self._starts = np.cumsum([0, *(len(each) for each in poses)])[:-1]
         self._of = np.repeat(np.arange(len(poses)), [len(each) for each in poses])

@@ -21,7 +21,7 @@ STALLED = 120
 
 
 @dataclass(frozen=True, slots=True)
-class Group:
+class JointGroup:
     """Some joints of a body.
 
     Attributes:
@@ -41,7 +41,7 @@ class Group:
     window: int = 48
 
 
-def exact(path: Array, group: Group, free: Callable[[Array], bool]) -> Array:
+def exact(path: Array, group: JointGroup, free: Callable[[Array], bool]) -> Array:
     """The path with a rest at each corner, if what comes of rounding them under physics is not free."""
     track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[::_LOOKED_AT]
     if len(path) == 2 or free(track):
@@ -49,13 +49,13 @@ def exact(path: Array, group: Group, free: Callable[[Array], bool]) -> Array:
     return np.repeat(path, [1, *[2] * (len(path) - 2), 1], axis=0)
 
 
-def hold(sim: Simulator, body: int, group: Group, positions: Sequence[float]) -> None:
+def hold(sim: Simulator, body: int, group: JointGroup, positions: Sequence[float]) -> None:
     """Let the motors keep the joints where ``positions`` says."""
     zeros = [0.0] * len(group.joints)
     sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, GAIN)
 
 
-def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
+def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
     """Move along ``path`` under physics.
 
     The budget is twice the planned time and one second. A motion that no longer gets nearer for half a second, after
@@ -89,7 +89,7 @@ def run(sim: Simulator, body: int, group: Group, path: Array) -> bool:
     return False
 
 
-def _yield(sim: Simulator, body: int, group: Group) -> None:
+def _yield(sim: Simulator, body: int, group: JointGroup) -> None:
     """Let what is in the way push back for a moment, then stay there: no motor pushes on after a failure."""
     weak = replace(group, forces=tuple(_YIELDING * force for force in group.forces))
     for _ in range(STEPS_PER_SECOND // 4):
@@ -98,7 +98,7 @@ def _yield(sim: Simulator, body: int, group: Group) -> None:
     hold(sim, body, group, sim.joint_states(body, group.joints)[0])
 
 
-def jump(sim: Simulator, body: int, group: Group, path: Array, carry: Callable[[], None]) -> None:
+def jump(sim: Simulator, body: int, group: JointGroup, path: Array, carry: Callable[[], None]) -> None:
     """Set the joints along ``path``, one tick a row; ``carry`` moves along what is held."""
     for row in dense(path, group.strides)[1:].tolist():
         sim.set_joints(body, group.joints, row)

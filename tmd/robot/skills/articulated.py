@@ -11,7 +11,7 @@ from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.bimanual import reach_for
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
 
@@ -54,22 +54,22 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
         SkillError: It has none, cannot be reached, or does not move.
     """
     if not cell.free():
-        raise SkillError(Stage.PRECONDITION, "both hands are full")
+        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     for _ in range(_STAGES):
         _swing_somehow(cell, name, attempt, _goals(cell, name, opened))
         if cell.is_open(name) == opened:
             return cell.how_open(name)
-    raise SkillError(Stage.EFFECT, f"{cell.how_open(name)} after it was moved")
+    raise SkillError(SkillPhase.EFFECT, f"{cell.how_open(name)} after it was moved")
 
 
 def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:
     """Move it as far as the first of the goals that is possible."""
-    last = SkillError(Stage.STANCE, f"{name} cannot be moved any farther")
+    last = SkillError(SkillPhase.STANCE, f"{name} cannot be moved any farther")
     for each in goals:
         try:
             _swing(cell, name, attempt, each)
         except SkillError as error:
-            if error.stage not in (Stage.STANCE, Stage.PATH):
+            if error.stage not in (SkillPhase.STANCE, SkillPhase.PATH):
                 raise
             last = error
         else:
@@ -231,11 +231,11 @@ def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
         return
     if handle.kind == "lid":  # on a thing that nothing holds: the fingers stand round its edge and do not press
         if cell.gap(side, name) > _ROUND:
-            raise SkillError(Stage.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
+            raise SkillError(SkillPhase.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
     else:
         cell.robot.close_gripper(side)
         if not cell.robot.touches(side, handle.body, handle.index):
-            raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
+            raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch the handle of {name}")
     try:
         with cell.gripped(side, handle):
             follow(cell, side, option.poses[2:], option.ignore)
@@ -252,7 +252,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     handle = _handle(cell, name)
     hands = cell.free()
     if not hands:
-        raise SkillError(Stage.PRECONDITION, "both hands are full")
+        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     ignore: Links = frozenset({(handle.body, handle.index)})
     touch = handle.grasp
     before, beyond = touch * Pose((-BEFORE, 0.0, 0.0)), touch * Pose((TRAVEL, 0.0, 0.0))
@@ -274,9 +274,9 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     cell.come_back(handle)
     cell.retire(chosen.side, ignore)
     if not touched:
-        raise SkillError(Stage.CONTACT, f"the finger does not touch {name}")
+        raise SkillError(SkillPhase.CONTACT, f"the finger does not touch {name}")
     if farthest.share < PRESSED:
-        raise SkillError(Stage.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
+        raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
     return f"{name} went down {100 * farthest.share:.0f} % of its way"
 
 
@@ -300,10 +300,10 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
     """
     handle = _handle(cell, name)
     if setting not in handle.settings:
-        raise SkillError(Stage.PRECONDITION, f"{name} has no setting {setting}")
+        raise SkillError(SkillPhase.PRECONDITION, f"{name} has no setting {setting}")
     hands = cell.free()
     if not hands:
-        raise SkillError(Stage.PRECONDITION, "both hands are full")
+        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     ignore: Links = frozenset({(handle.body, handle.index)})
     start = cell.sim.joint_position(handle.body, handle.index)
     goal = handle.settings[setting]
@@ -319,14 +319,14 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
     _pull(cell, name, handle, chosen)
     cell.retire(chosen.side, ignore)
     if cell.setting(name) != setting:
-        raise SkillError(Stage.EFFECT, f"{name} was turned, and is at {cell.setting(name) or 'no setting'}")
+        raise SkillError(SkillPhase.EFFECT, f"{name} was turned, and is at {cell.setting(name) or 'no setting'}")
     return f"{name} is at {setting}"
 
 
 def _handle(cell: Cell, name: str) -> Handle:
     handle = cell.scene.handle(name)
     if handle is None:
-        raise SkillError(Stage.PRECONDITION, f"{name} has nothing to work it by")
+        raise SkillError(SkillPhase.PRECONDITION, f"{name} has nothing to work it by")
     return handle
 
 

@@ -14,7 +14,7 @@ from math import cos, pi, sin, tau
 from tmd.robot.pr2.arm_motion import plan_arm
 from tmd.robot.pr2.reach_bounds import Wrists
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Option, candidates, get_to, reach, with_room
 
@@ -65,7 +65,7 @@ def reach_for(
             cell, options(), focus, cell.front(name) if front is None else front, attempt, stop=stop, accept=accept
         )
     home, torso = cell.robot.base(), cell.robot.torso()
-    last = SkillError(Stage.STANCE, f"the {side} hand cannot hold {item} out for the other one")
+    last = SkillError(SkillPhase.STANCE, f"the {side} hand cannot hold {item} out for the other one")
     for _ in islice(_held_out(cell, side, item, options), 2 * attempt, 2 * attempt + _MOST):
         try:
             return reach(cell, options(), focus, None, 0, stop=stop, stay=True)

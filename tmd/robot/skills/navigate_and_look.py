@@ -10,7 +10,7 @@ from tmd.robot.monitor.observation import REACH
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.pick_and_place import pick_options
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import DISTANCES, Base, candidates, get_to, stances
 
@@ -49,7 +49,7 @@ def look(cell: Cell, name: str) -> str:
             continue
         if seen := _seen(cell, name, point):
             return seen
-    raise SkillError(Stage.EFFECT, f"{name} is not in view from {tried} places")
+    raise SkillError(SkillPhase.EFFECT, f"{name} is not in view from {tried} places")
 
 
 def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, float]]:
@@ -113,7 +113,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     Raises:
         SkillError: There is no place, or no way.
     """
-    last = SkillError(Stage.STANCE, f"there is no place to stand before {name}")
+    last = SkillError(SkillPhase.STANCE, f"there is no place to stand before {name}")
     focus = Pose(cell.centre(name))
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
     found = [
@@ -133,7 +133,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
         cell.robot.look_at(focus.position)
         if cell.reach(name) <= REACH:
             return f"{name} is {cell.reach(name):.2f} m away"
-        last = SkillError(Stage.EFFECT, f"{name} is {cell.reach(name):.2f} m away")
+        last = SkillError(SkillPhase.EFFECT, f"{name} is {cell.reach(name):.2f} m away")
     raise last
 
 

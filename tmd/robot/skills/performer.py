@@ -6,9 +6,9 @@ from collections.abc import Collection
 
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.robot.skills import articulated, navigate_and_look, pick_and_place, pour_and_dip
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.skill_file import Skills, Task
+from tmd.robot.skills.skill_file import Skills, SkillTask
 
 
 class RobotPerformer:
@@ -40,7 +40,7 @@ class RobotPerformer:
                 self.cell.spring(name)
         return said
 
-    def _do(self, task: Task, gains: Collection[GroundAtom], attempt: int) -> str:
+    def _do(self, task: SkillTask, gains: Collection[GroundAtom], attempt: int) -> str:
         cell, name = self.cell, task.object
         match task.skill:
             case "look":
@@ -72,4 +72,4 @@ class RobotPerformer:
         for atom in sorted(gains):
             if atom.predicate in seen and atom.args[0] == item:
                 return atom.args[1]
-        raise SkillError(Stage.PRECONDITION, f"there is nothing that {item} could land on")
+        raise SkillError(SkillPhase.PRECONDITION, f"there is nothing that {item} could land on")

@@ -9,7 +9,7 @@ from math import pi
 
 from tmd.robot.pr2.pr2 import FULL_GAP
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
 
@@ -41,7 +41,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     """
     options = pick_options(cell, item)
     if not cell.free():
-        raise SkillError(Stage.PRECONDITION, "both hands are full")
+        raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     body = cell.scene.bodies[item]
     for side in cell.free():
         cell.robot.open_gripper(side)
@@ -50,7 +50,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
         _let_off(cell, side, chosen)
-        raise SkillError(Stage.CONTACT, f"the {side} hand closed and does not touch {item}")
+        raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch {item}")
     below = cell.support(item)
     cell.robot.hold(side, body)
     cell.in_hand[side] = item
@@ -58,7 +58,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     _leave(cell, side, away, _links(cell, item))
     cell.fold()
     if cell.gap(side, item) > 0.03:
-        raise SkillError(Stage.EFFECT, f"{item} slipped out of the {side} hand")
+        raise SkillError(SkillPhase.EFFECT, f"{item} slipped out of the {side} hand")
     return f"{item} is in the {side} hand"
 
 
@@ -105,10 +105,10 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     """
     side = cell.side_of(item)
     if side is None:
-        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
     options = place_options(cell, side, item, target, relation)
     if not options:
-        raise SkillError(Stage.PRECONDITION, f"there is no room for {item} {relation} {target}")
+        raise SkillError(SkillPhase.PRECONDITION, f"there is no room for {item} {relation} {target}")
     focus = options[0].poses[-1] * cell.in_tool(side, item)
     _reach_best(cell, item, options, focus, target, relation, attempt)
     _release(cell, side, item)
@@ -117,7 +117,7 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> st
     now = cell.support(item)
     if now != (target, relation):
         where = f"{now[1]} {now[0]}" if now else "nowhere"
-        raise SkillError(Stage.EFFECT, f"{item} was put down, and is {where}")
+        raise SkillError(SkillPhase.EFFECT, f"{item} was put down, and is {where}")
     return f"{item} is {relation} {target}"
 
 
@@ -136,7 +136,7 @@ def _reach_best(
         try:
             reach(cell, chosen, focus, cell.front(target), attempt, stop=2)
         except SkillError as error:
-            if error.stage is not Stage.STANCE or chosen is fitting:
+            if error.stage is not SkillPhase.STANCE or chosen is fitting:
                 raise
         else:
             return
@@ -179,14 +179,16 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
         return place(cell, item, target, "on", attempt)
     side = cell.side_of(item)
     if side is None:
-        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
     cell.robot.raise_torso(0.0)
     _release(cell, side, item)
     cell.settle(item)
     cell.fold()
     now = cell.support(item)
     if now != (target, "on"):
-        raise SkillError(Stage.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}")
+        raise SkillError(
+            SkillPhase.EFFECT, f"{item} was let go of, and is {now[1] + ' ' + now[0] if now else 'nowhere'}"
+        )
     return f"{item} is on the floor"
 
 

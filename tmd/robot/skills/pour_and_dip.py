@@ -9,7 +9,7 @@ from math import acos, cos, degrees, hypot, pi, sin
 
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, with_room
 
@@ -134,7 +134,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
     if tilt < _ENOUGH or beside > _BESIDE:
-        raise SkillError(Stage.EFFECT, said)
+        raise SkillError(SkillPhase.EFFECT, said)
     return said.replace("its mouth 0.0 cm beside the rim of", "its mouth over")
 
 
@@ -199,7 +199,7 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     _go_back(cell, chosen)
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < _WET or beside > 0.0:
-        raise SkillError(Stage.EFFECT, said)
+        raise SkillError(SkillPhase.EFFECT, said)
     return said
 
 
@@ -266,7 +266,7 @@ def _go_back(cell: Cell, chosen: Option) -> None:
 def _side(cell: Cell, item: str) -> str:
     side = cell.side_of(item)
     if side is None:
-        raise SkillError(Stage.PRECONDITION, f"{item} is not in a hand")
+        raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
     return side
 
 

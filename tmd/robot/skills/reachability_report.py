@@ -12,7 +12,7 @@ from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
 
 
 @dataclass(frozen=True, slots=True)
-class Entry:
+class ReachabilityEntry:
     """One object.
 
     Attributes:
@@ -48,11 +48,11 @@ class Stance:
         return f"from {x:.2f} {y:.2f}, facing {degrees(heading):.0f}°{hand}"
 
 
-def survey(cell: Cell) -> list[Entry]:
+def survey(cell: Cell) -> list[ReachabilityEntry]:
     """All objects, in file order."""
     scene = cell.scene
     return [
-        Entry(
+        ReachabilityEntry(
             name,
             blueprint.look.kind,
             scene.is_item(name),

@@ -9,7 +9,7 @@ from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.robot.monitor.observation import Mismatch
 
 
-class Stage(StrEnum):
+class SkillPhase(StrEnum):
     """Where in a skill something failed."""
 
     PRECONDITION = "precondition"
@@ -34,14 +34,14 @@ class SkillError(Exception):
         reason: Why, with the numbers.
     """
 
-    def __init__(self, stage: Stage, reason: str) -> None:
+    def __init__(self, stage: SkillPhase, reason: str) -> None:
         super().__init__(f"{stage}: {reason}")
         self.stage = stage
         self.reason = reason
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class ExecutedStep:
     """One instruction, as it went.
 
     Attributes:
@@ -67,7 +67,7 @@ class Step:
     state: State
 
 
-class Status(StrEnum):
+class SkillStatus(StrEnum):
     """How an execution ended."""
 
     DONE = "done"
@@ -90,8 +90,8 @@ class Execution:
         state: The last state that was observed.
     """
 
-    status: Status
+    status: SkillStatus
     reason: str
-    steps: tuple[Step, ...]
+    steps: tuple[ExecutedStep, ...]
     repairs: int
     state: State

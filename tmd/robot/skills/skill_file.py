@@ -59,7 +59,7 @@ class SkillsFile(BaseModel):
 
 
 @dataclass(frozen=True, slots=True)
-class Task:
+class SkillTask:
     """What a skill is asked to do.
 
     Attributes:
@@ -91,7 +91,7 @@ class Skills:
     contents: str | None
     domain: Domain
 
-    def task(self, instruction: Instruction) -> Task:
+    def task(self, instruction: Instruction) -> SkillTask:
         """What ``instruction`` asks of the robot.
 
         Raises:
@@ -103,7 +103,7 @@ class Skills:
         parameters = next(a.parameters for a in self.domain.actions if a.name == instruction.name)
         given = dict(zip((p.name.removeprefix("?") for p in parameters), instruction.args, strict=True))
         roles = {role: given.get(said, said) for role in _ROLES if (said := getattr(entry, role)) is not None}
-        return Task(entry.skill, **roles, seconds=entry.seconds)
+        return SkillTask(entry.skill, **roles, seconds=entry.seconds)
 
 
 _USUAL: Mapping[str, Sensor | Confirmation] = {

@@ -17,7 +17,7 @@ from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.results import SkillError, Stage
+from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 
 Base = tuple[float, float, float]
@@ -76,7 +76,7 @@ class Option:
 
 
 @dataclass(frozen=True, slots=True)
-class Candidate:
+class StanceCandidate:
     """An option from a place to stand."""
 
     option: Option
@@ -111,13 +111,13 @@ def reach(
         SkillError: None can be reached (stance), there is no way (path), or the robot did not get there (execution).
     """
     if not options:
-        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}")
+        raise SkillError(SkillPhase.STANCE, f"no hand fits in at {_place(focus)}")
     fitting = with_room(cell, options)
     if not fitting:
-        raise SkillError(Stage.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
+        raise SkillError(SkillPhase.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
     found = candidates(cell, fitting, focus, front, stay=stay, accept=accept)
-    last = SkillError(Stage.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
-    failed: list[Candidate] = []
+    last = SkillError(SkillPhase.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
+    failed: list[StanceCandidate] = []
     closed: list[Base] = []
     tried_before = list(islice(found, 2 * attempt))
     for candidate in chain(found, tried_before):
@@ -138,12 +138,12 @@ def reach(
                 return candidate.option
         if len(failed) + len(closed) >= MOST_TRIES:
             break
-    if last.stage is Stage.PATH and failed:
+    if last.stage is SkillPhase.PATH and failed:
         return _insist(cell, failed[0], stop)
     raise last
 
 
-def _insist(cell: Cell, candidate: Candidate, stop: int | None) -> Option:
+def _insist(cell: Cell, candidate: StanceCandidate, stop: int | None) -> Option:
     """Look longer for a way from the best stance, once nothing else is left."""
     get_to(cell, candidate.base, candidate.torso)
     _take(cell, candidate.option, stop, budget=_LONG)
@@ -173,7 +173,7 @@ def candidates(
     *,
     stay: bool = False,
     accept: Accept | None = None,
-) -> Iterator[Candidate]:
+) -> Iterator[StanceCandidate]:
     """Options from places to stand for which all poses have postures without collisions.
 
     The search ends when its questions have cost more than ``patience``.
@@ -194,7 +194,7 @@ def candidates(
                 possible, price = _possible(cell, option, base, torso)
                 left -= price
                 if possible:
-                    yield Candidate(option, base, torso)
+                    yield StanceCandidate(option, base, torso)
                     break
         if left < 0:
             return
@@ -209,7 +209,7 @@ def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
     yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
-def _alike(one: Candidate, other: Candidate) -> bool:
+def _alike(one: StanceCandidate, other: StanceCandidate) -> bool:
     """Whether what failed there will fail here: the same arm in nearly the same place."""
     return one.option is other.option and _close(one.base, other.base)
 
@@ -272,17 +272,17 @@ def _drive(cell: Cell, base: Base) -> None:
         if path is None:
             continue
         if not cell.robot.drive(path, pace=pace):
-            raise SkillError(Stage.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
+            raise SkillError(SkillPhase.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
         return
-    raise SkillError(Stage.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
+    raise SkillError(SkillPhase.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
 
 
 def _lift(cell: Cell, torso: float) -> None:
     """Move the torso, with tucked arms if they would be in something there."""
     if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
-        raise SkillError(Stage.PATH, f"something is in the way of the arms with the torso at {torso:.2f} m")
+        raise SkillError(SkillPhase.PATH, f"something is in the way of the arms with the torso at {torso:.2f} m")
     if not cell.robot.raise_torso(torso):
-        raise SkillError(Stage.EXECUTION, f"the torso did not get to {torso:.2f} m")
+        raise SkillError(SkillPhase.EXECUTION, f"the torso did not get to {torso:.2f} m")
 
 
 def _sticks(cell: Cell, torso: float) -> bool:
@@ -301,9 +301,9 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
     """
     path = plan_poses(cell.robot, side, dense([cell.robot.tool(side), *poses]), ignore=ignore)
     if path is None:
-        raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(poses[-1])}")
+        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight to {_place(poses[-1])}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}")
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}")
 
 
 def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
@@ -319,12 +319,12 @@ def _take(cell: Cell, option: Option, stop: int | None, budget: int = _SHORT) ->
     side = option.side
     rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
     if rows is None:
-        raise SkillError(Stage.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
+        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
     path = plan_arm(cell.robot, side, rows[0], rng=cell.rng, budget=budget)
     if path is None:
-        raise SkillError(Stage.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
+        raise SkillError(SkillPhase.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(Stage.EXECUTION, f"the {side} hand did not get to {_place(option.poses[0])}")
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(option.poses[0])}")
     if option.poses[1:stop]:
         follow(cell, side, option.poses[1:stop], option.ignore)
 

@@ -13,7 +13,7 @@ from tmd.robot.monitor.listeners import Title
 from tmd.robot.session import TICK
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.sim.simulator import Simulator
-from tmd.robot.skills.results import Execution, Status, Step
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.skill_file import Skills
 from tmd.robot.video.camera import FOV, Camera, View
@@ -109,7 +109,7 @@ class Film:
             tuple((str(atom), "expected") for atom in expected),
         )
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: the facts are marked, and the picture stays for a moment."""
         facts: list[tuple[str, Mark]] = [(str(atom), "confirmed") for atom in step.confirmed]
         facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
@@ -129,7 +129,7 @@ class Film:
     def close(self, execution: Execution) -> None:
         """End with how it ended."""
         repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
-        badge = "stopped" if execution.status is Status.STOPPED else ""
+        badge = "stopped" if execution.status is SkillStatus.STOPPED else ""
         note = execution.reason or "Every effect of the plan is confirmed."
         title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
         self._caption = Caption(

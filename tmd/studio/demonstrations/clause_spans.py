@@ -17,7 +17,7 @@ MAX_CHARACTERS = 20_000
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class ClauseSpan:
     """A piece ``text[start:end]``, and its clause; ``None`` where none was understood in the whole text."""
 
     start: int
@@ -46,12 +46,12 @@ def clean(text: str) -> str:
     return short_enough(found)
 
 
-def cut(text: str, lexicon: Lexicon | None) -> tuple[Piece, ...]:
+def cut(text: str, lexicon: Lexicon | None) -> tuple[ClauseSpan, ...]:
     """The pieces of a cleaned text, at least one, in its order: what each clause spans."""
     starts = {clause.span.start: clause for clause in reversed(parse(text, lexicon).clauses)}
     clauses = [starts[start] for start in sorted(starts)]
     if not clauses:
-        return (Piece(0, len(text), text, None),)
+        return (ClauseSpan(0, len(text), text, None),)
     after = [*(clause.span.start for clause in clauses[1:]), len(text)]
     pieces = [_piece(text, c.span.start, min(c.span.end, end), c) for c, end in zip(clauses, after, strict=True)]
     if not _found_again(text, pieces):
@@ -60,11 +60,11 @@ def cut(text: str, lexicon: Lexicon | None) -> tuple[Piece, ...]:
     return tuple(pieces)
 
 
-def _piece(text: str, start: int, end: int, clause: Clause) -> Piece:
-    return Piece(start, end, text[start:end], clause)
+def _piece(text: str, start: int, end: int, clause: Clause) -> ClauseSpan:
+    return ClauseSpan(start, end, text[start:end], clause)
 
 
-def _found_again(text: str, pieces: Sequence[Piece]) -> bool:
+def _found_again(text: str, pieces: Sequence[ClauseSpan]) -> bool:
     """Whether a reader that looks for each piece behind the one before it finds it where it is."""
     ends = [0, *(piece.end for piece in pieces)]
     return all(

@@ -24,7 +24,7 @@ from tmd.planning.result import Filled, Planner, Unreachable
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.history import History
-from tmd.studio.demonstrations.session import MAX_STEPS, Session, Step
+from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session
 from tmd.veil.world import World
 from tmd.view.text.wording import Wording
 
@@ -62,7 +62,7 @@ class Correction:
         self,
         world: World,
         text: str,
-        proposed: Sequence[Step],
+        proposed: Sequence[DemonstratedStep],
         lexicon: Lexicon | None = None,
         *,
         planner: Planner | None = None,
@@ -73,11 +73,11 @@ class Correction:
         self._lexicon = lexicon
         self._planner = planner
         self._wording = Wording(world.task.problem)
-        self._history: History[tuple[Step, ...]] = History(self.proposed)
+        self._history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
         self._lock = threading.RLock()
 
     @property
-    def steps(self) -> tuple[Step, ...]:
+    def steps(self) -> tuple[DemonstratedStep, ...]:
         """The plan as it is now."""
         return self._history.current
 
@@ -214,10 +214,10 @@ class Correction:
         """Steps before the step of that number."""
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = clause if clause is not None else beside[0].clause if beside else 0
-        added = tuple(Step(instruction, owner) for instruction in instructions)
+        added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
-    def _played(self, steps: Sequence[Step]) -> tuple[Bits, Break | None]:
+    def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
         """The state before the first step that does not apply, and that step; or the last state."""
         task = self.world.task
         state = task.init
@@ -244,14 +244,18 @@ class Correction:
             raise TmdError(f"there is no step {step}", hint=f"the plan has {len(self.steps)} steps")
 
 
-def steps_of(plan: RankedPlan, clauses: Sequence[Clause], text: str, lexicon: Lexicon | None = None) -> list[Step]:
+def steps_of(
+    plan: RankedPlan, clauses: Sequence[Clause], text: str, lexicon: Lexicon | None = None
+) -> list[DemonstratedStep]:
     """The steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
     pieces = cut(clean(text), lexicon)
     starts = [piece.start for piece in pieces]
     owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]
-    return [Step(step.instruction, owners[step.clause]) for step in plan.steps]
+    return [DemonstratedStep(step.instruction, owners[step.clause]) for step in plan.steps]
 
 
-def _renamed(step: Step, names: Mapping[str, str]) -> Step:
+def _renamed(step: DemonstratedStep, names: Mapping[str, str]) -> DemonstratedStep:
     name, args = step.instruction
-    return Step(Instruction(name, tuple(names.get(argument, argument) for argument in args)), step.clause, step.marked)
+    return DemonstratedStep(
+        Instruction(name, tuple(names.get(argument, argument) for argument in args)), step.clause, step.marked
+    )

@@ -22,7 +22,7 @@ from tmd.files import make_directory, write_text
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
-from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.lock import Lock, try_lock
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
@@ -85,7 +85,9 @@ class Draft:
             lexicon,
             instructions=map(parse_instruction, self.instructions),
             pins=dict(self.marks),
-            proposed=None if proposed is None else tuple(Step(parse_instruction(i), c) for i, c in proposed),
+            proposed=None
+            if proposed is None
+            else tuple(DemonstratedStep(parse_instruction(i), c) for i, c in proposed),
             habits=habits,
         )
 

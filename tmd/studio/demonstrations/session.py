@@ -17,7 +17,7 @@ from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.semantics import bind
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
-from tmd.studio.demonstrations.clause_spans import Piece, clean, cut
+from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
 from tmd.studio.demonstrations.history import History
 from tmd.studio.object_info import About, about
 from tmd.veil.demonstration import Segment
@@ -29,7 +29,7 @@ MAX_STEPS = 500
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class DemonstratedStep:
     """One instruction of a demonstration.
 
     Attributes:
@@ -44,7 +44,7 @@ class Step:
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
+class StateChanges:
     """What an instruction changed: facts that it made true, and facts that it made false, sorted."""
 
     added: tuple[GroundAtom, ...]
@@ -55,7 +55,7 @@ class Changes:
 class _Version:
     """What undo goes back to: the steps, the states before and after each, and what the person marked."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[DemonstratedStep, ...]
     states: tuple[Bits, ...]
     pins: Mapping[int, int] = field(default_factory=lambda: MappingProxyType({}))
 
@@ -90,12 +90,12 @@ class Session:
         *,
         instructions: Iterable[Instruction] = (),
         pins: Mapping[int, int] | None = None,
-        proposed: tuple[Step, ...] | None = None,
+        proposed: tuple[DemonstratedStep, ...] | None = None,
         habits: Habits = NO_HABITS,
     ) -> None:
         self.world = world
         self.text = clean(text)
-        self.clauses: tuple[Piece, ...] = cut(self.text, lexicon)
+        self.clauses: tuple[ClauseSpan, ...] = cut(self.text, lexicon)
         self.proposed = None if proposed is None else _in_order(proposed, len(self.clauses))
         self._habits = habits
         self._wording = Wording(world.task.problem)
@@ -112,7 +112,7 @@ class Session:
         self._cursor = len(done)
 
     @property
-    def steps(self) -> tuple[Step, ...]:
+    def steps(self) -> tuple[DemonstratedStep, ...]:
         """All that was done and not undone."""
         return self._history.current.steps
 
@@ -152,7 +152,7 @@ class Session:
         """Whether something was taken back."""
         return self._history.can_redo
 
-    def do(self, instruction: Instruction) -> Step:
+    def do(self, instruction: Instruction) -> DemonstratedStep:
         """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
 
         Raises:
@@ -219,7 +219,7 @@ class Session:
             self._become(self._version(done, now.states, {**pins, step - 1: clause}))
             self._cursor = at
 
-    def changes(self, step: int) -> Changes:
+    def changes(self, step: int) -> StateChanges:
         """What a step changed.
 
         Raises:
@@ -229,7 +229,7 @@ class Session:
             self._known_step(step)
             before, after = self._history.current.states[step - 1 : step + 1]
             names = self.world.task.names
-            return Changes(tuple(names(after & ~before)), tuple(names(before & ~after)))
+            return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
 
     def about(self, name: str) -> About:
         """What is so of an object in the state that is looked at.
@@ -254,7 +254,7 @@ class Session:
     def _version(self, done: tuple[Instruction, ...], states: tuple[Bits, ...], pins: Mapping[int, int]) -> _Version:
         clauses = propose([piece.clause for piece in self.clauses], done, self.world, pins, self._habits)
         pairs = enumerate(zip(done, clauses, strict=True))
-        steps = tuple(Step(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
+        steps = tuple(DemonstratedStep(instruction, clause, number in pins) for number, (instruction, clause) in pairs)
         return _Version(steps, states, MappingProxyType(dict(pins)))
 
     def _known_pins(self, pins: Mapping[int, int], count: int) -> dict[int, int]:
@@ -290,14 +290,14 @@ def _first(version: _Version, steps: int) -> _Version:
     return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
 
 
-def _in_order(steps: Iterable[Step], clauses: int) -> tuple[Step, ...]:
+def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:
     """The steps with clauses that there are, never falling."""
-    found: list[Step] = []
+    found: list[DemonstratedStep] = []
     for step in steps:
         clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)
-        found.append(Step(step.instruction, clause, step.marked))
+        found.append(DemonstratedStep(step.instruction, clause, step.marked))
     return tuple(found)
 
 
-def _own(steps: Iterable[Step], clause: int) -> tuple[Instruction, ...]:
+def _own(steps: Iterable[DemonstratedStep], clause: int) -> tuple[Instruction, ...]:
     return tuple(step.instruction for step in steps if step.clause == clause)

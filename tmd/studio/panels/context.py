@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from tmd.inference.ranking import RankedPlan
-from tmd.studio.demonstrations.session import Session, Step
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
 from tmd.studio.view3d.playback import Reel
@@ -57,7 +57,7 @@ class PanelContext(Protocol):
     def execute(self, plan: RankedPlan) -> None:
         """Let the simulated robot carry a plan out."""
 
-    def open_correction(self, text: str, plan: Sequence[Step]) -> None:
+    def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
 
     def take_over(self, session: Session, goal: str) -> None:

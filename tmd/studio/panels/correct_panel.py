@@ -8,7 +8,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.goal import with_goal
 from tmd.studio.demonstrations.correction import Correction
-from tmd.studio.demonstrations.session import Step
+from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
 from tmd.studio.panels.html import fragment, step_list
@@ -63,7 +63,7 @@ class CorrectPanel:
         self._all.visible = False
         self._text.content = fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>")
 
-    def open(self, text: str, plan: Sequence[Step]) -> None:
+    def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text."""
         visitor = self._visitor
         self._correction = Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon)

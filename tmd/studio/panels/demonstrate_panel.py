@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.studio.applicable_actions import Group
+from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.panels.context import PanelContext
@@ -272,7 +272,7 @@ class DemonstratePanel:
                     self._offer(group)
             self._reasons.content = fragment(refused(groups))
 
-    def _offer(self, group: Group) -> None:
+    def _offer(self, group: ActionGroup) -> None:
         gui, guarded = self._visitor.client.gui, self._visitor.guarded
         possible = [offer.instruction for offer in group.offers if offer.applies]
         whole = self._visitor.selected

@@ -10,7 +10,7 @@ from html import escape
 
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.pddl.semantics import holds
-from tmd.studio.applicable_actions import Group
+from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
 from tmd.view.goals import ShownGoal
 
@@ -121,7 +121,7 @@ def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
     return f"<h4>{escape(known.name)}: {escape(known.kind or 'object')}{of}</h4>{parts}{''.join(blocks)}"
 
 
-def refused(groups: Iterable[Group]) -> str:
+def refused(groups: Iterable[ActionGroup]) -> str:
     """Instructions that do not apply, each with what it lacks."""
     lines = [
         f'<li class="quiet">{escape(str(offer.instruction))}<br><small>✗ {escape(offer.why)}</small></li>'

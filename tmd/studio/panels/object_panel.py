@@ -7,7 +7,7 @@ from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, object_facts
 from tmd.studio.panels.widgets import chosen, put
 from tmd.view.markup import style
-from tmd.view.object_graph.graph import Changes, object_graph
+from tmd.view.object_graph.graph import GraphChanges, object_graph
 
 NOTHING = "(nothing)"
 
@@ -57,7 +57,7 @@ class ObjectPanel:
         gains = changed(*(sorted(a for a in more if name in a.args) for more in (now - before, before - now)))
         lines = "".join(f"<li>{line}</li>" for line in gains)
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
-        graph = object_graph(world, now, name, Changes(now - before, before - now))
+        graph = object_graph(world, now, name, GraphChanges(now - before, before - now))
         said = visitor.studio.offers(visitor.setting.name).wording.fact
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
         facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)

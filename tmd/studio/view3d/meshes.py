@@ -21,7 +21,7 @@ _GREY = (0.7, 0.7, 0.72, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class Piece:
+class MeshPiece:
     """What is seen of a link and of the links that are fixed to it.
 
     Attributes:
@@ -41,7 +41,7 @@ class Piece:
 
 def pieces(
     root: ET.Element, apart: Collection[str] = (), paint: Callable[[str], tuple[float, ...]] | None = None
-) -> list[Piece]:
+) -> list[MeshPiece]:
     """The pieces of a URDF.
 
     Args:
@@ -63,7 +63,7 @@ def pieces(
             if mesh is not None:
                 mesh.apply_transform(frame @ origin(visual.find("origin")))
                 groups.setdefault(carrier, []).append(mesh)
-    return [Piece(name, _together(groups[name])) for name in links if name in groups]
+    return [MeshPiece(name, _together(groups[name])) for name in links if name in groups]
 
 
 def _carrier(tree: Tree | None, name: str, apart: Collection[str]) -> tuple[str, Array]:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import GroundAtom
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.session import Stage
+from tmd.robot.session import SimulationSession
 from tmd.studio.environment_view import Look, Setting
 from tmd.studio.view3d.robot_mesh import Figure
 from tmd.studio.view3d.scenery import Scenery
@@ -18,7 +18,7 @@ from tmd.world.folder import DomainFolder
 
 if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
-    from tmd.robot.skills.results import Step
+    from tmd.robot.skills.results import ExecutedStep
 
 EVERY = 16
 """Physics steps from one picture to the next: 15 a simulated second."""
@@ -41,7 +41,13 @@ class _Audience:
     """
 
     def __init__(
-        self, stage: Stage, scenery: Scenery, look: Look, figure: Figure, ended: Event, tell: Callable[[str], None]
+        self,
+        stage: SimulationSession,
+        scenery: Scenery,
+        look: Look,
+        figure: Figure,
+        ended: Event,
+        tell: Callable[[str], None],
     ) -> None:
         self._stage = stage
         self._scenery = scenery
@@ -77,7 +83,7 @@ class _Audience:
         mend = "to mend the plan: " if title.repair else ""
         self._tell(f"The robot, step {title.number} of {title.of}: {mend}{title.instruction}")
 
-    def end(self, title: Title, step: Step) -> None:
+    def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: what it changed is seen."""
         for place, colour in self._look.still.colours(step.state).items():
             self._scenery.paint(place, colour)
@@ -114,7 +120,7 @@ def perform(
     if look is None:
         return setting.blind
     orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
-    with Stage(load_environment(setting.path), folder, setting.world.task.problem) as stage:
+    with SimulationSession(load_environment(setting.path), folder, setting.world.task.problem) as stage:
         audience = _Audience(stage, scenery, look, figure, ended, tell)
         audience.show()
         stage.sim.add_watcher(audience)

@@ -15,7 +15,7 @@ from tmd.robot.pr2.posture import TUCKED
 from tmd.robot.pr2.urdf import HEAD, TORSO, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.video.symbolic_renderer import HANDS
-from tmd.studio.view3d.meshes import Piece, pieces
+from tmd.studio.view3d.meshes import MeshPiece, pieces
 
 _TORSO = 0.15
 """Metres: how high it is lifted."""
@@ -39,7 +39,7 @@ class Figure:
         model = prepare()
         root = ET.fromstring(model.urdf.read_bytes())
         self._tree = Tree(root)
-        self.pieces: tuple[Piece, ...] = tuple(pieces(root, paint=robot_colour))
+        self.pieces: tuple[MeshPiece, ...] = tuple(pieces(root, paint=robot_colour))
 
     def links(self, positions: Mapping[str, float]) -> dict[str, Pose]:
         """Where each piece is in the world, or in the robot's frame where the base joints are not given."""

@@ -9,7 +9,7 @@ from html import escape
 from tmd.pddl.model import GroundAtom, State
 from tmd.veil.world import World
 from tmd.view.object_graph.anatomy import Anatomy, Aspect, Edge, anatomy, aspects
-from tmd.view.object_graph.layout import LINE, PAD, Box, place
+from tmd.view.object_graph.layout import LINE, PAD, VertexBox, place
 
 LONGEST = 36
 """Longer lines are cut; the whole is shown when the pointer rests on it."""
@@ -20,7 +20,7 @@ _SIGNS = {"added": "+ ", "removed": "− ", "": ""}
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
+class GraphChanges:
     """What to mark: facts that came about, and facts that ceased to hold or are about to.
 
     A removed fact that no longer holds in the state drawn is shown as well, struck out.
@@ -36,7 +36,7 @@ class _Line:
     mark: str = ""
 
 
-def object_graph(world: World, state: State, name: str, changes: Changes | None = None) -> str:
+def object_graph(world: World, state: State, name: str, changes: GraphChanges | None = None) -> str:
     """Draw an object: its parts, the edges between them, their states, and what it is related to.
 
     Args:
@@ -54,7 +54,7 @@ def object_graph(world: World, state: State, name: str, changes: Changes | None 
     return draw(anatomy(world.task.problem), state, name, changes)
 
 
-def draw(graph: Anatomy, state: State, name: str, changes: Changes | None = None) -> str:
+def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None = None) -> str:
     """As :func:`object_graph`, for many drawings of one environment.
 
     Raises:
@@ -63,7 +63,7 @@ def draw(graph: Anatomy, state: State, name: str, changes: Changes | None = None
     root = graph.whole(name)
     if root not in graph.classes:
         raise KeyError(name)
-    lines = _all_lines(graph, state, root, changes or Changes())
+    lines = _all_lines(graph, state, root, changes or GraphChanges())
     edges = [edge for edge in graph.edges.get(root, ()) if edge.tail in lines and edge.head in lines]
     sizes = {v: (max(len(_cut(_signed(line))) for line in found), len(found)) for v, found in lines.items()}
     boxes = place(root, sizes, edges)
@@ -72,7 +72,7 @@ def draw(graph: Anatomy, state: State, name: str, changes: Changes | None = None
     return _svg(root, max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values()), inner)
 
 
-def _all_lines(graph: Anatomy, state: State, root: str, changes: Changes) -> dict[str, list[_Line]]:
+def _all_lines(graph: Anatomy, state: State, root: str, changes: GraphChanges) -> dict[str, list[_Line]]:
     """For every vertex its name, then its facts."""
     facts = state | frozenset(changes.removed)
     known = {vertex: aspects(graph, vertex, facts) for vertex in graph.vertices(root)}
@@ -90,7 +90,7 @@ def _title(graph: Anatomy, vertex: str) -> _Line:
     return _Line(name if kind in (None, name) else f"{name}: {kind}")
 
 
-def _fact(aspect: Aspect, state: State, changes: Changes) -> _Line:
+def _fact(aspect: Aspect, state: State, changes: GraphChanges) -> _Line:
     mark = "added" if aspect.atom in changes.added else "removed" if aspect.atom in changes.removed else ""
     if aspect.atom not in state:
         mark = "removed"
@@ -115,7 +115,7 @@ def _svg(name: str, right: int, bottom: int, inner: str) -> str:
     )
 
 
-def _vertex(box: Box, lines: list[_Line], is_root: bool) -> str:
+def _vertex(box: VertexBox, lines: list[_Line], is_root: bool) -> str:
     shape = f'<rect x="{box.x}" y="{box.y}" width="{box.width}" height="{box.height}" rx="4"/>'
     texts = "".join(_text(box.x + PAD, box.y + LINE * (place + 1) - 3, line, place) for place, line in enumerate(lines))
     return f'<g class="{"root" if is_root else "part"}">{shape}{texts}</g>'
@@ -130,7 +130,7 @@ def _text(x: int, y: int, line: _Line, place: int) -> str:
     return f'<text x="{x}" y="{y}"{kind}>{whole}{said}</text>'
 
 
-def _edge(edge: Edge, boxes: Mapping[str, Box]) -> str:
+def _edge(edge: Edge, boxes: Mapping[str, VertexBox]) -> str:
     """A curve with an arrow head and its word."""
     tail, head = boxes[edge.tail], boxes[edge.head]
     x, y, to_x, to_y = tail.right, tail.middle, head.x, head.middle
@@ -141,7 +141,7 @@ def _edge(edge: Edge, boxes: Mapping[str, Box]) -> str:
     return f'<g class="edge">{path}{_arrow(to_x, to_y)}{_word(edge, x + bend, (y + to_y) // 2 - 3)}</g>'
 
 
-def _bow(edge: Edge, tail: Box, head: Box) -> str:
+def _bow(edge: Edge, tail: VertexBox, head: VertexBox) -> str:
     """An edge that leads back: below the boxes and around."""
     low = max(tail.bottom, head.bottom) + 6
     path = f'<path d="M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"/>'

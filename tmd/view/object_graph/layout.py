@@ -17,7 +17,7 @@ GAP_X, GAP_Y = 26, 12
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class VertexBox:
     """A vertex: where it stands and how large it is, in pixels."""
 
     x: int
@@ -41,7 +41,7 @@ class Box:
         return self.y + self.height // 2
 
 
-def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]) -> dict[str, Box]:
+def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]) -> dict[str, VertexBox]:
     """A box for every vertex.
 
     What an edge leads to stands right of where it comes from. The object itself stands last, unless it leads on.
@@ -51,7 +51,7 @@ def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]
         sizes: For every vertex characters and lines of its text.
         edges: The edges between them.
     """
-    boxes: dict[str, Box] = {}
+    boxes: dict[str, VertexBox] = {}
     x = 0
     columns = _columns(root, list(sizes), edges)
     heights = {name: lines * LINE + PAD for name, (_, lines) in sizes.items()}
@@ -60,7 +60,7 @@ def place(root: str, sizes: Mapping[str, tuple[int, int]], edges: Sequence[Edge]
         width = max(round(sizes[name][0] * CHARACTER) + 2 * PAD for name in column)
         y = (tallest - sum(heights[name] + GAP_Y for name in column)) // 2
         for name in column:
-            boxes[name] = Box(x, y, width, heights[name])
+            boxes[name] = VertexBox(x, y, width, heights[name])
             y += heights[name] + GAP_Y
         x += width + _gap(column, columns[number + 1 :], edges)
     return boxes

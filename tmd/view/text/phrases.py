@@ -18,7 +18,7 @@ _WIDER = 3
 
 
 @dataclass(frozen=True, slots=True)
-class Phrase:
+class TextPhrase:
     """Words of a clause.
 
     Attributes:
@@ -32,7 +32,7 @@ class Phrase:
     name: str
 
 
-def phrases(text: str, clause: Clause) -> list[Phrase]:
+def phrases(text: str, clause: Clause) -> list[TextPhrase]:
     """The verb's words and each object's, as far as they are found in the clause's piece of the text, in order.
 
     What the parser read from other words than are written there (a missing object, say) has none.
@@ -46,7 +46,7 @@ def phrases(text: str, clause: Clause) -> list[Phrase]:
             used |= set(places)
             found += [(run, kind, name) for run in _runs(places)]
     spans = [(Span(start + tokens[run[0]].span.start, start + tokens[run[-1]].span.end), k, n) for run, k, n in found]
-    return [Phrase(*entry) for entry in sorted(spans)]
+    return [TextPhrase(*entry) for entry in sorted(spans)]
 
 
 def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
