@@ -36,9 +36,7 @@ COMMANDS = (
     "data",
     "experiment",
 )
-"""The sub-commands, in the order in which a newcomer meets them; each is the module of its name."""
-_MODULES = {"scene": "show_scene"}
-"""But for these."""
+"""The sub-commands, in the order in which a newcomer meets them; each is the module of its name in :mod:`tmd.cli.commands`."""
 
 
 class _Commands(click.Group):
@@ -50,7 +48,7 @@ class _Commands(click.Group):
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
         if cmd_name not in COMMANDS:
             return None
-        command = import_module(f"tmd.cli.{_MODULES.get(cmd_name, cmd_name)}").command
+        command = import_module(f"tmd.cli.commands.{cmd_name}").command
         assert isinstance(command, click.Command)
         return command
 
