@@ -212,7 +212,7 @@ def read_plan(path: str | Path, problem: Problem | None = None) -> tuple[Instruc
         problem: Where the plan is for plan-resolved STRIPS: the problem that was exported.
 
     Raises:
-        TmdError: The file cannot be read, or a line of it is no instruction.
+        TmdError: The file cannot be read, or a line of it is not an instruction.
     """
     plan = read_plan_file(path).instructions
     return plan if problem is None else restored(problem, plan)

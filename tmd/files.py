@@ -24,7 +24,7 @@ def write_text(path: str | Path, text: str) -> None:
 def write_bytes(path: str | Path, data: bytes) -> None:
     """Write ``data`` to a new file beside ``path``, and let it take the place of ``path``.
 
-    A link stays a link. What is no regular file (``/dev/null``, a pipe) is written to as it is.
+    A link stays a link. What is not a regular file (``/dev/null``, a pipe) is written to as it is.
 
     Raises:
         OutputError: It cannot be written; what stood there before still stands.

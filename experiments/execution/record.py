@@ -30,7 +30,7 @@ class Case:
         end_state: Literals that hold when all is done.
         physics: Under physics; otherwise kinematically.
         fault: Which kind of fault is injected; empty for none.
-        seed: Of everything random. With 0 things stand exactly where they should; other seeds move them a little.
+        seed: Random seed. With 0 things stand exactly where they should; other seeds move them a little.
         repairs: So often the plan may be mended.
         twice: Run it two times and compare the trajectories.
     """
@@ -90,7 +90,7 @@ class Record:
         environment: Where.
         mode: ``kinematic`` or ``physics``.
         fault: The kind of fault that was asked for.
-        seed: Of everything random.
+        seed: Random seed.
         status: ``done``, ``recovered``, ``stopped``, or ``error``.
         reason: Why it did not get to the end.
         repairs: How often the plan was mended.

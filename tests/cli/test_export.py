@@ -111,9 +111,9 @@ def test_a_prediction_of_a_run(tmd: Tmd, tmp_path: Path) -> None:
 def test_a_run_that_is_none(tmd: Tmd, tmp_path: Path) -> None:
     run = run_directory(tmp_path / "run", 1)
     (run / "predictions.jsonl").write_text('{"id": "a"}\n')
-    assert "run/predictions.jsonl:1:1: this line is no prediction" in tmd("export", run, "out").err
+    assert "run/predictions.jsonl:1:1: this line is not a prediction" in tmd("export", run, "out").err
     (run / "predictions.jsonl").write_text("{\n")
-    assert "run/predictions.jsonl:1:1: this is no JSON" in tmd("export", run, "out").err
+    assert "run/predictions.jsonl:1:1: this is not valid JSON" in tmd("export", run, "out").err
     (run / "config.json").unlink()
     assert "is no directory of a finished run" in tmd("export", run, "out").err
 
@@ -141,7 +141,7 @@ CASES = {
     "example-of-problem": (ExitCode.USAGE, [PROBLEM, "out", "--example", "x"], "are for the directory of a run"),
     "no-json": (ExitCode.BAD_INPUT, [ROOT / "docs" / "cli.json", "out"], "cannot be read"),
     "not-empty": (ExitCode.CANNOT_WRITE, [PROBLEM, BLOCKS], "cannot be written: it is not empty"),
-    "a-file": (ExitCode.CANNOT_WRITE, [PROBLEM, PLAN], "cannot be written: it is no directory"),
+    "a-file": (ExitCode.CANNOT_WRITE, [PROBLEM, PLAN], "cannot be written: it is not a directory"),
 }
 
 

@@ -130,7 +130,7 @@ GOALS = {
 
 @pytest.mark.parametrize("text", GOALS)
 def test_a_problem_for_any_planner(tmd: Tmd, tmp_path: Path, text: str) -> None:
-    """The goal is what shall hold at the end; what later clauses undo is no part of it."""
+    """The goal is what shall hold at the end; what later clauses undo is not a part of it."""
     ended = tmd("ground", *STUDY, text, "--goal-only")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
     (tmp_path / "asked.pddl").write_text(ended.out)

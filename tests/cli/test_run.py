@@ -252,7 +252,12 @@ WITH_ROBOT = {
         r"error: no window can be opened.*\nhint: .*--video",
     ),
     "no-urdf": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "none.urdf"], "", r"error: .*none\.urdf"),
-    "other-robot": (ExitCode.BAD_INPUT, [*KITCHEN, *TEXT, "--urdf", "box.urdf"], "", r"error: box\.urdf is no PR2: "),
+    "other-robot": (
+        ExitCode.BAD_INPUT,
+        [*KITCHEN, *TEXT, "--urdf", "box.urdf"],
+        "",
+        r"error: box\.urdf is not a PR2: ",
+    ),
     "no-meshes": (
         ExitCode.BAD_INPUT,
         [*KITCHEN, *TEXT, "--urdf", "lost.urdf"],

@@ -57,7 +57,7 @@ def test_a_room_of_veil500(tmd: Tmd, tmp_path: Path) -> None:
     [
         (["--environment", "kitchen9"], ExitCode.BAD_INPUT, r"error: there is no environment 'kitchen9'"),
         (["--environment", "none.yaml"], ExitCode.BAD_INPUT, r"error: none\.yaml"),
-        (["--environment", "none.xml"], ExitCode.BAD_DATA, r"error: .*none\.xml is no environment of VEIL-500"),
+        (["--environment", "none.xml"], ExitCode.BAD_DATA, r"error: .*none\.xml is not an environment of VEIL-500"),
         (["--environment", BLOCKS / "p01.pddl"], ExitCode.BAD_INPUT, r"error: .*no scene of it"),
         (["--environment", "kitchen1", "--picture", "a.jpg"], ExitCode.USAGE, r"error: .*does not end in \.png"),
         (["--environment", "kitchen1", "--picture", "no/a.png"], ExitCode.CANNOT_WRITE, r"error: no/a\.png cannot be"),

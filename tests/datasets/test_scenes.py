@@ -35,8 +35,8 @@ def test_what_there_is_and_where(kitchen: VeilScene) -> None:
 
 def test_what_differs_is_told(kitchen: VeilScene) -> None:
     assert kitchen.remarks == (
-        "fridgeleftdoor: it is no part of its own here, but stands for fridge",
-        "icecreamscoop: it is no part of its own here, but stands for spoon_1",
+        "fridgeleftdoor: it is not a part of its own here, but stands for fridge",
+        "icecreamscoop: it is not a part of its own here, but stands for spoon_1",
         "robinia_7: nobody said what such a thing looks like, so it is a plain counter",
     )
 

@@ -33,7 +33,7 @@ def test_it_takes_what_we_write(tool: str, form: str, blocks: Path) -> None:
     try:
         version(package)
     except PackageNotFoundError:
-        pytest.skip(f"{package} is not installed; it is no dependency of development")
+        pytest.skip(f"{package} is not installed; it is not a dependency of development")
     cell = measure(planned_case("blocks"), "blocks", blocks, tool, form, sys.executable, SECONDS)
     assert cell.accepts, cell.why
     assert cell.solves is not False, cell.why

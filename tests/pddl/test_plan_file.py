@@ -56,7 +56,7 @@ def test_files(tmp_path: Path) -> None:
         ("(a b)\n  c d\n", 2, 3, "one (name argument ...) a line"),
         ("(a b) (c d)\n", 1, 1, "one (name argument ...) a line"),
         ("(a b\n", 1, 1, "one (name argument ...) a line"),
-        ("; nothing\n()\n", 2, 1, "() is no instruction"),
+        ("; nothing\n()\n", 2, 1, "() is not an instruction"),
         ("(a b!c)\n", 1, 4, '"b!c" is not a name'),
         ("0.0.0: (a b) [1.0]\n", 1, 1, '"0.0.0" is no time'),
         ("0.000: (a b) [1.0.1]\n", 1, 15, '"1.0.1" is no time'),

@@ -271,7 +271,7 @@ def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
 
 
 def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """How a thing is held is no fact of PDDL: what cannot be put down somewhere is put elsewhere and taken anew."""
+    """How a thing is held is not a fact of PDDL: what cannot be put down somewhere is put elsewhere and taken anew."""
 
     def into(instruction: Instruction) -> bool:
         return instruction.name == "keep" and instruction.args[1:] == ("microwave1", "in")

@@ -1,4 +1,4 @@
-"""The PR2's model: the packaged one is repaired, and what is no PR2 is refused in one line."""
+"""The PR2's model: the packaged one is repaired, and what is not a PR2 is refused in one line."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_another_robot_is_refused_with_what_it_lacks(tmp_path: Path) -> None:
     path = tmp_path / "cart.urdf"
     path.write_text('<robot name="cart"><link name="base_footprint"/></robot>')
     with pytest.raises(
-        TmdError, match=r"cart\.urdf is no PR2: 25 joints missing: torso_lift_joint, .*base_link"
+        TmdError, match=r"cart\.urdf is not a PR2: 25 joints missing: torso_lift_joint, .*base_link"
     ) as caught:
         pr2_urdf.prepare(path)
     assert "\n" not in str(caught.value)

@@ -157,7 +157,7 @@ def test_what_cannot_be_saved(table: Corpus, kitchen: Corpus) -> None:
         archive.save(Session(table.world("corner1"), TEXT, table.lexicon))
     problem = table.world("corner2").task.problem
     elsewhere = make_world("attic", problem, table.lexicon)
-    with pytest.raises(TmdError, match="'attic' is no environment in"):
+    with pytest.raises(TmdError, match="'attic' is not an environment in"):
         archive.refuse(elsewhere)
     with pytest.raises(TmdError, match="'corner1' is not the environment of that name"):
         archive.refuse(make_world("corner1", problem, table.lexicon))

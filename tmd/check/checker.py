@@ -176,7 +176,7 @@ class Checker:
         self.files[file] = None
         try:
             if file.is_file() and file.stat().st_size > MAX_BYTES:
-                hint = "this is no file that people write"
+                hint = "this is not a file that people write"
                 message = f"larger than {MAX_BYTES // 1_000_000} MB"
                 raise TmdError(message, location=Location(str(file), 1, 1), hint=hint, code="too-large")
             return read_text(file)

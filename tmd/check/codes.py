@@ -57,7 +57,7 @@ _ERRORS = {
     "missing-role": "a skill that is not told what it needs",
     "stale-domain": "a domain.pddl that is not what its sources compile to",
     "bad-goal": "a goal of a verb that is not of the form of one",
-    "bad-demonstration": "a line that is no demonstration",
+    "bad-demonstration": "a line that is not a demonstration",
     "unknown-environment": "an environment that is not there",
     "not-executable": "a demonstration that cannot be executed",
     "goal-not-reached": "a goal that does not hold at the end of its demonstration",

@@ -171,7 +171,7 @@ class DataFiles:
     def _domain_of(self, file: Path, name: str) -> DomainFolder:
         """The folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
-            raise YamlSource(file).error(("domain",), f"'{name}' is no name of a domain", None, "outside-folder")
+            raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
         for above in list(file.resolve().parents)[:4]:
             path = above / "domains" / name
             if (path / "domain.pddl").is_file():

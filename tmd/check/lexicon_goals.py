@@ -107,7 +107,7 @@ class Written:
         return begin
 
     def _signs(self, begin: Location) -> Iterator[tuple[int, int]]:
-        """The places of what is no blank, from ``begin`` on; the sign of a block (``>-``) is none of them."""
+        """The places of what is not a blank, from ``begin`` on; the sign of a block (``>-``) is none of them."""
         block = self.lines[begin.line - 1][begin.column - 1 :].startswith(("|", ">"))
         for number in range(begin.line + block, len(self.lines) + 1):
             line = self.lines[number - 1]

@@ -27,7 +27,7 @@ def check_lexicon(path: Path, actions: Collection[str], names: Collection[str], 
         texts: The texts of the domain's demonstrations.
 
     Raises:
-        TmdError: The file is no lexicon.
+        TmdError: The file is not a lexicon.
     """
     lexicon = read_lexicon(path)
     source = _Lines(path)

@@ -76,7 +76,7 @@ def _fault(pattern: str, actions: list[str] | None) -> tuple[str, str]:
     try:
         known = re.compile(pattern, re.IGNORECASE)
     except re.error as error:
-        return "bad-value", f"'{pattern}' is no pattern: {error}"
+        return "bad-value", f"'{pattern}' is not a pattern: {error}"
     if _SLOW.search(pattern):
         return "", ""
     if actions is not None and not any(known.search(action) for action in actions):

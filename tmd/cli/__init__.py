@@ -1,4 +1,4 @@
-"""The command line. One module for each sub-command; what they call lies in the rooms below.
+"""The command line: a module for each command, what they are given, and what they print.
 
 Nothing heavy is imported before a command needs it: ``tmd --help`` is to be there at once.
 """

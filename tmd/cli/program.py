@@ -36,7 +36,7 @@ COMMANDS = (
     "data",
     "experiment",
 )
-"""The sub-commands, in the order in which a newcomer meets them; each is the module of its name in :mod:`tmd.cli.commands`."""
+"""The sub-commands, in the order in which a newcomer meets them; :mod:`tmd.cli.commands` has a module for each."""
 
 
 class _Commands(click.Group):

@@ -123,7 +123,7 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem, warnings: Se
     """What became of a test whose text was grounded in ``problem``.
 
     Raises:
-        TmdError: The goal of the test is no condition of the domain; with the test's place.
+        TmdError: The goal of the test is not a condition of the domain; with the test's place.
     """
     wanted = None
     if test.goal is not None:

@@ -17,16 +17,16 @@ def check_directory(directory: Path, *, overwrite: bool = False) -> None:
     """Refuse a directory that cannot be written, before any work is done for it.
 
     Raises:
-        OutputError: It is no directory, holds other files, or may not be written to.
+        OutputError: It is not a directory, holds other files, or may not be written to.
     """
     reason, hint = "", "name a directory that does not exist yet"
     try:
         if directory.exists() and not directory.is_dir():
-            reason = "it is no directory"
+            reason = "it is not a directory"
         elif directory.is_dir() and any(directory.iterdir()) and not overwrite:
             reason, hint = "it is not empty", "name another directory, or give --overwrite"
         elif not _first_above(directory).is_dir():
-            reason = f"{_first_above(directory)} is no directory"
+            reason = f"{_first_above(directory)} is not a directory"
         elif not os.access(_first_above(directory), os.W_OK | os.X_OK):
             reason, hint = "permission denied", "name a directory that you may write to"
     except OSError as error:

@@ -184,7 +184,7 @@ class _Reader:
 def _named(name: str) -> str:
     plain = name.lower()
     if not _NAME.fullmatch(plain):
-        raise TmdError(f"'{name}' is no name in PDDL", hint="names have letters, digits, _ and -, a letter first")
+        raise TmdError(f"'{name}' is not a name in PDDL", hint="names have letters, digits, _ and -, a letter first")
     return plain
 
 

@@ -91,7 +91,7 @@ def parse_record(text: str, file: str = "<text>") -> Planned:
     """The planned problem in a record.
 
     Raises:
-        TmdError: The text is no record, or its plan does not work.
+        TmdError: The text is not a record, or its plan does not work.
     """
     from pydantic import ValidationError
 

@@ -60,7 +60,7 @@ class Strips:
         found = []
         for step in plan:
             if step.name not in self.instructions or step.args:
-                raise TmdError(f"{step} is no action of the exported problem")
+                raise TmdError(f"{step} is not an action of the exported problem")
             found.append(self.instructions[step.name])
         return tuple(found)
 

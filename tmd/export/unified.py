@@ -89,7 +89,7 @@ def plan_from_unified_planning(plan: UpPlan) -> tuple[Instruction, ...]:
     elif isinstance(plan, TimeTriggeredPlan):
         actions = [action for _, action, _ in sorted(plan.timed_actions, key=lambda timed: timed[0])]
     else:
-        raise TmdError(f"a {type(plan).__name__} is no sequence of instructions", hint="give a SequentialPlan")
+        raise TmdError(f"a {type(plan).__name__} is not a sequence of instructions", hint="give a SequentialPlan")
     return tuple(
         Instruction(a.action.name.lower(), tuple(str(argument).lower() for argument in a.actual_parameters))
         for a in actions

@@ -52,7 +52,7 @@ class GoalStep:
 
 
 def in_order(clauses: Sequence[Clause]) -> tuple[GoalStep, ...]:
-    """The steps of a text in the order of doing; what is to be kept is no step."""
+    """The steps of a text in the order of doing; what is to be kept is not a step."""
     heading = next((clause for clause in clauses if clause.heading), None)
     if heading is not None and not heading.implied:
         clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]

@@ -1,4 +1,4 @@
-"""What the language room hands to the others: verb clauses, C = (ν, [obj], ρ) of section III-A."""
+"""What the language package gives to the others: verb clauses, C = (ν, [obj], ρ) of section III-A."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def read_clause(text: str, file: str = "<clause>", line: int = 1) -> Clause:
     """Read the paper's notation, as :func:`print_clause` writes it.
 
     Raises:
-        TmdError: The text is no clause; the place is the first sign that cannot be read.
+        TmdError: The text is not a clause; the place is the first sign that cannot be read.
     """
     match = _CLAUSE.match(text.strip())
     if match is None:

@@ -49,7 +49,7 @@ def read_plan(path: str | Path) -> Plan:
     """The plan in the file at ``path``.
 
     Raises:
-        TmdError: The file cannot be read, or a line of it is no instruction.
+        TmdError: The file cannot be read, or a line of it is not an instruction.
     """
     return parse_plan(read_text(path), str(path))
 
@@ -63,7 +63,7 @@ def parse_plan(text: str, file: str = "<text>") -> Plan:
     their times; where those overlap, :attr:`Plan.overlap` says so.
 
     Raises:
-        TmdError: A line is no instruction, or only some lines have a time.
+        TmdError: A line is not an instruction, or only some lines have a time.
     """
     lines = split_lines(text)
     first = _after_preamble(lines)
@@ -155,7 +155,7 @@ def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
         )
     words = code[1:-1].lower().split()
     if not words:
-        raise TmdError("() is no instruction", location=place, source=line, hint="write (name argument ...)")
+        raise TmdError("() is not an instruction", location=place, source=line, hint="write (name argument ...)")
     for word in words:
         if not _NAME.fullmatch(word):
             column = place.column + code.lower().find(word)
@@ -210,7 +210,7 @@ def parse_instruction(text: str, *, file: str = "<text>", line: int = 1, column:
         column: The column at which ``text`` begins, for errors.
 
     Raises:
-        TmdError: It is no instruction.
+        TmdError: It is not an instruction.
     """
 
     def error(message: str, offset: int, hint: str = "write name(argument, ...)") -> TmdError:

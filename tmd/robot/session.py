@@ -40,7 +40,7 @@ class SimulationSession:
         folder: Its domain, with shapes and skills.
         problem: The environment as PDDL.
         kinematic: Set joints along their paths instead of driving motors.
-        seed: Of everything random. With 0 all things stand exactly where they are said to be; other seeds move them
+        seed: Random seed. With 0 all things stand exactly where they are said to be; other seeds move them
             by millimetres.
         urdf: Another PR2 than the packaged one.
         gui: Open a window, and go no faster than real time.
@@ -54,7 +54,7 @@ class SimulationSession:
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
-        TmdError: The domain has no skills or no shapes, the scene cannot be built, or ``urdf`` is no PR2.
+        TmdError: The domain has no skills or no shapes, the scene cannot be built, or ``urdf`` is not a PR2.
     """
 
     def __init__(

@@ -33,7 +33,7 @@ def make_cell(sim: Simulator, scene: Scene, *, seed: int, kinematic: bool, urdf:
 
     Raises:
         MissingToolError: The robot's model is not installed.
-        TmdError: ``urdf`` is no PR2.
+        TmdError: ``urdf`` is not a PR2.
     """
     rng = np.random.default_rng(seed)
     robot = Pr2(sim, urdf=urdf, kinematic=kinematic, rng=rng)

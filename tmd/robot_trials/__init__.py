@@ -1,8 +1,8 @@
 """What an experiment ends with: a robot carries out predictions that were made in it.
 
-This room stands above experiments and robot, which do not know each other. It reads the predictions of a finished
+This package stands above experiments and robot, which do not import each other. It reads the predictions of a finished
 run (:mod:`tmd.robot_trials.choice`), lets the robot carry out one for each environment
 (:mod:`tmd.robot_trials.perform`), and leaves records and films in the run's directory (:mod:`tmd.robot_trials.run`),
-where the report finds them. For the same reason it is the room that writes a page on each prediction that the report
+where the report finds them. For the same reason it writes a page on each prediction that the report
 shows (:mod:`tmd.robot_trials.pages`).
 """

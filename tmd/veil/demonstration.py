@@ -112,7 +112,7 @@ def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
     """The demonstration in line ``number`` of a corpus.
 
     Raises:
-        TmdError: The line is no demonstration; with its place.
+        TmdError: The line is not a demonstration; with its place.
     """
     return _Line(path, number).read(line)
 

@@ -30,7 +30,7 @@ def read_goal(demonstration: Demonstration, problem: Problem) -> Formula | None:
         problem: Its environment.
 
     Raises:
-        TmdError: It is no condition, or speaks of what the environment does not have; with file, line and column.
+        TmdError: It is not a condition, or speaks of what the environment does not have; with file, line and column.
     """
     if demonstration.goal is None:
         return None

@@ -1,6 +1,6 @@
 """Which objects of an environment a noun may mean.
 
-The evidence about words is the language room's (:func:`tmd.language.lexicon.nouns.rank`). Here it meets the
+The evidence about words comes from the language package (:func:`tmd.language.lexicon.nouns.rank`). Here it meets the
 environment: a noun that names no object but something an object contains (*coffee*, *raspberry syrup*) means what
 contains it.
 """

@@ -35,7 +35,7 @@ def goal_holds(goal: str, problem: Problem, state: State) -> bool:
     """Whether a closed PDDL condition, as a text, holds in a state of ``problem``.
 
     Raises:
-        TmdError: It is no condition, or speaks of what the problem does not have.
+        TmdError: It is not a condition, or speaks of what the problem does not have.
     """
     return holds(with_goal(problem, goal, "goal").goal, state, problem)
 
@@ -83,7 +83,7 @@ def _broken(demonstration: Demonstration, number: int, world: World) -> str:
 def _literal_holds(literal: str, state: State) -> bool:
     words = literal.replace("(", " ").replace(")", " ").split()
     if not words or words == ["not"]:
-        raise TmdError(f"'{literal}' is no literal", hint="write (predicate name …) or (not (predicate name …))")
+        raise TmdError(f"'{literal}' is not a literal", hint="write (predicate name …) or (not (predicate name …))")
     positive = words[0] != "not"
     atom = words if positive else words[1:]
     return (GroundAtom(atom[0], tuple(atom[1:])) in state) == positive

@@ -20,7 +20,7 @@ def demonstrated_subject(
     """A demonstration, with its text parsed, its instructions by segment, and its goal if it has one.
 
     Raises:
-        TmdError: The goal is no condition of the environment.
+        TmdError: The goal is not a condition of the environment.
     """
     problem = world.task.problem
     parsed = parse(demonstration.text, lexicon)

@@ -1,4 +1,4 @@
-"""The templates of this room, and the style that all of its pieces share."""
+"""The templates of this package, and the style that all of its pieces share."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def style() -> str:
 
 @cache
 def data(name: str) -> str:
-    """A file of this room."""
+    """A file of this package."""
     return (_DATA / name).read_text(encoding="utf-8")
 
 

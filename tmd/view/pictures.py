@@ -52,7 +52,7 @@ def read_strip(data: bytes, count: int) -> Strip | None:
         count: How many instructions were carried out.
 
     Returns:
-        The strip; without tiles where the sheet cannot be of so many pictures, and ``None`` for what is no PNG.
+        The strip; without tiles where the sheet cannot be of so many pictures, and ``None`` for what is not a PNG.
     """
     if len(data) < _HEADER.size or not data.startswith(_SIGNATURE):
         return None

@@ -275,7 +275,7 @@ class Classes:
         words = _words(edge)
         if len(words) < 3:
             raise self.source.error(
-                ("classes", owner, "edges", index), f"'{edge}' is no edge", "write `tail predicate head`"
+                ("classes", owner, "edges", index), f"'{edge}' is not an edge", "write `tail predicate head`"
             )
         tail, predicate, head, *more = words
         for vertex in (tail, head):

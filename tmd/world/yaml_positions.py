@@ -211,5 +211,5 @@ def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mar
 def _read(path: Path) -> str:
     if path.is_file() and path.stat().st_size > MAX_BYTES:
         message = f"{path}: larger than {MAX_BYTES // 1_000_000} MB"
-        raise TmdError(message, hint="this is no file of tmd", code="too-large")
+        raise TmdError(message, hint="this is not a file of tmd", code="too-large")
     return read_text(path)

@@ -23,9 +23,9 @@ if TYPE_CHECKING:
 @click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
-@click.option("--strict", is_flag=True, help="Let warnings count as errors.")
+@click.option("--strict", is_flag=True, help="Treat warnings as errors.")
 @click.option("--notes", is_flag=True, help="Print notes as well.")
-@click.option("--fix", is_flag=True, help="Mend what is mechanical, then check again.")
+@click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(

@@ -34,13 +34,13 @@ def share(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
     """``2/8``, the second of eight shares (a callback of :mod:`click`).
 
     Raises:
-        click.BadParameter: It is no share.
+        click.BadParameter: It is not a share.
     """
     if value is None:
         return None
     match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", value.strip())
     if match is None or not 1 <= int(match[1]) <= int(match[2]):
-        raise click.BadParameter(f"'{value}' is no share such as 1/8, 2/8 … 8/8", ctx, param)
+        raise click.BadParameter(f"'{value}' is not a share such as 1/8, 2/8 … 8/8", ctx, param)
     return int(match[1]), int(match[2])
 
 
@@ -68,7 +68,7 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     help="Where VEIL-500 is; $VEIL500_DIR by default.",
 )
 @click.option("--domain", default="kitchen", show_default=True, help="The domain of the bundled data.")
-@click.option("--train-tasks", callback=names, metavar="A,B", help="Train on these tasks; as the protocol says if not.")
+@click.option("--train-tasks", callback=names, metavar="A,B", help="Training tasks; by default those of the protocol.")
 @click.option("--train-environments", callback=numbers, metavar="1-8", help="Train in these environments only.")
 @click.option("--test-environments", callback=numbers, metavar="9,10", help="Test in these environments only.")
 @click.option(
@@ -80,7 +80,7 @@ def probability(ctx: click.Context, param: click.Parameter, value: float) -> flo
     help="Leave each sentence of a test text out with this probability.",
 )
 @click.option("--models", callback=names, metavar="A,B", help="The rows of the table; the usual ones by default.")
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 @click.option("--jobs", type=click.IntRange(1), help="Processes; one for each processor by default.")
 @click.option(
     "--backend",

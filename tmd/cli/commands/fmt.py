@@ -11,9 +11,9 @@ from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, TmdError
 
 
-@click.command("fmt", short_help="Lay out PDDL and YAML files.")
+@click.command("fmt", short_help="Format PDDL and YAML files.")
 @click.argument("paths", metavar="PATH...", nargs=-1, required=True)
-@click.option("--check", "only_check", is_flag=True, help="Write nothing; end with 13 if a file is laid out otherwise.")
+@click.option("--check", "only_check", is_flag=True, help="Write nothing; exit with 13 if a file would be reformatted.")
 @click.pass_obj
 def command(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
     """Lay out files, or all PDDL and YAML files of folders; comments and line breaks stay.
@@ -39,7 +39,7 @@ def command(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
         changed += 1
         if not only_check:
             write_text(file, text)
-        emit(f"{file}: {'would be laid out anew' if only_check else 'laid out'}\n")
+        emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
     for fault in failed:
         emit(f"error: {fault}\n", error=True)
     emit(f"{len(files)} file(s): {changed} {'to change' if only_check else 'changed'}, {len(failed)} failed\n")

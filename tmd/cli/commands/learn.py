@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 )
 @learned_option
 @click.option("--no-weights", is_flag=True, help="Learn no weights, which takes by far the longest.")
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(

@@ -41,14 +41,14 @@ class _File(click.Path):
 )
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @learned_option
-@click.option("--planner", metavar="NAME", help="Fills gaps and mends plans; in-process by default.")
-@click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="How often a plan is mended.")
-@click.option("--kinematic", is_flag=True, help="Move without physics: faster, and less is shown by it.")
-@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Of everything random.")
+@click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
+@click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
+@click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
+@click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
 @click.option(
     "--fault",
     type=click.Choice(["slip", "stuck", "moved", "missed"]),
-    help="Let this go wrong once, to see what the robot makes of it.",
+    help="Inject one fault of this kind.",
 )
 @click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
 @click.option("--gui", is_flag=True, help="Show the run in a window.")

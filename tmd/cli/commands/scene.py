@@ -28,9 +28,9 @@ PICTURE = (960, 640)
     help="An environment (YAML), the name of a bundled one, or a room of VEIL-500 (XML).",
 )
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
-@click.option("--reach", is_flag=True, help="Say for everything where the robot would stand to take it.")
+@click.option("--reach", is_flag=True, help="Print a base pose for grasping every object.")
 @click.option(
-    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Moves things by millimetres; 0: not."
+    "--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed for placement jitter; 0 disables it."
 )
 @click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
 @click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")

@@ -188,9 +188,9 @@ def _json(text: str, path: Path) -> Mapping[str, Any]:
     try:
         value = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise TmdError(f"{path} is no JSON: {error}") from error
+        raise TmdError(f"{path} is not valid JSON: {error}") from error
     if not isinstance(value, dict):
-        raise TmdError(f"{path} is no plan: it is no JSON object")
+        raise TmdError(f"{path} is no plan: it is not a JSON object")
     return value
 
 

@@ -28,7 +28,7 @@ def prediction(
         model: Which row predicted it; the only one by default.
 
     Raises:
-        TmdError: This is no run, its data are not the bundled ones, or there is no such prediction.
+        TmdError: This is not a run, its data are not the bundled ones, or there is no such prediction.
     """
     from tmd.cli.inputs.environment import load_scene
 
@@ -60,7 +60,7 @@ def _predictions(path: Path) -> list[_Row]:
         if line.strip():
             row = _object(line, path, number)
             if not {"id", "model", "environment", "predicted"} <= set(row):
-                raise TmdError("this line is no prediction", location=Location(str(path), number, 1))
+                raise TmdError("this line is not a prediction", location=Location(str(path), number, 1))
             found.append({**row, "line": number})
     return found
 
@@ -69,9 +69,9 @@ def _object(text: str, path: Path, line: int) -> _Row:
     try:
         value = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise TmdError(f"this is no JSON: {error}", location=Location(str(path), line, 1)) from error
+        raise TmdError(f"this is not valid JSON: {error}", location=Location(str(path), line, 1)) from error
     if not isinstance(value, dict):
-        raise TmdError("this is no JSON object", location=Location(str(path), line, 1))
+        raise TmdError("this is not a JSON object", location=Location(str(path), line, 1))
     return value
 
 

@@ -124,7 +124,7 @@ def _events(asked: ViewRequest, lines: Lines) -> list[Mapping[str, Any]]:
         if not isinstance(event, dict):
             if number == lines[-1][0]:
                 break
-            raise TmdError("this line of the log is no JSON object", location=Location(asked.name, number, 1))
+            raise TmdError("this line of the log is not a JSON object", location=Location(asked.name, number, 1))
         found.append(event)
     if found[0].get("event") != "plan":
         raise TmdError(f"{asked.name} does not begin with a plan", hint="give a whole log of tmd run")
@@ -136,7 +136,7 @@ def _strip(asked: ViewRequest, recorded: object, count: int) -> Strip | None:
     if asked.strip is not None:
         found = _picture(asked.strip, count)
         if found is None:
-            raise TmdError(f"{asked.strip} is no PNG picture", hint="give what tmd run --strip wrote")
+            raise TmdError(f"{asked.strip} is not a PNG picture", hint="give what tmd run --strip wrote")
         return found
     if asked.source == STANDARD:
         return None

@@ -137,9 +137,9 @@ def _not_json(asked: ViewRequest, text: str) -> TmdError:
         json.loads(text)
     except json.JSONDecodeError as error:
         place = Location(asked.name, error.lineno, error.colno)
-        return TmdError(f"this is no JSON: {error.msg}", location=place, hint=f"give {_KINDS}")
+        return TmdError(f"this is not valid JSON: {error.msg}", location=place, hint=f"give {_KINDS}")
     except (ValueError, RecursionError) as error:
-        return TmdError(f"{asked.name} is no JSON that can be read: {error}")
+        return TmdError(f"{asked.name} is not valid JSON that can be read: {error}")
     return TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
 
 

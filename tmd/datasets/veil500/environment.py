@@ -126,7 +126,7 @@ def read_environment(path: Path, world: str, number: int, classes: Mapping[str, 
         name = spelled[:1].upper() + spelled[1:]
         if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name):
             raise DataError(
-                f"'{name}' is no name for an object",
+                f"'{name}' is not a name for an object",
                 location=element.location,
                 hint="names are letters, digits and underscores; copy the file again from the release",
             )

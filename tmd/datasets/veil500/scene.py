@@ -94,7 +94,8 @@ def read_room(path: Path) -> VeilEnvironment:
     digits = path.stem.removeprefix(path.parent.name)
     if path.parent.name not in worlds or path.parent.parent.name != ENVIRONMENTS or not digits.isdecimal():
         raise DataError(
-            f"{path} is no environment of VEIL-500", hint="give a file such as DIR/Environments/kitchen/kitchen3.xml"
+            f"{path} is not an environment of VEIL-500",
+            hint="give a file such as DIR/Environments/kitchen/kitchen3.xml",
         )
     classes = read_classes(path.parents[2] / CLASSES)
     return read_environment(path, worlds[path.parent.name], int(digits), classes)
@@ -187,7 +188,7 @@ def _part(thing: VeilObject, whole: VeilObject, classes: Classes, remarks: list[
     said = _bare(thing.pddl).removeprefix(_bare(whole.pddl))
     part = next((name for name in vertices if _bare(name) == said), None)
     if part is None:
-        remarks.append(f"{thing.pddl}: it is no part of its own here, but stands for {whole.pddl}")
+        remarks.append(f"{thing.pddl}: it is not a part of its own here, but stands for {whole.pddl}")
         return whole.pddl
     return f"{whole.pddl}_{part}"
 

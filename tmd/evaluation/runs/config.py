@@ -56,7 +56,7 @@ class ExperimentConfig:
         test_environments: Environment numbers to test in; likewise.
         drop_sentences: With what probability each sentence of a test text is left out, in [0, 1).
         models: The rows.
-        seed: Of everything random.
+        seed: Random seed.
         domain: The domain of the bundled data.
         domains: The directory of all domains, if not the usual one.
         problems: The directory of all problems, if not the usual one.

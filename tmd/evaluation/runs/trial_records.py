@@ -48,7 +48,7 @@ class TrialRequest(_Record):
         text: What was said.
         plan: The prediction.
         mode: ``kinematic`` or ``physics``.
-        seed: Of everything random.
+        seed: Random seed.
         version: Of tmd.
     """
 

@@ -113,8 +113,8 @@ class Nouns:
     ) -> tuple[str, ...]:
         """The objects that ``noun`` may mean: the likeliest reading only; never by likeness of meaning alone.
 
-        As a ``place`` a noun is no group: rubbish goes in the trash, and is not what the trash is. With ``types`` it is
-        the likeliest of the readings that fit them.
+        As a ``place`` a noun is not a group: rubbish goes in the trash, and is not what the trash is. With ``types`` it
+        is the likeliest of the readings that fit them.
         """
         if noun in _EVERYTHING:
             return self.world.profiles.objects
@@ -144,7 +144,7 @@ class Nouns:
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
 
     def _numbered(self, noun: str, names: Iterable[str]) -> list[str]:
-        """The names with the number of a noun, if it has one and they have: *channel 7* is no channel of four."""
+        """The names with the number of a noun, if it has one and they have: *channel 7* is not a channel of four."""
         *_, last = split_name(noun)
         found = list(names)
         numbers = {name: split_name(name)[-1] for name in found}
@@ -153,7 +153,7 @@ class Nouns:
         return [name for name, number in numbers.items() if int(number) == int(last)]
 
     def _of_another_class(self, noun: str, names: list[str]) -> bool:
-        """Whether a class that a noun names has nothing here: a *floor lamp* is no ceiling lamp."""
+        """Whether a class that a noun names has nothing here: a *floor lamp* is not a ceiling lamp."""
         classes = self.world.mentions.classes
         return "_" in noun and noun in classes and not any(noun in self._kinds(name) for name in names)
 

@@ -80,7 +80,7 @@ class GoalRow:
         slots: Its slots.
         condition: What shall hold.
         pattern: It as it was written.
-        noun: The noun that it is for, where that is no slot: ``make affogato``.
+        noun: The noun that it is for, where that is not a slot: ``make affogato``.
         result: The word for a state at its end.
         source: Where it comes from.
         probability: How sure it is.
@@ -218,7 +218,7 @@ def read_pattern(entry: Declared) -> tuple[tuple[str, ...], str | None, tuple[Sl
     """Read a pattern: its verbs, its noun if it has one, its slots, and the word for a state.
 
     Raises:
-        TmdError: It is no pattern.
+        TmdError: It is not a pattern.
     """
     words = entry.pattern.split()
     if not words:
@@ -260,7 +260,7 @@ def read_row_condition(entry: Declared, variables: set[str], domain: Domain) -> 
     """Read a condition over ``variables``.
 
     Raises:
-        TmdError: It is no condition, or speaks of what the domain does not have.
+        TmdError: It is not a condition, or speaks of what the domain does not have.
     """
     place = entry.location or Location("goals", 1, 1)
     try:

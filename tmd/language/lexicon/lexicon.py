@@ -179,7 +179,7 @@ class Lexicon:
         near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
         if not near:
             near = difflib.get_close_matches(word, sorted(self._own_nouns.intersection(group)), 1, _NOUN_TYPO_RATIO)
-        # "soapy" is no slip of "soap": letters get lost at the end, endings are not made up
+        # "soapy" is not a slip of "soap": letters get lost at the end, endings are not made up
         return near[0] if near and not word.startswith(near[0]) else None
 
     @cached_property

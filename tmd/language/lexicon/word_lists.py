@@ -1,4 +1,4 @@
-"""The word lists of ``data/words.txt`` by section, and the data files of this room as text."""
+"""The word lists of ``data/words.txt`` by section, and the data files of the language package as text."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from importlib.resources import files
 
 
 def data_text(name: str) -> str:
-    """Return a data file of this room as text; ``.gz`` is unpacked."""
+    """Return a data file of the language package as text; ``.gz`` is unpacked."""
     raw = (files("tmd.language") / "data" / name).read_bytes()
     return (gzip.decompress(raw) if name.endswith(".gz") else raw).decode("utf-8")
 

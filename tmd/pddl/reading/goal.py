@@ -23,7 +23,7 @@ def with_goal(problem: Problem, text: str, file: str = PLACE) -> Problem:
     not declare, the problem does.
 
     Raises:
-        TmdError: It is no condition, or speaks of what the problem does not have.
+        TmdError: It is not a condition, or speaks of what the problem does not have.
     """
     document = parse(text, file)
     source = document.source

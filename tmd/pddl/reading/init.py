@@ -26,7 +26,7 @@ class InitReader:
         """Take in ``(:init ...)``.
 
         Raises:
-            TmdError: An entry is no ground atom or value, or contradicts another one.
+            TmdError: An entry is not a ground atom or value, or contradicts another one.
         """
         for node in _spread(group.parts[1:]):
             self.source.recover(None, self._read_entry, node)

@@ -58,7 +58,7 @@ def _odd_name(node: Word, source: Source, what: str, accepted: re.Pattern[str], 
     if not accepted.fullmatch(node.text):
         raise source.error(f'"{node.text}" is not {what}', node.location, hint, "bad-name")
     source.warn(
-        f'"{node.text}" is no name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
+        f'"{node.text}" is not a name by the letter of PDDL; some tools refuse it', node.location, hint, "odd-name"
     )
 
 
@@ -95,7 +95,7 @@ def read_term(node: Node, source: Source) -> str:
 
 
 def read_number(node: Node, source: Source) -> int | None:
-    """A whole number that is not negative; ``None`` where ``node`` is no number at all."""
+    """A whole number that is not negative; ``None`` where ``node`` is not a number at all."""
     if isinstance(node, Group) or not re.fullmatch(r"[-+]?[0-9.]+(e[-+]?[0-9]+)?", node.text):
         return None
     whole = _NUMBER.fullmatch(node.text)

@@ -39,7 +39,7 @@ _IMPLIED = {
 }
 
 _OTHER_NOT = '"not" around something else than an atom'
-"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is no fault; we write it."""
+"""Needs :negative-preconditions to the letter. Most domains do without, so its lack is not a fault; we write it."""
 
 _Use = tuple[str, str, Location | None]
 """A requirement, the feature that needs it, and where that stands."""

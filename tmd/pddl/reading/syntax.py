@@ -82,7 +82,7 @@ class Source:
         self.report(error)
 
     def warn(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
-        """Report what is no fault but worth telling; nobody is told where faults are raised."""
+        """Report what is not a fault but worth telling; nobody is told where faults are raised."""
         if self.report is not None:
             self.report(self.error(message, location, hint, code))
 

@@ -81,7 +81,7 @@ class Shapes:
         if vertices[ROOT].shape is not None:
             self._check_parts(class_name, kind, look, parts)
         if kind.build is None:
-            raise AssertionError(f"{look.kind} is no whole object")
+            raise AssertionError(f"{look.kind} is not a whole object")
         model = UrdfModel(class_name, look.mass)
         kind.build(model, look, parts)
         return Blueprint(class_name, sort, look, model, model.text())

@@ -68,7 +68,7 @@ class Pr2:
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
-        TmdError: ``urdf`` is no PR2.
+        TmdError: ``urdf`` is not a PR2.
     """
 
     arms = ARMS

@@ -69,7 +69,7 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
 
     Raises:
         MissingToolError: The package or its meshes are not there.
-        TmdError: ``urdf`` cannot be read, is no PR2, or lacks a mesh.
+        TmdError: ``urdf`` cannot be read, is not a PR2, or lacks a mesh.
     """
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
     root = _read(source, "robot")
@@ -128,7 +128,7 @@ def check(source: Path, root: ET.Element) -> None:
     missing_links = [frame for frame in frames if frame not in links]
     if missing or missing_links:
         parts = [_lacks(kind, names) for kind, names in (("joint", missing), ("link", missing_links)) if names]
-        raise TmdError(f"{source} is no PR2: {'; '.join(parts)}", hint="leave --urdf out for the packaged PR2")
+        raise TmdError(f"{source} is not a PR2: {'; '.join(parts)}", hint="leave --urdf out for the packaged PR2")
     if _root_link(root) != "base_footprint":
         raise TmdError(
             f"{source}: its root is {_root_link(root)}, not base_footprint",
@@ -196,9 +196,11 @@ def _read(path: Path, tag: str) -> ET.Element:
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
     except ET.ParseError as error:
-        raise TmdError(f"{path} is no XML: {error}", hint="name a URDF file; xacro files must be expanded") from error
+        raise TmdError(
+            f"{path} is not valid XML: {error}", hint="name a URDF file; xacro files must be expanded"
+        ) from error
     if root.tag != tag:
-        raise TmdError(f"{path} is no URDF: its root is <{root.tag}>, not <{tag}>", hint="name a URDF file")
+        raise TmdError(f"{path} is not a URDF: its root is <{root.tag}>, not <{tag}>", hint="name a URDF file")
     return root
 
 

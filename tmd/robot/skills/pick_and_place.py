@@ -28,7 +28,7 @@ LIFT = 0.10
 CLEAR = (0.006, 0.03)
 """Metres above a surface at which a thing is let go of, best first: the fingers do not fit into every slot."""
 _TALL = 0.12
-"""Metres from which a thing is no small one."""
+"""Metres from which a thing is not a small one."""
 _TURNS = 8
 """So many headings are tried for a thing that is put down."""
 

@@ -50,7 +50,7 @@ class Cell:
         sim: The simulation.
         robot: The PR2.
         scene: The furniture and the things.
-        rng: Of everything random.
+        rng: Random seed.
         in_hand: For each arm the item in it.
     """
 
@@ -77,7 +77,7 @@ class Cell:
         return min((c.distance for c in found if c.link in hand), default=1.0)
 
     def support(self, item: str) -> tuple[str, str] | None:
-        """What an item stands on, in or next to; ``None`` for what is no item."""
+        """What an item stands on, in or next to; ``None`` for what is not an item."""
         return self.scene.supported(item) if self.scene.is_item(item) else None
 
     def is_open(self, name: str) -> bool | None:

@@ -69,7 +69,7 @@ class Archive:
         directory = self.corpus.directory / "environments"
         if world.name not in self.corpus.environments():
             raise TmdError(
-                f"'{world.name}' is no environment in {directory}, so nothing that is shown in it can be saved",
+                f"'{world.name}' is not an environment in {directory}, so nothing that is shown in it can be saved",
                 hint="copy its file there, and begin again",
             )
         if self.corpus.world(world.name).task.problem != world.task.problem:
@@ -101,8 +101,8 @@ class Archive:
 
         Raises:
             TmdError: There are no steps, the task cannot have that name, the environment is none of the domain's, the
-                file holds a line that is no demonstration, the goal is no condition of the environment or does not
-                hold at the end. Nothing was written.
+                file holds a line that is not a demonstration, the goal is not a condition of the environment or does
+                not hold at the end. Nothing was written.
             OutputError: The file cannot be written. It is as it was.
         """
         file = self.file(task)

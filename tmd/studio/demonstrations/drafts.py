@@ -275,7 +275,7 @@ def _read(file: Path) -> Draft:
         raise ValueError("it is too large")
     data = json.loads(file.read_bytes())
     if not isinstance(data, dict) or data["draft"] != _FORM:
-        raise ValueError("it is no draft of this version")
+        raise ValueError("it is not a draft of this version")
     proposed = data["proposed"]
     environment, task, text = texts = [data[key] for key in ("environment", "task", "text")]
     found = Draft(
