@@ -11,6 +11,7 @@ import pytest
 import tmd
 import tmd.api
 from tmd.export.formats import FORMATS
+from tmd.language import Lexicon, Parsed, parse
 
 ROOT = Path(__file__).resolve().parents[1]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
@@ -70,3 +71,12 @@ def test_environments_become_problems(tmp_path: Path) -> None:
         kitchen.problem("kitchen99")
     with pytest.raises(tmd.TmdError, match=r"goal:1:\d+: unknown object"):
         kitchen.problem("kitchen3", goal="(found pr2 cup99)")
+
+
+def test_another_parser_may_read_the_text() -> None:
+    def elliptic(text: str, lexicon: Lexicon | None = None) -> Parsed:
+        """It reads orders without a verb, such as "book on the table"."""
+        return parse(f"Put the {text}.", lexicon)
+
+    grounded = tmd.load_domain("02_table").ground("book on the table", "corner1", parser=elliptic)
+    assert [str(i) for i in grounded.plans[0].instructions][-1] == "keep(book1, table1, on)"

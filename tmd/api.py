@@ -21,6 +21,7 @@ from tmd.ground import ground as ground_text
 from tmd.inference.config import DEFAULT, preset
 from tmd.inference.learned.knowledge import Knowledge
 from tmd.inference.learned.store import known
+from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import read_plan as read_plan_file
 from tmd.pddl.reading.goal import with_goal
@@ -109,6 +110,7 @@ class DomainKit:
         planner: str = IN_PROCESS,
         model: str = DEFAULT,
         guess: bool = False,
+        parser: ClauseParser | None = None,
     ) -> Grounded:
         """Ground a text in an environment, as ``tmd ground`` does.
 
@@ -119,6 +121,7 @@ class DomainKit:
             planner: Which planner fills in what was left unsaid.
             model: What is minimised; the models are those of ``tmd ground --model``.
             guess: Whether a plan may be made where what was said is not understood or cannot be done.
+            parser: What reads the text in place of the built-in parser.
 
         Returns:
             The clauses that were understood, the plans (cheapest first) and what the validator says of each.
@@ -135,6 +138,7 @@ class DomainKit:
             config=replace(preset(model), guess=guess),
             planner=planner,
             top=top,
+            parser=parser or parse,
         )
 
     @cached_property

@@ -1,6 +1,6 @@
 """The main path: what a person says, and a world, become ranked plans that PDDL vouches for.
 
-Read this first; each call goes to the room of that name (the boxes of Figure 3 of the paper)::
+Read this first; each call goes to the package of that name (the boxes of Figure 3 of the paper)::
 
     corpus = open_corpus("kitchen")
     knowledge = known(corpus)                           # learned from the demonstrations, and kept
@@ -27,8 +27,8 @@ from tmd.inference.policy.policy import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan, Refusal
 from tmd.inference.weights import Weights, named_weights
-from tmd.language import parse
 from tmd.language.clause import Clause, Parsed
+from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
@@ -77,6 +77,7 @@ def ground(
     config: InferenceConfig = PRESETS[DEFAULT],
     planner: str = IN_PROCESS,
     top: int = 1,
+    parser: ClauseParser = parse,
 ) -> Grounded:
     """Ground ``text`` in ``world``.
 
@@ -90,11 +91,12 @@ def ground(
         config: The model.
         planner: Which planner fills in what was left unsaid.
         top: How many distinct plans are wanted.
+        parser: What reads the text.
 
     Raises:
         TmdError: The planner is unknown or not installed, or the lexicon declares something that is wrong.
     """
-    parsed = parse(text, library.lexicon)
+    parsed = parser(text, library.lexicon)
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
     planners = TaskPlanners(world.task, _quick(planner, world, config.cap), planner, config)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Protocol
 
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
 from tmd.language.lexicon.coverage import foreign, skipped
@@ -36,6 +37,13 @@ _HAPPENING = frozenset({"boil", "heat", "warm", "cool", "chill", "dry", "cook", 
 """What a thing does by itself when it is put somewhere: to have it do so is what that is for."""
 _DEEPEST = 3
 """So deep may subordinate clauses stand in one another."""
+
+
+class ClauseParser(Protocol):
+    """Reads texts as clauses: :func:`parse`, or whatever is given to :func:`tmd.ground.ground` in its place."""
+
+    def __call__(self, text: str, lexicon: Lexicon | None = None) -> Parsed:
+        """Read a text; arguments, result and promises are those of :func:`parse`."""
 
 
 def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
