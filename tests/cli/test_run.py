@@ -22,8 +22,8 @@ HIDE_FFMPEG = "import sys; sys.modules['imageio_ffmpeg'] = None"
 HIDE_PILLOW = "import sys; sys.modules['PIL'] = None"
 HIDE_PR2 = "import importlib.metadata as m\ndef files(name): raise m.PackageNotFoundError(name)\nm.files = files"
 STOP_WHEELS = (
-    "import tmd.robot.skills.navigate_and_look as go\nfrom tmd.robot.skills.results import SkillError, Stage\n"
-    "def drive(*_): raise SkillError(Stage.PATH, 'the wheels do not turn')\n"
+    "import tmd.robot.skills.navigate_and_look as go\nfrom tmd.robot.skills.results import SkillError, SkillPhase\n"
+    "def drive(*_): raise SkillError(SkillPhase.PATH, 'the wheels do not turn')\n"
     "go.drive = drive"
 )
 KITCHEN = ("run", "--environment", "kitchen1", "--kinematic")

@@ -65,7 +65,7 @@ def _edit(path: Path, old: str, new: str) -> None:
             "Environments/kitchen/kitchen2.xml",
             "<name>Sink</name>",
             "<name>a b</name>",
-            "no name for an object",
+            "not a name for an object",
         ),
         ("Environments/kitchen/kitchen2.xml", "(60, 43, 0)", "(60, here)", "needs three numbers"),
         ("Environments/kitchen/kitchen2.xml", "<environment>", "<world>", "not well-formed"),

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tmd.datasets.veil500 import (
-    Simulator,
+    ForcedExecution,
     VeilData,
     VeilEnvironment,
     absent_types,
@@ -271,7 +271,7 @@ class Translation:
         )
 
 
-def differences(environment: VeilEnvironment, simulator: Simulator, sequence: list[Instruction]) -> int:
+def differences(environment: VeilEnvironment, simulator: ForcedExecution, sequence: list[Instruction]) -> int:
     """Steps at which the two implementations disagree about the state or about what is executable."""
     direct, words = Direct(environment), Translation(environment)
     spelled = {pddl_name(name): name for name in (*DISPATCH, *environment.by_name)}
@@ -311,7 +311,9 @@ def pool(environment: VeilEnvironment, rng: np.random.Generator, pairs: int = 25
     return sorted({from_veil(text) for text in texts})
 
 
-def walk(simulator: Simulator, actions: list[Instruction], rng: np.random.Generator, steps: int) -> list[Instruction]:
+def walk(
+    simulator: ForcedExecution, actions: list[Instruction], rng: np.random.Generator, steps: int
+) -> list[Instruction]:
     """A random sequence in which about three of four steps are executable.
 
     Now and then everything that an action names is fetched first.
@@ -339,7 +341,7 @@ def compare_at_random(environment: VeilEnvironment, seed: int, walks: int, steps
     """Random sequences: no difference. Returns the verbs that were executed."""
     rng = np.random.default_rng(seed)
     actions = pool(environment, rng)
-    simulator = Simulator(compile_environment(environment), actions, absent_types(environment))
+    simulator = ForcedExecution(compile_environment(environment), actions, absent_types(environment))
     executed: set[str] = set()
     for _ in range(walks):
         sequence = walk(simulator, actions, rng, steps)
@@ -389,7 +391,7 @@ def test_same_as_the_direct_interpreter(small: VeilData, key: tuple[str, int], v
 def test_same_on_chosen_sequences(small: VeilData, key: tuple[str, int], texts: str) -> None:
     environment = small.environments[key]
     sequence = [from_veil(text) for text in texts.split(", ")]
-    simulator = Simulator(compile_environment(environment), sequence, absent_types(environment))
+    simulator = ForcedExecution(compile_environment(environment), sequence, absent_types(environment))
     assert differences(environment, simulator, sequence) == 0
     fetched = [Instruction(v, (x,)) for i in sequence for x in i.args for v in ("moveto", "grasp")]
     assert differences(environment, simulator, [*fetched, *sequence]) == 0
@@ -399,7 +401,7 @@ def test_same_on_everything_recorded(veil: VeilData) -> None:
     steps = different = 0
     for key, environment in veil.environments.items():
         sequences = [list(point.instructions) for point in veil.points if point.key == key]
-        simulator = Simulator(compile_environment(environment), {i for s in sequences for i in s})
+        simulator = ForcedExecution(compile_environment(environment), {i for s in sequences for i in s})
         different += sum(differences(environment, simulator, sequence) for sequence in sequences)
         steps += sum(len(sequence) for sequence in sequences)
     assert different == 0
@@ -413,7 +415,7 @@ def test_same_on_sequences_from_elsewhere(veil: VeilData) -> None:
         chosen = rng.choice(len(veil.points), size=min(25, len(veil.points)), replace=False)
         sequences = [list(veil.points[i].instructions) for i in sorted(chosen)]
         known = {i for s in sequences for i in s}
-        simulator = Simulator(compile_environment(environment), known, absent_types(environment))
+        simulator = ForcedExecution(compile_environment(environment), known, absent_types(environment))
         assert sum(differences(environment, simulator, sequence) for sequence in sequences) == 0
 
 
@@ -431,8 +433,8 @@ def test_simulator_is_the_semantics(small: VeilData) -> None:
     known = {o.name for o in problem.all_objects()}
     arity = {a.name: len(a.parameters) for a in problem.domain.actions}
     legal = [a for a in actions if set(a.args) <= known and arity.get(a.name) == len(a.args)]
-    legal = [a for a in legal if Simulator(problem, [a])._operators[a] is not None][::3]
-    simulator = Simulator(problem, legal)
+    legal = [a for a in legal if ForcedExecution(problem, [a])._operators[a] is not None][::3]
+    simulator = ForcedExecution(problem, legal)
     sequence = walk(simulator, legal, rng, 120)
     done = simulator.run(sequence)
     for number, (before, after) in enumerate(pairwise(done.decoded())):
@@ -458,5 +460,5 @@ def test_unknown_things(small: VeilData) -> None:
 def test_preparing_changes_nothing(small: VeilData) -> None:
     problem = compile_environment(small.environments["kitchen", 2])
     sequence = [from_veil(t) for t in ("moveto Sink", "turn SinkKnob", "moveto Mug_1", "grasp Mug_1")]
-    prepared = Simulator(problem, [*sequence, from_veil("keep Mug_1 On Sink")]).run(sequence)
+    prepared = ForcedExecution(problem, [*sequence, from_veil("keep Mug_1 On Sink")]).run(sequence)
     assert prepared.decoded() == rollout(problem, sequence).decoded()

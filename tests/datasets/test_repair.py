@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import pytest
 
-from tmd.datasets.veil500 import Group, Point, VeilData, executability, from_veil, repair, repaired, to_veil
+from tmd.datasets.veil500 import Point, VeilData, VeilGroup, executability, from_veil, repair, repaired, to_veil
 from tmd.datasets.veil500.repair import Repairer
 
 
@@ -15,7 +15,7 @@ def point(small: VeilData, *groups: str, world: str = "kitchen") -> Point:
     """A demonstration with these groups of actions."""
     base = next(p for p in small.points if p.world == world)
     parsed = [tuple(from_veil(text) for text in group.split(", ") if text) for group in groups]
-    return replace(base, groups=tuple(Group((n,), actions) for n, actions in enumerate(parsed)))
+    return replace(base, groups=tuple(VeilGroup((n,), actions) for n, actions in enumerate(parsed)))
 
 
 @pytest.mark.parametrize(
@@ -142,7 +142,7 @@ def test_placebo(released: VeilData, mended: VeilData) -> None:
         sound = repairer.simulator(demonstration).run(demonstration.instructions).executable
         if first is None or first.name != "moveto" or not sound:
             continue
-        shorter = (*demonstration.groups[:-1], Group(last.segments, last.instructions[1:]))
+        shorter = (*demonstration.groups[:-1], VeilGroup(last.segments, last.instructions[1:]))
         cut = replace(demonstration, groups=shorter)
         if repairer.simulator(cut).run(cut.instructions).executable:
             continue

@@ -179,7 +179,7 @@ def test_rows_do_not_depend_on_what_else_is_tested(tmp_path: Path) -> None:
 
 
 def test_a_journal_belongs_to_one_process(tmp_path: Path) -> None:
-    unit = jobs.Unit("toy", "t", ("f",))
+    unit = jobs.EvaluationJob("toy", "t", ("f",))
     first, second = Toy(), Toy()
     with jobs._journal(first, unit, tmp_path), jobs._journal(second, unit, tmp_path):
         assert first.journal == tmp_path / "toy-t.journal.jsonl"

@@ -48,7 +48,7 @@ def test_the_schema_says_what_a_record_has() -> None:
     schema = json.loads(format_schema())
     record = json.loads(format_record(planned_case("blocks")))
     assert set(schema["properties"]) == set(record)
-    assert set(schema["$defs"]["Step"]["properties"]) == set(record["steps"][0])
+    assert set(schema["$defs"]["StepRecord"]["properties"]) == set(record["steps"][0])
 
 
 @pytest.mark.parametrize(
@@ -147,7 +147,7 @@ def test_what_is_no_directory_is_refused(tmp_path: Path) -> None:
     file = tmp_path / "file"
     file.write_text("mine")
     for place in (file, file / "below"):
-        with pytest.raises(OutputError, match="no directory"):
+        with pytest.raises(OutputError, match="not a directory"):
             write_directory(place, FILES)
     assert _found(tmp_path) == {"file": b"mine"}
 

@@ -10,7 +10,8 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.pr2.arm_motion import between, plan_arm, plan_base, plan_line, plan_poses
+from tmd.robot.pr2.arm_motion import between, plan_arm, plan_line, plan_poses
+from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.pr2.rrt import plan, shorten
