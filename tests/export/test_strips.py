@@ -132,7 +132,7 @@ def test_a_predicate_named_like_a_negation_is_left_alone() -> None:
 
 
 def test_what_is_no_action_of_the_export_is_told() -> None:
-    with pytest.raises(TmdError, match="is no action of the exported problem"):
+    with pytest.raises(TmdError, match="is not an action of the exported problem"):
         strips(switches("a")).restored([Instruction("flop")])
 
 

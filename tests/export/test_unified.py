@@ -67,7 +67,7 @@ def test_a_plan_that_does_not_fit_is_told() -> None:
     for step in (Instruction("fly"), Instruction("pick-up", ("z",)), Instruction("pick-up")):
         with pytest.raises(TmdError, match="cannot be said in this problem"):
             plan_to_unified_planning([step], problem)
-    with pytest.raises(TmdError, match="is no sequence"):
+    with pytest.raises(TmdError, match="is not a sequence"):
         plan_from_unified_planning(object())
 
 
