@@ -15,6 +15,7 @@ from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.faults import Happening, InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep
@@ -61,26 +62,36 @@ def _run(case: Case) -> Record:
     environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
     orders = [Order(parse_instruction(text)) for text in case.plan]
     fault = InjectedFault(case.fault) if case.fault else None
-    with SimulationSession(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as stage:
-        trace = Trace()
+    trace = Trace()
+    notes = _Notes(skills_of(case.domain))
+    started = (begin, 0)
+
+    def prepare(session: SimulationSession) -> tuple[_Notes]:
+        nonlocal started
         if case.twice:
-            stage.sim.add_watcher(trace)
-        ready, steps = time.perf_counter(), stage.sim.steps
-        notes = _Notes(stage.skills)
-        execution = stage.execute(orders, [notes], repairs=case.repairs, fault=fault)
-        return _record(
-            case,
-            status=execution.status.value,
-            reason=execution.reason,
-            repairs=execution.repairs,
-            lines=tuple(notes.lines),
-            faults=tuple(stage.happenings),
-            goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
-            setup=round(ready - begin, 3),
-            seconds=round(time.perf_counter() - ready, 3),
-            simulated=round((stage.sim.steps - steps) / STEPS_PER_SECOND, 3),
-            trajectory=trace.digest() if case.twice else "",
-        )
+            session.sim.add_watcher(trace)
+        started = (time.perf_counter(), session.sim.steps)
+        notes.restart()
+        return (notes,)
+
+    run = run_plan(
+        environment, found.folder, problem, orders, prepare=prepare, repairs=case.repairs, fault=fault,
+        kinematic=not case.physics, seed=case.seed,
+    )  # fmt: skip
+    ready, steps = started
+    return _record(
+        case,
+        status=run.execution.status.value,
+        reason=run.execution.reason,
+        repairs=run.execution.repairs,
+        lines=tuple(notes.lines),
+        faults=run.faults,
+        goal=tuple(literal for literal in case.end_state if not holds(literal, run.execution.state)),
+        setup=round(ready - begin, 3),
+        seconds=round(time.perf_counter() - ready, 3),
+        simulated=round((run.sim_steps - steps) / STEPS_PER_SECOND, 3),
+        trajectory=trace.digest() if case.twice else "",
+    )
 
 
 class _Notes:
@@ -89,6 +100,10 @@ class _Notes:
     def __init__(self, skills: Skills) -> None:
         self.skills = skills
         self.lines: list[Line] = []
+        self._last = time.perf_counter()
+
+    def restart(self) -> None:
+        """The first instruction begins now."""
         self._last = time.perf_counter()
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:

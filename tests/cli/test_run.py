@@ -266,7 +266,7 @@ WITH_ROBOT = {
     ),
     "overlap": (
         ExitCode.BAD_INPUT,
-        ["run", "--environment", "overlap.yaml", *TEXT],
+        ["run", "--environment", "overlap.yaml", "--text", "Take a pot."],
         "",
         r"error: overlap\.yaml:\d+:\d+: 'pot\d' and 'pot\d' are in each other by \d+ mm",
     ),

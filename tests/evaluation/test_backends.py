@@ -480,9 +480,9 @@ def test_without_distributed_the_package_is_named(tmp_path: Path) -> None:
     [
         (("--backend", "dask"), "go together"),
         (("--scheduler", "tcp://a:1"), "go together"),
-        (("--shard", "0/2"), "no share"),
-        (("--shard", "3/2"), "no share"),
-        (("--shard", "1"), "no share"),
+        (("--shard", "0/2"), "is not a share"),
+        (("--shard", "3/2"), "is not a share"),
+        (("--shard", "1"), "is not a share"),
         (("--shard", "1/2", "--step", "report"), "without --shard"),
         (("--drop-sentences", "1"), "below 1"),
         (("--drop-sentences", "-0.1"), "below 1"),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import ExitStack
+from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,10 +14,10 @@ from tmd.files import write_text
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.session import SimulationSession
+from tmd.robot.run_plan import Filming, run_plan
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep
-from tmd.robot.video.film import Film, open_movie
+from tmd.robot.video.film import open_movie
 from tmd.robot.video.movie_file import MovieFile
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
@@ -76,29 +76,14 @@ def _carried_out(job: Job) -> Trial:
     kinematic = job.asked.mode == "kinematic"
     orders = orders_of(job.line)
     notes = _Notes()
-    with ExitStack() as stack:
-        movie = _movie(job)
-        if movie is not None:
-            stack.enter_context(movie)
-        stage = stack.enter_context(
-            SimulationSession(
-                environment,
-                corpus.folder,
-                problem,
-                kinematic=kinematic,
-                seed=job.asked.seed,
-                pictures=movie is not None,
-            )
-        )
-        film = Film(stage.cell, stage.skills, movie=movie, strip=True) if movie is not None else None
-        if film is not None:
-            film.open(f"{where}: {len(orders)} instructions of {job.asked.model}", job.asked.text)
-        execution = stage.execute(orders, [notes, film] if film is not None else [notes])
-        strip = job.out / f"{where}.png"
-        if film is not None:
-            film.close(execution)
-            film.write_strip(strip)
-        seconds = round(stage.sim.steps / STEPS_PER_SECOND, 2)
+    movie, strip = _movie(job), job.out / f"{where}.png"
+    heading = f"{where}: {len(orders)} instructions of {job.asked.model}"
+    with movie or nullcontext():
+        run = run_plan(
+            environment, corpus.folder, problem, orders, prepare=lambda _: (notes,), kinematic=kinematic,
+            seed=job.asked.seed, filming=Filming(heading, job.asked.text, movie, strip) if movie is not None else None,
+        )  # fmt: skip
+    execution, seconds = run.execution, round(run.sim_steps / STEPS_PER_SECOND, 2)
     return Trial(
         asked=job.asked,
         status=execution.status.value,
@@ -107,7 +92,7 @@ def _carried_out(job: Job) -> Trial:
         seconds=0.0 if kinematic else seconds,
         steps=notes.steps,
         film=None if movie is None else movie.path.name,
-        strip=None if film is None else strip.name,
+        strip=None if movie is None else strip.name,
     )
 
 

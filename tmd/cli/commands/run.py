@@ -95,10 +95,10 @@ def command(
     from tmd.language.tagging.length import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.monitor.faults import InjectedFault
-    from tmd.robot.session import SimulationSession
+    from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
-    from tmd.robot.video.film import Film, open_movie
+    from tmd.robot.video.film import open_movie
     from tmd.world.environment import load_environment
 
     spoken = None if plan_file is not None else short_enough(said(text, text_file))
@@ -123,12 +123,6 @@ def command(
         movie = stack.enter_context(open_movie(video)) if video else None
         if strip:
             pillow()
-        stage = stack.enter_context(
-            SimulationSession(
-                load_environment(path), corpus.folder, world.task.problem,
-                kinematic=kinematic, seed=seed, urdf=urdf, gui=gui, pictures=bool(video or strip),
-            )
-        )  # fmt: skip
         if orders is None:
             orders = orders_of_text(spoken or "", corpus, world, chosen, learned)
         for line in orders.remarks:
@@ -152,24 +146,16 @@ def command(
                 emit_json({**asked, "steps": [], "faults": [], **refusal_json(orders.status, orders.remarks[-1])})
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
-        film = Film(stage.cell, stage.skills, movie=movie, strip=bool(strip)) if movie or strip else None
-        if film and strip:
-            stack.callback(film.write_strip, strip)
-        told = Telling(asked, orders.orders, journal, lambda: stage.happenings, as_json=as_json)
-        if film:
-            film.open(told.heading, spoken or "")
-        execution = stage.execute(
-            orders.orders,
-            [told, film] if film else [told],
-            planner=chosen,
-            repairs=repairs,
-            fault=InjectedFault(fault) if fault else None,
-        )
-        if film:
-            film.close(execution)
-        told.log_ending(execution, stage.sim.steps)
-    told.print_ending(execution, stage.sim.steps)
-    return ExitCode.NOT_EXECUTED if execution.status is SkillStatus.STOPPED else ExitCode.OK
+        told = Telling(asked, orders.orders, journal, as_json=as_json)
+        run = run_plan(
+            load_environment(path), corpus.folder, world.task.problem, orders.orders,
+            prepare=told.prepare, filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
+            planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
+            kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
+        )  # fmt: skip
+        told.log_ending(run.execution, run.sim_steps)
+    told.print_ending(run.execution, run.sim_steps)
+    return ExitCode.NOT_EXECUTED if run.execution.status is SkillStatus.STOPPED else ExitCode.OK
 
 
 def _check_writable(path: Path | None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Self
@@ -13,6 +13,7 @@ from tmd.diagnostics import OutputError
 from tmd.pddl.model import GroundAtom
 from tmd.robot.monitor.faults import Happening
 from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
@@ -75,7 +76,6 @@ class Telling:
         asked: What was asked, as the beginning of the record.
         orders: The plan.
         journal: The log.
-        happenings: The faults that came about so far.
         as_json: Print JSON, and nothing before the end.
 
     Attributes:
@@ -87,13 +87,12 @@ class Telling:
         asked: dict[str, object],
         orders: Sequence[Order],
         journal: RunLog | None,
-        happenings: Callable[[], Sequence[Happening]],
         *,
         as_json: bool,
     ) -> None:
         self._asked = asked
         self._journal = journal
-        self._happenings = happenings
+        self._session: SimulationSession | None = None
         self._told = 0
         self._as_json = as_json
         self._steps: list[dict[str, object]] = []
@@ -101,8 +100,17 @@ class Telling:
         self._origin = max((len(_origin(order)) for order in orders), default=0)
         how = "under physics" if asked["mode"] == "physics" else "without physics"
         self.heading = f"{_count(len(orders), 'instruction')} in {asked['environment']}, {how}"
+
+    def prepare(self, session: SimulationSession) -> tuple[Self]:
+        """The run begins in this simulation, which knows of its faults; see :data:`tmd.robot.run_plan.Prepare`."""
+        self._session = session
         self._print(f"plan: {self.heading}\n")
-        self._log({"event": "plan", **asked})
+        self._log({"event": "plan", **self._asked})
+        return (self,)
+
+    def _happenings(self) -> Sequence[Happening]:
+        """The faults that came about so far."""
+        return self._session.happenings if self._session is not None else ()
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins: the log of a run that was killed says what it was doing."""

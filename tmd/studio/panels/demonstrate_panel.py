@@ -229,24 +229,26 @@ class DemonstratePanel:
             return
         visitor = self._visitor
         visitor.studio.drafts.keep(visitor.identity, session, self._task.value)
-        self._reel.become(session.states)
-        cursor = session.cursor
-        visitor.watch(self._reel, cursor)
-        titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
-        change = session.changes(cursor) if cursor else None
-        gains = changed(change.added, change.removed) if change else []
-        lines = [
-            (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
-            for step in session.steps
-        ]
-        self._steps.content = step_list(lines, cursor, gains)
-        self._which.visible = self._clause.visible = bool(session.steps)
-        if session.steps:
-            self._which.max = len(session.steps)
-            put(self._which, cursor)
-            self._clause.options = tuple(titles)
-            put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
-        self.offers()
+        # All at once: who presses a button as soon as the new list shows must not press one of the old state.
+        with visitor.client.atomic():
+            self._reel.become(session.states)
+            cursor = session.cursor
+            visitor.watch(self._reel, cursor)
+            titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
+            change = session.changes(cursor) if cursor else None
+            gains = changed(change.added, change.removed) if change else []
+            lines = [
+                (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
+                for step in session.steps
+            ]
+            self._steps.content = step_list(lines, cursor, gains)
+            self._which.visible = self._clause.visible = bool(session.steps)
+            if session.steps:
+                self._which.max = len(session.steps)
+                put(self._which, cursor)
+                self._clause.options = tuple(titles)
+                put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
+            self.offers()
 
     def _point(self) -> None:
         name = None if self._object.value == NONE else chosen(self._object)
@@ -264,10 +266,10 @@ class DemonstratePanel:
                 put(self._object, name or NONE)
             known = visitor.studio.offers(visitor.setting.name)
             groups = [*(known.of(name, session.state, parts=True) if name else ()), *known.anywhere(session.state)]
-            for handle in self._offered:
-                handle.remove()
-            self._offered, self._numbered = [], []
             with visitor.client.atomic(), self._buttons:
+                for handle in self._offered:
+                    handle.remove()
+                self._offered, self._numbered = [], []
                 for group in groups:
                     self._offer(group)
             self._reasons.content = fragment(refused(groups))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import GroundAtom
 from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.studio.environment_view import Look, Setting
 from tmd.studio.view3d.robot_mesh import Figure
@@ -120,13 +121,17 @@ def perform(
     if look is None:
         return setting.blind
     orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
-    with SimulationSession(load_environment(setting.path), folder, setting.world.task.problem) as stage:
-        audience = _Audience(stage, scenery, look, figure, ended, tell)
+
+    def watched(session: SimulationSession) -> tuple[_Audience]:
+        audience = _Audience(session, scenery, look, figure, ended, tell)
         audience.show()
-        stage.sim.add_watcher(audience)
-        try:
-            execution = stage.execute(orders, [audience])
-        except _StoppedError:
-            return "Stopped."
+        session.sim.add_watcher(audience)
+        return (audience,)
+
+    try:
+        environment, problem = load_environment(setting.path), setting.world.task.problem
+        execution = run_plan(environment, folder, problem, orders, prepare=watched).execution
+    except _StoppedError:
+        return "Stopped."
     reason = f": {execution.reason}" if execution.reason else ""
     return f"The robot's run ended: {execution.status}{reason}."

@@ -1,0 +1,116 @@
+"""Carry out a plan in simulation: the one driver of ``tmd run``, robot trials, the studio and the benchmarks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+from tmd.pddl.model import Problem
+from tmd.planning.backends import IN_PROCESS
+from tmd.robot.monitor.executor import MOST_REPAIRS
+from tmd.robot.monitor.faults import Happening, InjectedFault
+from tmd.robot.monitor.listeners import Listener, Order
+from tmd.robot.session import SimulationSession
+from tmd.robot.skills.results import Execution
+from tmd.robot.video.film import Film
+from tmd.robot.video.movie_file import MovieFile
+from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
+
+Prepare = Callable[[SimulationSession], Sequence[Listener]]
+"""Is given the simulation before the first instruction, and returns who is told how the run goes."""
+
+
+@dataclass(frozen=True, slots=True)
+class Filming:
+    """What is filmed, and what stands over the pictures.
+
+    Attributes:
+        heading: The title.
+        text: What was said, if anything was.
+        movie: The film's file, open; none without it.
+        strip: Where the sheet with one picture for each instruction goes; none without it.
+    """
+
+    heading: str
+    text: str = ""
+    movie: MovieFile | None = None
+    strip: Path | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PlanRun:
+    """What came of a run.
+
+    Attributes:
+        execution: How it ended, with every step.
+        sim_steps: Steps of the physics from the making of the scene on.
+        faults: The injected faults that came about.
+    """
+
+    execution: Execution
+    sim_steps: int
+    faults: tuple[Happening, ...] = ()
+
+
+def run_plan(
+    environment: Environment,
+    folder: DomainFolder,
+    problem: Problem,
+    orders: Sequence[Order],
+    *,
+    prepare: Prepare | None = None,
+    filming: Filming | None = None,
+    planner: str = IN_PROCESS,
+    repairs: int = MOST_REPAIRS,
+    fault: InjectedFault | None = None,
+    kinematic: bool = False,
+    seed: int = 0,
+    urdf: Path | None = None,
+    gui: bool = False,
+) -> PlanRun:
+    """Carry out a plan in a new simulation, each effect checked.
+
+    Args:
+        environment: What there is and where.
+        folder: Its domain, with shapes and skills.
+        problem: The environment as PDDL.
+        orders: The plan.
+        prepare: Is given the simulation, and returns who is told how the run goes.
+        filming: What is filmed.
+        planner: Replans where the state that was observed is not the predicted one.
+        repairs: Maximum number of replannings.
+        fault: Goes wrong once on the way; where is drawn by the seed.
+        kinematic: Set joints along their paths instead of driving motors.
+        seed: Random seed; 0 leaves all things exactly where they are said to be.
+        urdf: Another PR2 than the packaged one.
+        gui: Open a window, and go no faster than real time.
+
+    Returns:
+        What came of it. The strip is written even where an error ends the run.
+
+    Raises:
+        MissingToolError: What simulates or films is not installed.
+        TmdError: The domain has no skills or no shapes, the scene cannot be built, or ``urdf`` is not a PR2.
+    """
+    with ExitStack() as stack:
+        session = stack.enter_context(
+            SimulationSession(
+                environment, folder, problem, kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
+                pictures=filming is not None,
+            )
+        )  # fmt: skip
+        listeners = list(prepare(session)) if prepare is not None else []
+        film = None
+        if filming is not None:
+            film = Film(session.cell, session.skills, movie=filming.movie, strip=filming.strip is not None)
+            if filming.strip is not None:
+                stack.callback(film.write_strip, filming.strip)
+            film.open(filming.heading, filming.text)
+            listeners.append(film)
+        execution = session.execute(orders, listeners, planner=planner, repairs=repairs, fault=fault)
+        if film is not None:
+            film.close(execution)
+        return PlanRun(execution, session.sim.steps, tuple(session.happenings))
