@@ -93,6 +93,8 @@ class ClauseReading:
     pronoun: str | None = None
     antecedent: int | None = None
     """Which of what ``pronoun`` may mean is tried."""
+    taken: dict[str, str] = field(default_factory=dict)
+    """Which thing a noun is taken for, where the same clause speaks of another one as well."""
 
     def again(self, *, strict: bool) -> ClauseReading:
         """A fresh reading of the same clause."""

@@ -9,6 +9,7 @@ from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.reading.nouns import Bound, Memory, Referent
 from tmd.goals.reading.reader import GoalReader
+from tmd.goals.reading.referents import EXCEPTING
 from tmd.goals.reading.states import BE
 from tmd.goals.sources.senses import words_of
 from tmd.goals.steps import PARTINGS, GoalStep, in_order
@@ -100,9 +101,12 @@ class Follower:
 
     def target(self, step: GoalStep, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
         """What a step asks for in ``state``."""
-        due = self._due(step, context, state)
+        spoken: dict[str, None] = {}
+        due = self._due(step, context, state, spoken)
         if isinstance(due, Refused):
             return due
+        recent = tuple(dict.fromkeys((*spoken, *context.memory.recent)))
+        context = replace(context, memory=replace(context.memory, recent=recent))
         if step.otherwise or step.guards:
             context = replace(context, guard=due if not step.otherwise else context.guard)
         if not due:
@@ -177,21 +181,21 @@ class Follower:
 
     # ------------------------------------------------------------------ conditions
 
-    def _due(self, step: GoalStep, context: Context, state: Bits) -> bool | Refused:
-        """Whether a step is to be done in ``state``."""
+    def _due(self, step: GoalStep, context: Context, state: Bits, spoken: dict[str, None]) -> bool | Refused:
+        """Whether a step is to be done in ``state``; ``spoken`` gets the objects that its conditions speak of."""
         if step.otherwise:
             return context.guard is False
         if context.guard is not None and step.guards and all(guard.carried for guard in step.guards):
             return context.guard  # "if the lamp is on, turn it off and bring it": what was so when it was said
         for condition in step.guards:
-            found = self._holds(condition, context, state)
+            found = self._holds(condition, context, state, spoken)
             if isinstance(found, Refused):
                 return found
             if found == (condition.word == "unless"):
                 return False
         return True
 
-    def _holds(self, condition: Condition, context: Context, state: Bits) -> bool | Refused:
+    def _holds(self, condition: Condition, context: Context, state: Bits, spoken: dict[str, None]) -> bool | Refused:
         if not condition.clauses:
             return Refused(
                 Why.CONDITION,
@@ -210,6 +214,8 @@ class Follower:
                     continue
                 return replace(goal, why=Why.CONDITION, message=f"the condition '{condition.text}': {goal.message}")
             truth = truth and any(cube.holds(state) for cube in goal.cubes)
+            objects = self.reader.world.profiles.objects
+            spoken.update((n, None) for names in goal.meant.values() for n in names if n in objects)
         return truth != condition.negated
 
     # ------------------------------------------------------------------ constraints
@@ -280,7 +286,11 @@ class Follower:
         meant = clause.antecedents.get(noun, ())[: clause.together.get(noun, 1)] if is_pronoun(noun) else (noun,)
         names = tuple(dict.fromkeys(n for one in meant for n in nouns.things(one, state)))
         for relation in clause.relations:
-            if relation.source == noun and relation.relation != "where":
+            if relation.source == noun and relation.relation in EXCEPTING:
+                meant = clause.meant(relation.target)
+                left = {n for one in meant for n in self.reader.referents.every_kind(one, state)}
+                names = tuple(n for n in names if n not in left)
+            elif relation.source == noun and relation.relation != "where":
                 targets = nouns.things(relation.target, state)
                 referent = Referent(noun, names)
                 names = nouns.related_now(referent, relation.relation, targets, state, Moments(state, state)) or names

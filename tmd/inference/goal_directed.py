@@ -22,7 +22,7 @@ from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
 from tmd.inference.proposers import PLANNER_SOURCE, Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, RankedPlan, Refusal, StepGoal, why_lost
-from tmd.language.clause import Clause, Parsed
+from tmd.language.clause import Clause, Mood, Parsed, Quantifier
 from tmd.pddl.constraints import Constraints as Needs
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.task import Bits, Cube, Task
@@ -187,11 +187,19 @@ class _Text:
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 
     def _touched(self, step: GoalStep, choices: Sequence[Choice]) -> bool:
-        """Whether what was shown has to do with what the clause acts on."""
+        """Whether what was shown has to do with everything that the clause names: all of *both bowls*, and the sink."""
+        clause, profiles = step.clause, self.inference.world.profiles
         nouns = self.inference.follower.reader.nouns
-        named = [name for noun in step.clause.direct for name in nouns.things(noun, self.inference.world.task.init)]
         handled = {arg for choice in choices for taken in choice.steps for arg in taken.instruction.args}
-        return not step.clause.direct or bool(handled & set(named))
+        handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
+        for noun in (*clause.direct, *(r.target for r in clause.relations)):
+            things = {n for n in nouns.things(noun, self.inference.world.task.init) if n in profiles.objects}
+            every = clause.phrase(noun).quantifier is Quantifier.ALL
+            if not things and noun in clause.direct:
+                return False
+            if things and not (things <= handled if every else things & handled):
+                return False
+        return True
 
     def finished(self, way: _Way, first: Bits) -> _Way:
         """A way through all steps, with what people put back in the end."""
@@ -229,7 +237,7 @@ class _Text:
         """
         goal, number = target.goal, target.step.number
         following = self.clauses[number + 1] if number + 1 < len(self.clauses) else None
-        if goal is None or not isinstance(goal.formula, And) or following is None:
+        if goal is None or not isinstance(goal.formula, And) or following is None or following.mood is not Mood.DO:
             return False
         direct = set(target.step.clause.direct)
         goes_on = any(direct & set(names) for names in following.antecedents.values())

@@ -102,7 +102,7 @@ class Nouns:
                 self._of_object[name] = (*self._of_object.get(name, ()), atom)
 
     @cached_property
-    def _places(self) -> frozenset[str]:
+    def places(self) -> frozenset[str]:
         """The constants that are things as objects are: of a type that objects here have as well, as the floor is."""
         mentions, constants = self.world.mentions, self.world.profiles.constants
         common = {kind for name in self.world.profiles.objects for kind in mentions.types.get(name, ())}
@@ -128,7 +128,7 @@ class Nouns:
             found = [n for n in self.world.profiles.objects if any(c in self._kinds(n) for c in classes)]
             if found:
                 return tuple(found)
-        named = [m for m in self.world.mentions.ranked(noun)[:1] if m.name in self._places and m.how in (NAME, ALIAS)]
+        named = [m for m in self.world.mentions.ranked(noun)[:1] if m.name in self.places and m.how in (NAME, ALIAS)]
         if named:
             return (named[0].name,)  # the floor, which is no substance that things contain
         matches = [m for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET]

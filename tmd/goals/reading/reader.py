@@ -19,6 +19,7 @@ from tmd.goals.sources.table import ACTIONS, PREPOSITIONS, RELATION, GoalRow, Go
 from tmd.goals.why import why_impossible
 from tmd.language.clause import Clause, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.syntax.pronouns import is_one
 from tmd.pddl.model import Formula, Or
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
@@ -173,6 +174,43 @@ class GoalReader:
 
     def _by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refused:
         """The goal by the first rows that fit every thing the verb acts on."""
+        parted = self._one_and_other(reading)
+        candidates = self.referents.targets(parted, reading) if parted is not None else ()
+        if parted is None or len(candidates) < 2:
+            found = self._of_units(rows, reading)
+            return found if isinstance(found, Refused) else self._finished(*found, reading)
+        ways: list[Formula] = []
+        used: GoalRow | None = None
+        failure: Refused | None = None
+        for name in candidates:
+            reading.taken = {parted: name}
+            found = self._of_units(rows, reading)
+            if isinstance(found, Refused):
+                failure = failure or found
+            else:
+                ways.append(found[0])
+                used = found[1]
+        if not ways:
+            return failure or self._unknown(reading.clause)
+        return self._finished(disjunction(ways), used, reading)
+
+    def _one_and_other(self, reading: ClauseReading) -> str | None:
+        """The noun of which one thing is spoken of more than once: "tea in one of the cups and milk in the other".
+
+        Or: "coffee in a mug and some milk in it".
+        """
+        clause = reading.clause
+        for noun, phrase in clause.phrases.items():
+            meant = clause.meant(noun)[0]
+            other = is_one(noun) and phrase.quantifier is Quantifier.OTHER
+            same = noun == "it" and any(r.target == noun for r in clause.relations)
+            first = clause.phrases.get(meant)
+            if (other or same) and first is not None and first.quantifier not in (Quantifier.ALL, Quantifier.OTHER):
+                return meant
+        return None
+
+    def _of_units(self, rows: Sequence[GoalRow], reading: ClauseReading) -> tuple[Formula, GoalRow | None] | Refused:
+        """What shall hold of all that the verb acts on, and the last row that says so."""
         formulas: list[Formula] = []
         used: GoalRow | None = None
         for unit in self.referents.units(reading):
@@ -182,11 +220,17 @@ class GoalReader:
             if isinstance(found, Refused):
                 return found
             formula, used = found
-            formulas.append(formula)
+            formulas.append(self._as_at_first(formula, reading))
         either = any(reading.clause.phrase(name).either for name in reading.clause.direct)
         none = all(reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct or ("",))
-        whole = disjunction(formulas) if either or none else conjunction(formulas)
-        return self._finished(whole, used, reading)
+        return disjunction(formulas) if either or none else conjunction(formulas), used
+
+    def _as_at_first(self, formula: Formula, reading: ClauseReading) -> Formula:
+        """Of several places where a thing may be put *back* the one where it was: *back on its burner*."""
+        if not reading.clause.verb.endswith("_back") or not isinstance(formula, Or):
+            return formula
+        then = [part for part in formula.parts if self.grounder.truth(part, reading.memory.first)]
+        return disjunction(then) if then else formula
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | None:
         """*Two spoons of coffee* is some coffee, where nothing can be said of the spoons."""

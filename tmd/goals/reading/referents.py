@@ -11,11 +11,15 @@ from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.senses import state_words, words_of
 from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
-from tmd.language.clause import PERSONS, Clause, NounPhrase, Quantifier
+from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import split_name
 from tmd.language.syntax.pronouns import is_one, is_pronoun
+from tmd.pddl.task import Bits
 from tmd.veil.world import World
+
+EXCEPTING = frozenset({"except", "besides", "apart_from"})
+"""Relations to what is left out."""
 
 
 class Referents:
@@ -64,11 +68,30 @@ class Referents:
             if unit.direct in words_of("measures") and measured is not None:
                 unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.relations_of(measured, clause)
                 unit.direct = measured
+        for unit in units:
+            unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def _whereabouts(self, relation: str, target: str, reading: ClauseReading) -> list[tuple[str, str]]:
+        """Where something is now, for "where the plate is"; any other relation is as it was said."""
+        if relation != "where" or reading.clause.mood is Mood.KEEP:
+            return [(relation, target)]
+        places: list[tuple[str, str]] = [
+            (where, other)
+            for name in self.targets(target, reading)[:1]
+            for fact in self.nouns.facts_about(name)
+            if self.grounder.holds(fact, reading.state) and fact.args[0] == name
+            for other in fact.args[1:]
+            for where in ("in", "on")
+            if (other not in self.world.profiles.constants or other in self.nouns.places)
+            and where in fact.args
+            and self.grounder.truth(self.nouns.related(where, name, other, reading.moments), reading.state)
+        ]
+        return places[:1] or [(relation, target)]
 
     def tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
         """Whether a relation of what is acted on holds now of one of its candidates."""
@@ -130,6 +153,10 @@ class Referents:
         if is_one(pronoun):
             said = reading.clause.phrase(pronoun)
             relations = self.relations_of(pronoun, reading.clause)
+            spoken = reading.memory.bound.get(antecedent)
+            same = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
+            if pronoun == "one" and same and spoken is not None:  # "… the other plate. Put that one in the sink."
+                return self._antecedent(antecedent, "it", types, reading)
             return replace(
                 self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
             )
@@ -193,7 +220,7 @@ class Referents:
             return Referent(noun, wanted_constants, mode, number, phrase.definite)
         mode, number = mode_of(phrase, group=group, thing=True, place=place)
         if mode is not Mode.ANY and not group:
-            objects, group = self._all_kinds(noun, objects, types, reading)
+            objects, group = self._all_kinds(noun, objects, types, reading.state)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
         referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
@@ -207,16 +234,35 @@ class Referents:
             referent = replace(referent, names=())
         reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
         referent = self._restricted(referent, relations, reading)
+        if noun in reading.taken:
+            other, one = phrase.quantifier is Quantifier.OTHER, reading.taken[noun]
+            return replace(referent, names=tuple(n for n in referent.names if (n == one) != other))
         bound = reading.memory.bound.get(noun)
         if bound is not None and phrase.quantifier is Quantifier.OTHER:
             return replace(referent, names=tuple(n for n in referent.names if n not in bound.names))
+        if place and phrase.quantifier is Quantifier.OTHER:
+            left = set(self._places_now(referent, reading))  # "to the other table": not the one where it is
+            return replace(referent, names=tuple(n for n in referent.names if n not in left) or referent.names)
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
 
+    def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:
+        """Those of some places where what the clause acts on is now."""
+        moved = [n for direct in reading.clause.direct[:1] for n in self.targets(direct, reading)]
+        return tuple(
+            place
+            for place in places.names
+            if any(
+                self.grounder.truth(self.nouns.related(where, name, place, reading.moments), reading.state)
+                for where in ("on", "in")
+                for name in moved
+            )
+        )
+
     def _by_now_in(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """What contains the substance that was spoken of: *over the noodles* is over what they are in by now."""
-        named = set(self.nouns.constants(noun, ("object",), reading.state)) & set(self.world.profiles.constants)
+        named = set(self.nouns.substances(noun))
         for bound in reversed(tuple(reading.memory.bound.values())):
             if bound.containers and named & set(bound.names):
                 return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
@@ -247,10 +293,10 @@ class Referents:
         return ()
 
     def _all_kinds(
-        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], state: Bits
     ) -> tuple[tuple[str, ...], bool]:
         """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
-        matches = self.world.mentions.of(noun, reading.state)
+        matches = self.world.mentions.of(noun, state)
         if len(objects) == 1 and noun in self.lexicon.nouns:
             wider = set(self.lexicon.nouns[noun])
             kinds = self.world.mentions.kinds
@@ -261,17 +307,27 @@ class Referents:
         names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
         return tuple(n for n in names if self.grounder.is_a(n, types)), True
 
+    def every_kind(self, noun: str, state: Bits) -> tuple[str, ...]:
+        """All that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
+        return self._all_kinds(noun, self.nouns.things(noun, state), ("object",), state)[0]
+
     def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> Referent:
         """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
         for relation, target in relations:
             names = self.targets(target, reading)
-            if relation in ("except", "besides", "apart_from"):
+            if relation in EXCEPTING:
+                wide = (n for one in reading.clause.meant(target) for n in self.every_kind(one, reading.state))
+                names = (*names, *(wide if not is_one(target) else ()))
                 referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
                 continue
             if relation.startswith("not_"):
                 now = self.nouns.related_now(
                     referent, relation.removeprefix("not_"), names, reading.state, reading.moments
                 )
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
+                continue
+            if reading.clause.phrase(target).quantifier is Quantifier.NONE:  # "the chair that has no pillow"
+                now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
                 referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
                 continue
             if relation in ("without", "for") or not names:
@@ -293,7 +349,8 @@ class Referents:
 
     def _meant_by(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         if self._is_pronoun(noun):
-            names = tuple(n for a in reading.clause.antecedents.get(noun, ())[:1] for n in self.targets(a, reading))
+            nouns = reading.clause.antecedents.get(noun, ())[:1]
+            names = tuple(n for a in nouns for n in self._one_called(noun, a, reading) or self.targets(a, reading))
             names = names or tuple(
                 n for a in reading.clause.direct[:1] if is_one(noun) for n in self.targets(a, reading)
             )
@@ -308,6 +365,15 @@ class Referents:
             return tuple(n for n in things if n in bound.names)
         constants = self.nouns.constants(noun, ("object",), reading.state)
         return tuple(dict.fromkeys((*things, *constants)))
+
+    def _one_called(self, pronoun: str, antecedent: str, reading: ClauseReading) -> tuple[str, ...]:
+        """What *the ceiling one* means where lamps were spoken of: a ceiling lamp."""
+        modifier = pronoun.removesuffix("_one")
+        if modifier == pronoun:
+            return ()
+        whole = self.nouns.things(antecedent, reading.state)
+        found = self.nouns.things(f"{modifier}_{antecedent}", reading.state)
+        return found if set(found) != set(whole) else ()
 
     def not_there(self, clause: Clause) -> Refused:
         """That the thing a clause acts on is not there."""

@@ -33,6 +33,7 @@ class Fitting:
         return sorted(
             (row for row in rows if self._fits(row, unit, reading)),
             key=lambda row: (
+                not (row.looks_back and not unit.relations),  # "put it back": where it was
                 -len(row.slots) - (row.noun is not None),
                 -self._latest(row, unit, reading),
                 counted and not self._takes_things(row, unit, reading),

@@ -15,6 +15,22 @@ _PUTTING = frozenset({"put", "place", "pop", "stick", "go", "goes", "belong", "b
 PRONOUNS = frozenset({"it", "they", "them", "you", "i", "we", "he", "she", "this", "that", "there"})
 _DUTIES = frozenset({"should", "must", "has", "have", "needs", "need", "ought"})
 BREAKS = (Kind.STOP, Kind.COMMA)
+_TAGS = frozenset(
+    {"however", "though", "thanks", "thank you", "cheers", "will you", "would you", "could you", "can you", "won't you",
+     "if you would", "if you please", "if you don't mind", "the pair of them", "both of them", "the two of them",
+     "all of them", "the lot", "all of it", "at the end", "in the end"}
+)  # fmt: skip
+"""What may stand between commas, or at the end, and adds nothing to what shall be done."""
+_LIMITS = frozenset({"not more than", "no more than", "at most"})
+_KEEPING = frozenset(
+    {"leave", "keep", "leaving", "keeping", "with", "find", "if", "when", "once", "until", "unless", "while"}
+)
+"""Words after which a noun and a state are no end that is asked for."""
+_LYING = frozenset({"lying", "standing", "sitting"})
+_CLOSING = {"closed": "close", "shut": "shut", "open": "open"}
+_AFTERWARDS = frozenset(
+    {"again", "afterwards", "after", "that", "this", "too", "as", "well", "please", "then", "finally"}
+)
 JOINTS = frozenset({"and", "but", "then", "while"})
 
 
@@ -157,7 +173,97 @@ def _coming_off(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _without_tags(tokens: list[Token]) -> list[Token]:
+    """Leave out "however", "thanks", "will you?", "the pair of them", between commas or at the end."""
+    result: list[Token] = []
+    at = 0
+    while at < len(tokens):
+        length = next((n for n in (4, 3, 2, 1) if " ".join(t.text for t in tokens[at : at + n]) in _TAGS), 0)
+        end = at + length
+        begins = not result or result[-1].kind in BREAKS
+        ends = end >= len(tokens) or tokens[end].kind in BREAKS or tokens[end].text in ("and", "but")
+        if length and ends and (begins or tokens[at].text in ("though", "however", "at", "in")):
+            closed = bool(result) and result[-1].kind is Kind.COMMA
+            if closed and end < len(tokens) and tokens[end].kind in BREAKS:
+                result.pop()
+            at = end
+            continue
+        result.append(tokens[at])
+        at += 1
+    return result
+
+
+def _plain_copula(tokens: list[Token]) -> list[Token]:
+    """Read "happens to be" as "is", "is to be" as "should be", "should end up in" as "should be in"."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 1):
+        happens = words[at] in ("happens", "happen") and words[at + 1 : at + 3] == ["to", "be"]
+        shall = words[at] in ("is", "are") and words[at + 1 : at + 3] == ["to", "be"]
+        ends = words[at - 1] in _DUTIES | {"to"} and words[at : at + 2] in (["end", "up"], ["wind", "up"])
+        lies = words[at] in _LYING
+        if lies and words[at + 1] in ("where", "there"):  # "leave the books lying where they are"
+            return [*tokens[:at], *_plain_copula(tokens[at + 1 :])]
+        if words[at - 1] in _DUTIES and words[at] in ("lie", "stand", "sit") and words[at + 1] == "where":
+            return [*tokens[:at], replace(tokens[at], text="go"), *_plain_copula(tokens[at + 1 :])]
+        if lies and words[at - 1] in ("is", "are") and tokens[at + 1].kind in BREAKS:
+            return [*tokens[:at], *_plain_copula(tokens[at + 1 :])]
+        if happens:
+            return [*tokens[:at], replace(tokens[at], text="is"), *_plain_copula(tokens[at + 3 :])]
+        if shall:
+            should = replace(tokens[at], text="should")
+            return [*tokens[:at], should, *_plain_copula(tokens[at + 2 :])]
+        if ends:
+            return [*tokens[:at], replace(tokens[at], text="be"), *_plain_copula(tokens[at + 2 :])]
+    return tokens
+
+
+def _one_of_them(tokens: list[Token]) -> list[Token]:
+    """Read "take one of them" as "take one"."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 2):
+        if words[at : at + 2] == ["one", "of"] and words[at + 2] in ("them", "these", "those"):
+            return [*tokens[: at + 1], *_one_of_them(tokens[at + 3 :])]
+    return tokens
+
+
+def _at_most(tokens: list[Token]) -> list[Token]:
+    """Leave out "but not more than two" behind a number: more than what was said is not done anyway."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 2):
+        start = at + (words[at] in ("but", "and"))
+        limit = next((n for n in (3, 2) if " ".join(words[start : start + n]) in _LIMITS), 0)
+        end = start + limit
+        counted = any(is_number(word) for word in words[:at])
+        if limit and counted and end < len(words) and is_number(words[end]):
+            begin = at - (tokens[at - 1].kind is Kind.COMMA)
+            return [*tokens[:begin], *tokens[end + 1 :]]
+    return tokens
+
+
+def _last_state(tokens: list[Token]) -> list[Token]:
+    """Read "…, and the drawer closed after that" as "… and close the drawer after that"."""
+    words = [t.text for t in tokens]
+    if _KEEPING.intersection(words):
+        return tokens
+    for at in range(2, len(words) - 2):
+        if words[at] != "and" or words[at + 1] not in section("determiners"):
+            continue
+        end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS), len(words))
+        state = next((i for i in range(at + 3, min(at + 6, end)) if words[i] in _CLOSING), 0)
+        noun = words[at + 2 : state]
+        plain = not set(noun) & (section("prepositions") | section("be") | section("modals") | JOINTS)
+        if state and plain and set(words[state + 1 : end]) <= _AFTERWARDS:
+            verb = replace(tokens[state], text=_CLOSING[words[state]])
+            return [*tokens[: at + 1], verb, *tokens[at + 1 : state], *tokens[state + 1 :]]
+    return tokens
+
+
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
+    _without_tags,
+    _plain_copula,
+    _at_most,
+    _one_of_them,
+    _last_state,
     _none_of,
     _in_with,
     _but_there,

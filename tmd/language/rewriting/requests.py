@@ -74,7 +74,9 @@ def _telegram(tokens: list[Token]) -> list[Token]:
         listed = after is not None and after.kind is Kind.COMMA
         plain = part[:1] != [] and part[0].kind not in (Kind.DET, Kind.NUM)
         again = len(result) > 1 and {result[-1].text, result[-2].text} & _SIDES  # "the tv on and the lamp off"
-        if verb is not None and ((plain and (listed or not spoken)) or again):
+        fronted = not result and token is not None and any(t.text in ("into", "onto") for t in part)
+        state = verb is not None and verb.stem in _SWITCHED.values() and not result and not spoken
+        if verb is not None and ((plain and (listed or not spoken)) or again or fronted or state):
             part = [verb, *(t for t in part if t.span != verb.span)]
         result += part if token is None else [*part, token]
         part = []
@@ -91,11 +93,13 @@ def _unspoken(part: list[Token]) -> Token | None:
     if not nouns or not rest or words[nouns - 1].kind not in (Kind.N, Kind.PRON):
         return None
     particles = nouns == 1 or rest[0].text in _SIDES
-    if len(rest) == 1 and rest[0].text in _SWITCHED and particles:
+    alone = len(rest) == 1 or rest[1].text in ("except", "but")  # "every lamp off except the red one"
+    if alone and rest[0].text in _SWITCHED and particles:
         verb = _verb(_SWITCHED[rest[0].text], rest[0])
         verb.form = "base"
         return verb
-    place = rest[0].kind is Kind.P and len(rest) > 1 and all(t.kind in _NOUN_PHRASE for t in rest[1:])
+    kinds = (*_NOUN_PHRASE, Kind.P) if rest[0].text in ("into", "onto") else _NOUN_PHRASE
+    place = rest[0].kind is Kind.P and len(rest) > 1 and all(t.kind in kinds for t in rest[1:])
     if place and rest[0].text in _PLACING:
         verb = _verb(HAVE, words[0])
         verb.span = words[0].span._replace(end=words[0].span.start)
@@ -193,7 +197,7 @@ def _belonging(tokens: list[Token]) -> list[Token]:
         while place < len(tokens) and tokens[place].kind is Kind.ADV and tokens[place].text not in ("back", "away"):
             place += 1
         goes = place < len(tokens) and (
-            tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away")
+            tokens[place].kind in (Kind.P, Kind.TO) or tokens[place].text in ("back", "away", "where")
         )
         switch = (
             be and place < len(tokens) and tokens[place].text in ("on", "off") and not _names_thing(tokens, place + 1)

@@ -26,6 +26,7 @@ _REST_OF = frozenset(
 _BEFORE_THERE = frozenset({"in", "into", "on", "onto", "from", "under", "inside", "within"})
 _WE_ARE = frozenset({"i'm", "im", "we're"})
 _UNABLE = frozenset({"can't", "cannot", "couldn't", "didn't", "haven't"})
+_HERE = frozenset({"in", "on", "inside", "there", "here"})
 _STAYS = frozenset({"stays", "stay", "remains", "remain"})
 _IS_BEFORE = frozenset(
     {"a", "an", "the", "not", "still", "too", "already", "open", "closed", "shut", "on", "off", "empty", "full"}
@@ -161,7 +162,8 @@ def _speaks_of_oneself(tokens: list[Token]) -> bool:
     going = start > 0 and words[start : start + 2] in (["going", "to"], ["about", "to"])
     unable = len(words) > 1 and words[0] in SPEAKERS and words[1] in _UNABLE
     indifferent = len(words) > 2 and words[0] in SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
-    return going or unable or indifferent
+    getting = words[:2] in (["it's", "getting"], ["its", "getting"]) or words[:3] == ["it", "is", "getting"]
+    return going or unable or indifferent or getting  # "it's getting cold in here"
 
 
 def _absent(tokens: list[Token]) -> list[Token]:
@@ -331,6 +333,10 @@ def _staying(tokens: list[Token]) -> list[Token]:
             or (state and token.text in _STAYS)
             or (following[:1] in (["where"], ["as"]) and following[1:] in (["it"], ["they"]))
         )
+        here = len(following) > 1 and following[0] in _HERE and following[1] in ("it", "there", "here")
+        if here and token.text in _STAYS:  # "everything else stays in there"
+            where = [replace(tokens[at + 1], text=word) for word in ("where", "it", "is")]
+            kept, tokens = True, [*tokens[: at + 1], *where, *tokens[at + 3 :]]
         stays = token.text in _STAYS or (token.text == "left" and at > 1 and tokens[at - 1].text == "be")
         if not (stays and kept):
             continue

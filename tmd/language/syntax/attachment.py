@@ -71,11 +71,13 @@ class Phrase:
         adjectives = [w for w in self.lead if w not in _DETERMINERS and not is_number(w)]
         if "both" in self.lead and not self.plural and not self.pronoun and not self.of:
             words = tuple(w for w in words if w != "both")  # "both the cup and the mug": one of each
+        counted = (w for w in self.lead if is_number(w) and w != "one")
+        quantity = self.quantity or next(counted, "")  # "two cups", "two of the cups"
         if self.name in WHOLES or any(w in _ALL for w in words):
             quantifier = Quantifier.ALL
         elif "no" in self.lead or self.name in ("nothing", "none"):
             quantifier = Quantifier.NONE
-        elif self.quantity and number_of(self.quantity) is not None and number_of(self.quantity) != 1:
+        elif quantity and number_of(quantity) is not None and number_of(quantity) != 1:
             quantifier = Quantifier.NUMBER
         elif any(w in _OTHERS for w in self.lead):
             quantifier = Quantifier.OTHER
@@ -87,7 +89,7 @@ class Phrase:
         return NounPhrase(
             self.name,
             quantifier,
-            number_of(self.quantity) if self.quantity else 2 if "both" in words else None,
+            number_of(quantity) if quantity else 2 if "both" in words else None,
             any(w in _DEFINITE for w in self.lead)
             or (self.determined and not any(w in _INDEFINITE for w in self.lead)),
             self.plural,
@@ -103,6 +105,8 @@ class Phrase:
             yield from phrase.all()
 
 
+_UNPLACED = frozenset({"of", "with", "where", "except", "besides", "apart_from"})
+"""Relations that say of no thing where it shall be."""
 _FIRST = re.compile(r"\s+first(?=\s*(?:[.!?;]|$))", re.IGNORECASE)
 
 
@@ -167,7 +171,9 @@ class ClauseDraft:
 
     def _mood(self) -> Mood:
         """*Leave the cup where it is* and *keep the door shut* say what must stay so."""
-        placed = any(r.relation not in ("of", "with", "where") for r in self.relations)
+        placed = any(r.relation not in _UNPLACED for r in self.relations)
+        if any(phrase.name in WHOLES for phrase in self.direct):
+            placed = placed and self.verb.stem != "leave"  # "leave everything else on the table": what is there
         relative = any(t.form == "relative" for t in self.folds)
         if self.verb.stem == "leave" and self.direct and (relative or not placed):
             return Mood.KEEP

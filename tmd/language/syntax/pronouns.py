@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.language.clause import Clause, Condition
+from tmd.language.clause import PERSONS, Clause, Condition
 from tmd.language.lexicon.morphology import singular
 from tmd.language.lexicon.word_lists import section
 from tmd.language.syntax.attachment import ClauseDraft, Phrase
@@ -20,6 +20,7 @@ SINGULAR = frozenset({"it", "this", "that", "itself"})
 PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves"})
 _LEAVING = frozenset({"from", "off", "out_of"})
 _ARRIVING = frozenset({"to", "into", "onto", "in", "on"})
+_INSIDE = frozenset({"in", "into", "inside"})
 OPEN = frozenset({"one", "some", "all", "each", "any", "half", "most", ""})
 """Pronouns without number ("ones" is named ``one``); the empty name is an elided object."""
 
@@ -35,6 +36,8 @@ class _Mention:
     plural: bool
     penalty: int
     described: bool = False
+    behind: str = ""
+    """The preposition before it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,12 +69,22 @@ def resolve(drafts: Sequence[ClauseDraft], text: str, statements: Sequence[Token
         scenes += [_alone(c) for condition in conditions if condition.word != "to" for c in condition.clauses]
         antecedents, together = {}, {}
         for pronoun in _open_places(draft, clause):
-            ranked, count = _rank(pronoun, draft, scenes)
+            before = {r.relation for r in clause.relations if r.target == pronoun}
+            ranked, count = _rank(pronoun, draft, scenes, before)
+            if pronoun in SINGULAR and before & _INSIDE:
+                # "coffee in a mug, and some ice cream in it": in what the clause itself spoke of as a vessel
+                at = next((p.place for p in draft.mentions() if p.name == pronoun), 0)
+                vessels = {r.target for r in clause.relations if r.relation in _INSIDE}
+                ahead = [p.name for p in draft.mentions() if p.place < at and p.name in vessels and not p.pronoun]
+                ranked = tuple(dict.fromkeys((*ahead, *ranked)))
             if is_one(pronoun):
                 # "the red block on the blue one": one of what the clause itself spoke of before
                 places = (p.place for p in draft.mentions() if p.name == pronoun)
                 place = next(places, draft.verb.span.start)  # it may stand in a relative clause
                 own = [p for p in draft.mentions() if p.place < place and not p.pronoun]
+                if len(scenes) > 0 and before and ranked:  # "the chips into the bowl and peanuts into the other one"
+                    spoken = {r.target for r in clause.relations if r.relation in before}
+                    own = [p for p in own if p.name in spoken or p.said().attributes or "_" in p.name]
                 # "the peanuts in one bowl and the chips in the other": what stands behind the same preposition
                 behind = {r.relation for r in clause.relations if r.target == pronoun}
                 alike = {r.target for r in clause.relations if r.relation in behind}
@@ -91,18 +104,23 @@ def resolve(drafts: Sequence[ClauseDraft], text: str, statements: Sequence[Token
 
 
 def _stated(statement: Token) -> _Scene:
-    """What a statement leaves behind: its subject, and other nouns behind that."""
+    """What a statement leaves behind: what it is about, and the nouns behind prepositions after that."""
     mentions: list[_Mention] = []
     words: list[Token] = []
+    placed = False
     for token in [*statement.inner, None]:
         numbered = token is not None and token.kind is Kind.NUM and bool(words)  # "channel four"
         if token is not None and (token.kind is Kind.N or numbered):
             words.append(token)
         elif words:
             name = "_".join([*(t.text for t in words[:-1]), singular(words[-1].text)])
-            mentions.append(_Mention(name, singular(words[-1].text) != words[-1].text, _LANDMARK if mentions else 0))
+            if name not in PERSONS:
+                many = singular(words[-1].text) != words[-1].text
+                mentions.append(_Mention(name, many, _LANDMARK if placed else 0))
             words = []
-    return _Scene(tuple(mentions), tuple(m.name for m in mentions[:1]))
+        if token is not None and token.kind in (Kind.P, Kind.CC, Kind.COMMA):
+            placed = token.kind is Kind.P
+    return _Scene(tuple(mentions), tuple(m.name for m in mentions if not m.penalty))
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
@@ -175,8 +193,13 @@ def _open_places(draft: ClauseDraft, clause: Clause) -> list[str]:
     return places
 
 
-def _rank(pronoun: str, draft: ClauseDraft, scenes: list[_Scene]) -> tuple[tuple[str, ...], int]:
-    """Return the candidates, likeliest first, and how many of the first are meant together."""
+def _rank(
+    pronoun: str, draft: ClauseDraft, scenes: list[_Scene], before: Collection[str] = ()
+) -> tuple[tuple[str, ...], int]:
+    """Return the candidates, likeliest first, and how many of the first are meant together.
+
+    ``before`` are the prepositions that the pronoun stands behind.
+    """
     recent = scenes[-_REACH:][::-1]
     own = {p.name for p in draft.mentions()}
     if pronoun in PLURAL:
@@ -187,7 +210,8 @@ def _rank(pronoun: str, draft: ClauseDraft, scenes: list[_Scene]) -> tuple[tuple
     scored = _scored(recent, own, draft)
     if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
         telling = {m.name for s in recent for m in s.mentions if m.described or m.plural}
-        scored.sort(key=lambda pair: pair[0] not in telling)
+        alike = {m.name for s in recent for m in s.mentions if m.behind and m.behind in before}
+        scored.sort(key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
     if pronoun in SINGULAR:
         plural = {m.name for s in recent for m in s.mentions if m.plural}
         scored = [pair for pair in scored if pair[0] not in plural] or scored
@@ -238,7 +262,9 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     for landmark in draft.landmarks:
         for part in landmark.all():
             names = _meant(part, clause)
-            mentions.extend(_Mention(name, part.plural, _LANDMARK + _PART * (part is not landmark)) for name in names)
+            behind = next((r.relation for r in clause.relations if r.target == part.name), "")
+            distance = _LANDMARK + _PART * (part is not landmark)
+            mentions.extend(_Mention(name, part.plural, distance, behind=behind) for name in names)
     named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
     return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
 
