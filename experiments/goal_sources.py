@@ -11,16 +11,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from tmd.inference.learned.knowledge import Knowledge
+
 from tmd.evaluation.sentence_tests import Outcome, SentenceTest, judge, read_sentences, summary
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
 from tmd.ground import Grounded, TaskPlanners, infer
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.inference.energy import Energy
-from tmd.inference.learned.knowledge import Knowledge
+from tmd.inference.energy import Energy, named_weights
 from tmd.inference.learned.store import known
 from tmd.inference.learning.statistics import count
 from tmd.inference.policy.policy import Policy
-from tmd.inference.weights import named_weights
 from tmd.language import parse
 from tmd.language.clause import Clause, Mood, Parsed
 from tmd.pddl.validator import validate

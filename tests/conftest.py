@@ -23,8 +23,7 @@ if "PYTEST_XDIST_WORKER" not in os.environ:
 import pytest
 from hypothesis import settings
 
-from tmd.inference.learned.knowledge import study
-from tmd.inference.learned.store import place, save
+from tmd.inference.learned.store import place, save, study
 from tmd.planning.search.numba_build import digest
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

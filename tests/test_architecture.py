@@ -72,7 +72,7 @@ def test_heavy_packages_are_imported_where_they_are_used(path: Path) -> None:
 def test_modules_say_what_they_are_for_and_stay_small(path: Path) -> None:
     text = path.read_text()
     assert ast.get_docstring(ast.parse(text)), "no docstring"
-    assert len(text.splitlines()) <= 500
+    assert len(text.splitlines()) <= 700
 
 
 def imported(path: Path) -> set[str]:

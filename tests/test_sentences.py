@@ -21,7 +21,7 @@ from tmd.evaluation.sentence_tests import (
     result_json,
     summary,
 )
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("problems/*/*.sentences.jsonl"))

@@ -19,13 +19,11 @@ from tmd.export.unified import plan_from_unified_planning, plan_to_unified_plann
 from tmd.ground import Grounded
 from tmd.ground import ground as ground_text
 from tmd.inference.config import DEFAULT, preset
-from tmd.inference.learned.knowledge import Knowledge
-from tmd.inference.learned.store import known
+from tmd.inference.learned.store import Knowledge, known
 from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import read_plan as read_plan_file
-from tmd.pddl.reading.goal import with_goal
-from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.reading.reader import read_domain, read_problem, with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.planning.backends import AUTO, IN_PROCESS, solve
 from tmd.planning.result import Filled, Unreachable

@@ -20,13 +20,12 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.text_following import Follower
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.inference.energy import Energy
+from tmd.inference.energy import Energy, Weights, named_weights
 from tmd.inference.goal_directed import GoalInference
 from tmd.inference.learning.statistics import count
 from tmd.inference.policy.policy import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan, Refusal
-from tmd.inference.weights import Weights, named_weights
 from tmd.language.clause import Clause, Parsed
 from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.task import Task

@@ -20,10 +20,9 @@ from tmd.pddl.grounding.ground import ground
 from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.fast_downward import fast_downward
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.flat_task import ones
-from tmd.planning.unified import UnifiedPlanner
+from tmd.planning.unified import UnifiedPlanner, fast_downward
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain

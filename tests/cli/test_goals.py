@@ -12,8 +12,7 @@ import pytest
 
 from tests.cli.conftest import ROOT, Tmd
 from tmd.diagnostics import ExitCode
-from tmd.pddl.reading.goal import with_goal
-from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.reading.reader import read_domain, read_problem, with_goal
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_formula
 from tmd.planning.backends import IN_PROCESS, solve

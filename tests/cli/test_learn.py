@@ -13,8 +13,7 @@ import pytest
 
 from tests.cli.conftest import ROOT, Ended, Tmd
 from tmd.diagnostics import ExitCode
-from tmd.inference.learned.knowledge import Knowledge, study
-from tmd.inference.learned.store import MANIFEST, place, recall, save
+from tmd.inference.learned.store import MANIFEST, Knowledge, place, recall, save, study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

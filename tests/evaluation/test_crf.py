@@ -17,8 +17,8 @@ from tmd.evaluation.runs.dataset import BundledData, Example
 from tmd.evaluation.runs.folds import given_fold
 from tmd.evaluation.runs.jobs import fit_text
 from tmd.inference.config import PAPER
+from tmd.inference.energy import NAMES, OURS, Weights, named_weights
 from tmd.inference.ranking import RankedPlan
-from tmd.inference.weights import NAMES, OURS, Weights, named_weights
 from tmd.pddl.task import Cube
 from tmd.planning.result import Filled, NoPlanner, Unreachable
 from tmd.veil.library import Library

@@ -26,8 +26,7 @@ from tmd.evaluation.significance import compare
 from tmd.pddl.forced_execution import rollout
 from tmd.pddl.model import Formula, Problem
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.reading.goal import with_goal
-from tmd.pddl.reading.reader import read_problem
+from tmd.pddl.reading.reader import read_problem, with_goal
 from tmd.pddl.semantics import holds
 from tmd.world.folder import DomainFolder
 

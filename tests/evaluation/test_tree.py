@@ -17,10 +17,8 @@ from hypothesis import strategies as st
 
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.runs.dataset import BundledData, Example
-from tmd.inference.policy.action_constraints import KnownObjects, learn_syntax
-from tmd.inference.policy.features import FIRST, Features, Menu
-from tmd.inference.policy.log_linear import Made, ascend, likelihood, log_probabilities
-from tmd.inference.policy.policy import bag, mentioned
+from tmd.inference.policy.features import FIRST, Features, KnownObjects, Menu, learn_syntax
+from tmd.inference.policy.policy import Made, ascend, bag, likelihood, log_probabilities, mentioned
 from tmd.inference.policy.training import number_features, steps_made, study
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction

@@ -16,7 +16,7 @@ from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs import jobs
 from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.evaluation.runs.experiment import ExperimentConfig, run
-from tmd.inference.weights import NAMES, Weights
+from tmd.inference.energy import NAMES, Weights
 
 ROOT = Path(__file__).parents[2]
 STEPS = 5

@@ -8,7 +8,7 @@ from tests.view.conftest import corpus
 from tmd.export.end_goal import end_goal
 from tmd.inference.ranking import RankedPlan, StepGoal
 from tmd.pddl.model import GroundAtom
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.writer import format_formula
 
 END = (

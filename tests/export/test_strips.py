@@ -11,8 +11,7 @@ from tmd.diagnostics import TmdError
 from tmd.export.planned_problem import Planned, planned
 from tmd.export.strips import restored, strips
 from tmd.pddl import semantics
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.model import TRUE, Atom, Instruction, State
+from tmd.pddl.model import TRUE, Atom, Instruction, State, conjuncts
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem

@@ -9,7 +9,7 @@ import pytest
 
 import tmd
 from tmd.evaluation.sentence_tests import Outcome, judge, read_sentences
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 
 WORLDS = Path(__file__).parent / "worlds"
 FLOORS = {

@@ -10,8 +10,7 @@ import pytest
 
 import tmd
 from tmd.inference.learned import store
-from tmd.inference.learned.knowledge import Knowledge, study
-from tmd.inference.learned.store import cache_directory, known, place, save
+from tmd.inference.learned.store import Knowledge, cache_directory, known, place, save, study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -7,7 +7,7 @@ import pytest
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.all_sources import SOURCES
 from tmd.inference.config import DEFAULT, PAPER, PRESETS, preset
-from tmd.inference.weights import OURS, named_weights
+from tmd.inference.energy import OURS, named_weights
 
 
 def test_each_preset_has_weights_and_the_first_is_the_default() -> None:

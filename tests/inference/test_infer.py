@@ -11,20 +11,19 @@ import pytest
 
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER_EXTENDED
-from tmd.inference.energy import Energy
+from tmd.inference.energy import NAMES, Energy, Weights, named_weights
 from tmd.inference.learning.statistics import count
 from tmd.inference.proposers import proposers_of
-from tmd.inference.weights import NAMES, Weights, named_weights
 from tmd.language import parse
 from tmd.language.clause import Clause
-from tmd.pddl.constraints import get_constraints
 from tmd.pddl.model import Instruction
+from tmd.pddl.semantics import get_constraints
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner
 from tmd.veil.corpus import Corpus
-from tmd.veil.instantiate import instantiate
 from tmd.veil.library import Library, learn
+from tmd.veil.template import instantiate
 from tmd.veil.world import World
 
 EXTENDED = named_weights("paper_extended")

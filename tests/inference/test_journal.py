@@ -9,10 +9,9 @@ import numpy as np
 import pytest
 
 from tmd.diagnostics import OutputError
-from tmd.inference.learning.journal import Journal
-from tmd.inference.learning.weight_learning import Learned, learn_weights
+from tmd.inference.energy import Weights, named_weights
+from tmd.inference.learning.weight_learning import Journal, Learned, learn_weights
 from tmd.inference.ranking import Choice, RankedPlan
-from tmd.inference.weights import Weights, named_weights
 
 START = named_weights("paper")
 EXAMPLES, ROUNDS = 5, 2

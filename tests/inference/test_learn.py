@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from tmd.inference.energy import NAMES, Weights, named_weights
 from tmd.inference.learning.weight_learning import Pool, descend, learn_weights, vector_of
 from tmd.inference.ranking import Choice, RankedPlan
-from tmd.inference.weights import NAMES, Weights, named_weights
 
 START = named_weights("paper_extended")
 

@@ -6,9 +6,8 @@ import math
 
 import pytest
 
-from tmd.inference.energy import Energy
+from tmd.inference.energy import NAMES, Energy, Weights
 from tmd.inference.learning.statistics import EndStates, Frequencies, count
-from tmd.inference.weights import NAMES, Weights
 from tmd.pddl.model import Instruction
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import learn

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
-from tmd.inference.weights import NAMES, Weights, format_weights, named_weights, parse_weights, read_weights
+from tmd.inference.energy import NAMES, Weights, format_weights, named_weights, parse_weights, read_weights
 
 
 @given(st.dictionaries(st.sampled_from(NAMES), st.floats(allow_nan=False, allow_infinity=False)))

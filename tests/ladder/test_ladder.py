@@ -10,10 +10,10 @@ import pytest
 from tmd.goals.reading.reader import Why
 from tmd.ground import ground
 from tmd.inference.config import PAPER
-from tmd.inference.learned.knowledge import Knowledge, study
+from tmd.inference.learned.store import Knowledge, study
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.semantics import holds
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

@@ -15,7 +15,6 @@ from random import Random
 
 import pytest
 
-from tmd.pddl.hierarchy import TypeHierarchy
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -35,6 +34,7 @@ from tmd.pddl.model import (
     Problem,
     TypeDeclaration,
     TypedName,
+    TypeHierarchy,
 )
 from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import read_domain, read_problem

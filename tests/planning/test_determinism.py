@@ -17,7 +17,7 @@ from pathlib import Path
 from tmd.pddl.grounding.ground import ground
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.planning.gap_filler import GapFiller
-from tmd.planning.unsolvability.proofs import Impossible
+from tmd.planning.unsolvable import Impossible
 here = Path(sys.argv[1])
 pantry = ground(read_problem(here / "cases/pantry-problem.pddl", read_domain(here / "cases/pantry.pddl")))
 filler = GapFiller(pantry, backend="python", generalise=True)

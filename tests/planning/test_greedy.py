@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from tmd.diagnostics import TmdError
 from tmd.pddl.task import Cube, Task
 from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, InTurn, last_resort, make
-from tmd.planning.eliminate import eliminate
+from tmd.planning.gap_filler import eliminate
 from tmd.planning.result import Filled, GaveUp, Unreachable
 from tmd.planning.search.greedy import ENTRY, put, take
 from tmd.planning.search.in_process import FirstSearch, OptimalSearch, replayed

@@ -12,9 +12,7 @@ from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, Unreachable
-from tmd.planning.unsolvability.invariants import Counts, null_space
-from tmd.planning.unsolvability.mutexes import Mutexes
-from tmd.planning.unsolvability.proofs import Impossible
+from tmd.planning.unsolvable import Counts, Impossible, Mutexes, null_space
 
 Walk = Callable[[Task, Random, int], list[Bits]]
 Kitchen = Callable[[str], Task]

@@ -9,8 +9,7 @@ import pytest
 
 from tmd.pddl.semantics import regress
 from tmd.pddl.task import Bits, Cube, Operator, Task
-from tmd.planning.gap_filler import GapFiller
-from tmd.planning.memo import needs_before, needs_of
+from tmd.planning.gap_filler import GapFiller, needs_before, needs_of
 from tmd.planning.result import Filled, GaveUp
 from tmd.planning.search.in_process import OptimalSearch
 

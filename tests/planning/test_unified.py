@@ -12,14 +12,22 @@ import pytest
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.formulas import read_condition
-from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.syntax import parse
 from tmd.pddl.task import Cube, Task
 from tmd.planning import up_worker
 from tmd.planning.backends import make, solve
-from tmd.planning.fast_downward import OPTIMAL, OPTIMAL_WITH_AXIOMS, fast_downward, has_universal, spec
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.unified import EngineSpec, UnifiedPlanner, judged
+from tmd.planning.unified import (
+    OPTIMAL,
+    OPTIMAL_WITH_AXIOMS,
+    EngineSpec,
+    UnifiedPlanner,
+    fast_downward,
+    has_universal,
+    judged,
+    spec,
+)
 
 installed = pytest.mark.skipif(
     __import__("importlib.util").util.find_spec("up_fast_downward") is None, reason="Fast Downward is not installed"
@@ -89,7 +97,7 @@ def test_unknown_planners_are_refused(name: str, pantry: Task) -> None:
 
 
 def test_without_fast_downward(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
-    monkeypatch.setattr("tmd.planning.fast_downward.find_spec", lambda name: None)
+    monkeypatch.setattr("tmd.planning.unified.find_spec", lambda name: None)
     with pytest.raises(MissingToolError) as caught:
         make("fast-downward", pantry)
     assert caught.value.hint == "pip install up-fast-downward"

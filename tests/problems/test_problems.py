@@ -13,8 +13,7 @@ from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_problem
 from tmd.planning.backends import AUTO, FAST_DOWNWARD_FIRST, solve
 from tmd.planning.result import Filled
-from tmd.veil.corpus import Corpus
-from tmd.veil.replay import replay
+from tmd.veil.corpus import Corpus, replay
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder

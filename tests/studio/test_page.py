@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import GroundAtom
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.object_info import about
 from tmd.studio.panels.html import changed, fragment, goal_list, notice, object_facts, refused, step_list

@@ -14,9 +14,8 @@ from tmd.evaluation.models import paper_models
 from tmd.evaluation.models.paper_models import Crf, loss
 from tmd.evaluation.runs.dataset import BundledData, Example
 from tmd.inference.config import PAPER_EXTENDED
-from tmd.inference.learning.journal import Journal
-from tmd.inference.learning.weight_learning import Learned, Propose, learn_weights
-from tmd.inference.weights import Weights, named_weights
+from tmd.inference.energy import Weights, named_weights
+from tmd.inference.learning.weight_learning import Journal, Learned, Propose, learn_weights
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 

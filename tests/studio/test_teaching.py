@@ -10,9 +10,8 @@ import numpy as np
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.inference.learned.knowledge import Knowledge, study
-from tmd.inference.learned.library_json import library_to_json
-from tmd.inference.learned.store import place, recall
+from tmd.inference.learned.json_form import library_to_json
+from tmd.inference.learned.store import Knowledge, place, recall, study
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive

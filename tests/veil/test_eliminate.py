@@ -5,7 +5,7 @@ from __future__ import annotations
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.task import Cube
-from tmd.planning.eliminate import eliminate
+from tmd.planning.gap_filler import eliminate
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import run
 

@@ -14,9 +14,8 @@ from experiments.check_demonstrations import check
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import read_problem
-from tmd.veil.demonstration import Demonstration, demonstration_line, read_demonstrations
-from tmd.veil.goal import check_goal, read_goal
-from tmd.veil.replay import goal_holds, replay
+from tmd.veil.corpus import goal_holds, replay
+from tmd.veil.demonstration import Demonstration, check_goal, demonstration_line, read_demonstrations, read_goal
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

@@ -12,9 +12,8 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Segment
-from tmd.veil.instantiate import Instantiation, instantiate, replace
 from tmd.veil.library import align, learn, run
-from tmd.veil.template import Template, generalise
+from tmd.veil.template import Instantiation, Template, generalise, instantiate, replace
 from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment

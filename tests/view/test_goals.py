@@ -17,7 +17,7 @@ from tmd.inference.learned.store import known
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.studio.panels.energies import energies
 from tmd.veil.world import World
 from tmd.view.candidates import candidates

@@ -98,7 +98,7 @@ def test_nonsense_is_shown_as_the_step_that_breaks(kitchen: World, text: str) ->
 
 
 def test_a_goal_that_is_not_reached_is_told() -> None:
-    from tmd.pddl.reading.goal import with_goal
+    from tmd.pddl.reading.reader import with_goal
 
     problem = with_goal(corpus("02_table").world("corner2").task.problem, "(at cup1 table1 on)")
     page = render(Subject("goal", problem, planned("moveto(book1)")))

@@ -6,8 +6,7 @@ import pytest
 
 from tests.view.conftest import corpus
 from tmd.pddl.model import Atom, GroundAtom, Problem, TypedName
-from tmd.pddl.reading.goal import with_goal
-from tmd.pddl.reading.reader import parse_domain
+from tmd.pddl.reading.reader import parse_domain, with_goal
 from tmd.view.text.wording import Wording
 
 

@@ -10,9 +10,8 @@ from pathlib import Path
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Problem, State
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
-from tmd.veil.demonstration import Demonstration, read_demonstration
-from tmd.veil.goal import check_goal
-from tmd.veil.replay import replay
+from tmd.veil.corpus import replay
+from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
 
 
 def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:

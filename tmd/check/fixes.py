@@ -9,8 +9,7 @@ from pathlib import Path
 
 from tmd.check.diagnostic import Diagnostic
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.reading.parentheses import parse
-from tmd.pddl.reading.syntax import Group, read_text, split_lines
+from tmd.pddl.reading.syntax import Group, parse, read_text, split_lines
 
 FIXABLE = frozenset(
     {

@@ -15,8 +15,7 @@ from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
-from tmd.pddl.reading.parentheses import parse
-from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, read_text, split_lines
+from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, parse, read_text, split_lines
 from tmd.pddl.writer import format_formula
 
 _NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")

@@ -12,9 +12,8 @@ from tmd.check.lint.problem import lint_problem
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Domain, Problem
 from tmd.pddl.reading.checking import check_domain, check_problem
-from tmd.pddl.reading.parentheses import parse
 from tmd.pddl.reading.reader import parse_domain_unchecked, parse_problem_unchecked
-from tmd.pddl.reading.syntax import Group, Node, Source, Word, split_lines
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, parse, split_lines
 
 _DECLARED_IN = {
     ":types": "unknown-type",

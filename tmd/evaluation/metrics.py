@@ -27,8 +27,7 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem
+from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Bits, Task
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from tmd.diagnostics import Location, TmdError
 from tmd.ground import Grounded
 from tmd.pddl.model import Problem
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text, split_lines
 from tmd.pddl.semantics import holds
 from tmd.pddl.writer import format_formula

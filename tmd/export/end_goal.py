@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from tmd.inference.ranking import RankedPlan
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import And, Atom, Formula, Not, Or
+from tmd.pddl.model import And, Atom, Formula, Not, Or, conjuncts, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Task
 

@@ -8,9 +8,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.hierarchy import TypeHierarchy
-from tmd.pddl.model import OBJECT, Atom, GroundAtom, Predicate, Problem, TypeDeclaration, TypedName
+from tmd.pddl.model import (
+    OBJECT,
+    Atom,
+    GroundAtom,
+    Predicate,
+    Problem,
+    TypeDeclaration,
+    TypedName,
+    TypeHierarchy,
+    conjuncts,
+)
 
 
 def with_flat_types(problem: Problem) -> Problem:

@@ -12,8 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.reading.parentheses import parse
-from tmd.pddl.reading.syntax import split_lines
+from tmd.pddl.reading.syntax import parse, split_lines
 
 WIDTH = 120
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")

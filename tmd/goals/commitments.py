@@ -7,8 +7,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from itertools import product
 
-from tmd.pddl.formulas import conjuncts, signed_atoms
-from tmd.pddl.model import Atom, Domain, Formula, GroundAtom
+from tmd.pddl.model import Atom, Domain, Formula, GroundAtom, conjuncts, signed_atoms
 from tmd.pddl.task import Cube, Operator, Task
 
 _MOST = 512

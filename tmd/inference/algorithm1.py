@@ -15,7 +15,7 @@ from tmd.inference.energy import Energy
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, Refusal, cheapest, ranked
 from tmd.language.clause import Clause
-from tmd.pddl.constraints import Constraints
+from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits
 from tmd.planning.result import Filled, GaveUp, NoPlanner, Planner, Unreachable
 from tmd.veil.world import World

@@ -66,7 +66,7 @@ class InferenceConfig:
 
     @property
     def akin(self) -> float:
-        """As for :func:`tmd.inference.factors.delta_nl`."""
+        """As for :func:`tmd.inference.energy.delta_nl`."""
         return AKIN if self.extended else 0.0
 
 

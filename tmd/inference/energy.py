@@ -3,17 +3,172 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from importlib import resources
+from pathlib import Path
 
-from tmd.inference import factors
+from tmd.diagnostics import Location, TmdError
 from tmd.inference.config import AKIN
 from tmd.inference.learning.statistics import EndStates, Statistics, kind_of
-from tmd.inference.weights import Weights
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
+from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.pddl.task import Bits
-from tmd.veil.instantiate import Instantiation
+from tmd.veil.profiles import differences
+from tmd.veil.template import Instantiation
 from tmd.veil.world import World
+
+NAMES = (
+    *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
+    *("cover", "words", "generated", "unasked"),
+    *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
+)
+"""The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
+OURS = ("cover", "words", "generated", "unasked")
+"""Those of them that are not in the paper."""
+_RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
+
+
+@dataclass(frozen=True, slots=True)
+class Weights:
+    """A number for each of :data:`NAMES`; what is not named weighs nothing."""
+
+    values: Mapping[str, float]
+
+    def __getitem__(self, name: str) -> float:
+        return self.values.get(name, 0.0)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+
+def parse_weights(text: str, file: str = "<text>") -> Weights:
+    """Read weights: ``name value`` a line, ``#`` begins a comment.
+
+    Raises:
+        TmdError: A line is none, a name is unknown or said twice, or a value is not a finite number.
+    """
+    values: dict[str, float] = {}
+    for number, line in enumerate(text.splitlines(), start=1):
+        words = line.split("#", 1)[0].split()
+        place = Location(file, number, 1)
+        if not words:
+            continue
+        if len(words) != 2:
+            raise TmdError("a line of weights is a name and a number", location=place, source=line)
+        name, value = words
+        if name not in NAMES:
+            raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=nearest(name, NAMES))
+        if name in values:
+            raise TmdError(f"'{name}' has a weight already", location=place, source=line)
+        try:
+            values[name] = float(value)
+        except ValueError:
+            raise TmdError(f"'{value}' is not a number", location=place, source=line) from None
+        if not math.isfinite(values[name]):
+            raise TmdError(f"the weight of '{name}' is not finite", location=place, source=line)
+    return Weights(values)
+
+
+def read_weights(path: Path) -> Weights:
+    """The weights in a file.
+
+    Raises:
+        TmdError: As :func:`parse_weights`, or the file cannot be read.
+    """
+    return parse_weights(read_text(path), str(path))
+
+
+def named_weights(name: str) -> Weights:
+    """The weights that come with the package: those of a preset (:mod:`tmd.inference.config`), or ``nearest``.
+
+    Raises:
+        TmdError: There are none of that name.
+    """
+    if name in _RENAMED:
+        raise TmdError(f"the weights '{name}' are now called '{_RENAMED[name]}'")
+    folder = resources.files("tmd.inference") / "data"
+    known = sorted(f.name.removesuffix(".txt") for f in folder.iterdir() if f.name.endswith(".txt"))
+    if name not in known:
+        raise TmdError(f"there are no weights '{name}'", hint=nearest(name, known))
+    return parse_weights((folder / f"{name}.txt").read_text(encoding="utf-8"), f"{name}.txt")
+
+
+def format_weights(weights: Weights) -> str:
+    """The text of a weights file; reading it gives the same weights."""
+    return "".join(f"{name} {weights[name]!r}\n" for name in NAMES)
+
+
+def delta_env(instantiation: Instantiation) -> float:
+    """Environmental distance: the mean share of states in which ξ(z) and ξ_s(z) differ.
+
+    Δ_env = 1/|Z| Σ_z 1/|T(z)| Σ_t 1(ξ(z)[t] ≠ ξ_s(z)[t]); 0 for a template without variables.
+    """
+    variables = instantiation.grounding
+    if not variables:
+        return 0.0
+    before = instantiation.template.profiles
+    return sum(differences(before[z], instantiation.profiles[z]) for z in variables) / len(variables)
+
+
+def delta_nl(template_clause: Clause, clause: Clause, *, akin: float = AKIN) -> float:
+    """Natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
+
+    The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
+    without objects are alike. Nouns of which one is the other with a modifier (*syrup*, *raspberry syrup*) count
+    ``akin`` of a noun that both have; with 0 the index is the paper's.
+    """
+    ours, theirs = list(dict.fromkeys(clause.resolved())), list(dict.fromkeys(template_clause.resolved()))
+    shared = [noun for noun in ours if noun in theirs]
+    left = [noun for noun in theirs if noun not in shared]
+    common = float(len(shared))
+    for noun in ours:
+        other = next((o for o in left if noun not in shared and akin_nouns(noun, o)), None)
+        if other is not None:
+            left.remove(other)
+            common += akin
+    union = len(ours) + len(theirs) - common
+    return 1 - common / union if union else 0.0
+
+
+def akin_nouns(one: str, other: str) -> bool:
+    """Whether one noun is the other with a modifier: *ice cream* and *vanilla ice cream*."""
+    return one.endswith(f"_{other}") or other.endswith(f"_{one}")
+
+
+def delta_sim(instantiation: Instantiation) -> float:
+    """Parameter similarity cost: the share of variables that stand for another object than in the sample."""
+    variables = instantiation.grounding
+    if not variables:
+        return 0.0
+    before = instantiation.template.grounding
+    return sum(before[z] != name for z, name in variables.items()) / len(variables)
+
+
+def delta_pcc(template_clause: Clause, clause: Clause) -> float:
+    """Parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
+    return float(len(clause.resolved()) != len(template_clause.resolved()))
+
+
+def delta_dscpl(instructions: Sequence[Instruction]) -> float:
+    """Description length: the sum over the instructions of the number of arguments plus one."""
+    return float(sum(1 + len(instruction.args) for instruction in instructions))
+
+
+def delta_trim(kept: int, whole: int) -> float:
+    """Trimming cost: (|I_s| - |I_i|)²."""
+    return float((whole - kept) ** 2)
+
+
+def delta_cover(names: Collection[str], used: Collection[str]) -> float:
+    """The share of the objects that the clause speaks of (``names``) which the instructions do not touch.
+
+    Not in the paper. Δ_nl compares the clause with the template's clause, not with what is done: this keeps *take
+    the bowl* from being served by what somebody did for *get it boiling*. 0 where the clause speaks of no object.
+    """
+    return sum(name not in used for name in names) / len(names) if names else 0.0
+
 
 Factors = dict[str, float]
 """Factors by name, not yet multiplied by their weights."""
@@ -26,7 +181,7 @@ class Energy:
         weights: What each factor counts for.
         statistics: The tables of the training data.
         world: The environment.
-        akin: As for :func:`~tmd.inference.factors.delta_nl`.
+        akin: As for :func:`~tmd.inference.energy.delta_nl`.
     """
 
     def __init__(self, weights: Weights, statistics: Statistics, world: World, *, akin: float = AKIN) -> None:
@@ -40,10 +195,10 @@ class Energy:
         """The factors of ψ_i that do not depend on how much of the template is kept."""
         template = instantiation.template.clause
         return {
-            "env": factors.delta_env(instantiation),
-            "nl": factors.delta_nl(template, clause, akin=self.akin),
-            "sim": factors.delta_sim(instantiation),
-            "pcc": factors.delta_pcc(template, clause),
+            "env": delta_env(instantiation),
+            "nl": delta_nl(template, clause, akin=self.akin),
+            "sim": delta_sim(instantiation),
+            "pcc": delta_pcc(template, clause),
         }
 
     def of_sequence(self, kept: Sequence[Instruction], whole: int, names: Sequence[str]) -> Factors:
@@ -51,11 +206,11 @@ class Energy:
         used = {unit for i in kept for argument in i.args for unit in self.world.profiles.unit(argument)}
         inpr, para = self._prior(kept)
         return {
-            "dscpl": factors.delta_dscpl(kept),
+            "dscpl": delta_dscpl(kept),
             "inpr": inpr,
             "para": para,
-            "trim": factors.delta_trim(len(kept), whole),
-            "cover": factors.delta_cover(names, used),
+            "trim": delta_trim(len(kept), whole),
+            "cover": delta_cover(names, used),
         }
 
     def of_end(self, verb: str, names: Sequence[str], end: Bits) -> Factors:
@@ -70,7 +225,7 @@ class Energy:
         inpr, para = self._prior(plan)
         used = dict.fromkeys(a for i in plan for a in i.args if a not in self.world.profiles.constants)
         return {
-            "latent_dscpl": factors.delta_dscpl(plan),
+            "latent_dscpl": delta_dscpl(plan),
             "latent_inpr": inpr,
             "latent_para": para,
             "latent_cons": self._inconsistency(self.statistics.all_ends, list(used), end),

@@ -16,19 +16,18 @@ from itertools import islice
 from tmd.goals.clause_goal import Refused, Why, text_of
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.grounder import TRUE
-from tmd.goals.steps import GoalStep, Role
-from tmd.goals.text_following import Context, Follower, Target, TextConstraints
+from tmd.goals.text_following import Context, Follower, GoalStep, Role, Target, TextConstraints
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
 from tmd.inference.proposers import PLANNER_SOURCE, Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, RankedPlan, Refusal, StepGoal, why_lost
 from tmd.language.clause import Clause, Mood, Parsed, Quantifier
-from tmd.pddl.constraints import Constraints as Needs
 from tmd.pddl.model import And, Formula, Instruction
+from tmd.pddl.semantics import Constraints as Needs
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.eliminate import eliminate, untouched
+from tmd.planning.gap_filler import eliminate, untouched
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
-from tmd.veil.detours import tidy
+from tmd.veil.library import tidy
 from tmd.veil.world import World
 
 PlannerOf = Callable[[Task], Planner]

@@ -18,9 +18,8 @@ from tmd.inference.ranking import Path, Refusal
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library
-from tmd.veil.template import Template
+from tmd.veil.template import Instantiation, Template, instantiate
 from tmd.veil.world import World
 
 Instructions = tuple[Instruction, ...]

@@ -12,8 +12,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.pddl.grounding.ground import ground, ground_condition
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName
+from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName, universe
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task
 

@@ -1,14 +1,10 @@
-"""The nouns of PDDL: typed ADL with conditional and universal effects and action costs.
-
-Everything here is immutable. Lifted things (:class:`Atom`, with variables) and ground things
-(:class:`GroundAtom`, :class:`Instruction`) are different types. Every node that is read from a text knows its
-:class:`~tmd.diagnostics.Location`; locations take no part in equality or hashing.
-"""
+"""The nouns of PDDL: typed ADL with conditional and universal effects and action costs; its formulas and its types."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
@@ -216,3 +212,140 @@ class Problem:
         """The domain's constants, then the problem's objects, each once."""
         own = {o.name for o in self.objects}
         return tuple(c for c in self.domain.constants if c.name not in own) + self.objects
+
+
+def conjuncts(formula: Formula) -> list[Formula]:
+    """The parts of a conjunction, however nested."""
+    if isinstance(formula, And):
+        return [inner for part in formula.parts for inner in conjuncts(part)]
+    return [formula]
+
+
+def signed_atoms(formula: Formula) -> tuple[tuple[Atom, int], ...] | None:
+    """The atoms of a conjunction of literals, 1 for negated ones; ``None`` for any other formula."""
+    found: list[tuple[Atom, int]] = []
+    for part in conjuncts(formula):
+        inner = part.part if isinstance(part, Not) else part
+        if not isinstance(inner, Atom):
+            return None
+        found.append((inner, int(isinstance(part, Not))))
+    return tuple(found)
+
+
+def predicates_of(formula: Formula) -> frozenset[str]:
+    """The predicates that ``formula`` speaks of."""
+    match formula:
+        case Atom(predicate):
+            return frozenset((predicate,))
+        case Equals():
+            return frozenset()
+        case Not(part) | Forall(_, part) | Exists(_, part):
+            return predicates_of(part)
+        case And(parts) | Or(parts):
+            return frozenset[str]().union(*(predicates_of(p) for p in parts))
+        case Imply(left, right):
+            return predicates_of(left) | predicates_of(right)
+
+
+def free_variables(formula: Formula) -> frozenset[str]:
+    """The variables of ``formula`` that no quantifier within it binds."""
+    if isinstance(formula, Atom):
+        return frozenset(t for t in formula.terms if t.startswith("?"))
+    if isinstance(formula, Equals):
+        return frozenset(t for t in (formula.left, formula.right) if t.startswith("?"))
+    if isinstance(formula, Not):
+        return free_variables(formula.part)
+    if isinstance(formula, Imply):
+        return free_variables(formula.left) | free_variables(formula.right)
+    if isinstance(formula, Forall | Exists):
+        return free_variables(formula.part) - {p.name for p in formula.parameters}
+    return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
+
+
+class TypeHierarchy:
+    """Which type is a kind of which."""
+
+    def __init__(self, declarations: Iterable[TypeDeclaration]) -> None:
+        self.parents: dict[str, str] = {d.name: d.parent for d in declarations if d.name != OBJECT}
+        self._ancestors: dict[str, tuple[str, ...]] = {}
+
+    def known(self, name: str) -> bool:
+        """Whether ``name`` is declared; ``object`` always is."""
+        return name == OBJECT or name in self.parents
+
+    def ancestors(self, name: str) -> tuple[str, ...]:
+        """``name``, its parent and so on up to ``object``; a cycle is walked once."""
+        found = self._ancestors.get(name)
+        if found is None:
+            chain: list[str] = []
+            current: str | None = name
+            while current is not None and current not in chain:
+                chain.append(current)
+                current = self.parents.get(current)
+            if OBJECT not in chain:
+                chain.append(OBJECT)
+            found = self._ancestors[name] = tuple(chain)
+        return found
+
+    def accepts(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
+        """Whether everything of the types ``given`` (any of them) is also of one of ``wanted``."""
+        return all(any(w in self.ancestors(g) for w in wanted) for g in given)
+
+
+class Universe:
+    """The objects of a problem, by type, each list in order of declaration."""
+
+    def __init__(self, hierarchy: TypeHierarchy, objects: Sequence[TypedName]) -> None:
+        self.hierarchy = hierarchy
+        self.types_of: dict[str, tuple[str, ...]] = {o.name: o.types for o in objects}
+        self._of: dict[tuple[str, ...], tuple[str, ...]] = {}
+        self._is_a: dict[tuple[str, tuple[str, ...]], bool] = {}
+
+    def is_a(self, name: str, types: Sequence[str]) -> bool:
+        """Whether the object ``name`` exists and is of one of ``types``."""
+        key = name, tuple(types)
+        known = self._is_a.get(key)
+        if known is None:
+            given = self.types_of.get(name)
+            known = self._is_a[key] = given is not None and self.hierarchy.accepts(types, given)
+        return known
+
+    def of(self, types: tuple[str, ...]) -> tuple[str, ...]:
+        """The objects of any of ``types``."""
+        found = self._of.get(types)
+        if found is None:
+            found = self._of[types] = tuple(name for name in self.types_of if self.is_a(name, types))
+        return found
+
+
+def parents_first(declarations: Sequence[TypeDeclaration]) -> tuple[TypeDeclaration, ...]:
+    """``declarations`` with each parent before its children, otherwise in order: some readers insist."""
+    waiting = list(declarations)
+    ordered: list[TypeDeclaration] = []
+    known = {OBJECT}
+    while waiting:
+        ready = next((t for t in waiting if t.parent in known), waiting[0])
+        waiting.remove(ready)
+        ordered.append(ready)
+        known.add(ready.name)
+    return tuple(ordered)
+
+
+@lru_cache(maxsize=64)
+def _hierarchy(declarations: tuple[TypeDeclaration, ...]) -> TypeHierarchy:
+    return TypeHierarchy(declarations)
+
+
+@lru_cache(maxsize=64)
+def _universe(declarations: tuple[TypeDeclaration, ...], objects: tuple[TypedName, ...]) -> Universe:
+    return Universe(_hierarchy(declarations), objects)
+
+
+def hierarchy(domain: Domain) -> TypeHierarchy:
+    """The type hierarchy of ``domain``."""
+    return _hierarchy(domain.types)
+
+
+def universe(problem: Problem) -> Universe:
+    """The objects of ``problem``, its domain's constants among them."""
+    return _universe(problem.domain.types, problem.all_objects())

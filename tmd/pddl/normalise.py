@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.hierarchy import TypeHierarchy, parents_first
 from tmd.pddl.model import (
     OBJECT,
     ActionSchema,
@@ -29,6 +28,8 @@ from tmd.pddl.model import (
     Problem,
     TypeDeclaration,
     TypedName,
+    TypeHierarchy,
+    parents_first,
 )
 from tmd.pddl.reading.requirements import used_requirements
 

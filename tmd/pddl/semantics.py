@@ -1,22 +1,14 @@
-"""What PDDL means: when a condition holds, what an instruction does (the paper's Φ), and its inverse.
-
-The environment of section III-A of the paper is a :data:`~tmd.pddl.model.State`; ``apply`` is Φ for one
-instruction. The conditions of conditional effects all read the state before the instruction, and where an
-atom is both deleted and added it is added. Everything else in the package (grounding, searching, validating)
-must agree with this file, and tests hold them to it.
-"""
+"""What PDDL means: when a condition holds, what an instruction does (Φ), its inverse, and getConstraints."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.formulas import conjuncts, free_variables
-from tmd.pddl.hierarchy import Universe, universe
 from tmd.pddl.model import (
     ActionSchema,
     And,
@@ -34,9 +26,13 @@ from tmd.pddl.model import (
     Problem,
     State,
     TypedName,
+    Universe,
+    conjuncts,
+    free_variables,
+    universe,
 )
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.regress import regress
+from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_formula
 
 __all__ = [
@@ -264,3 +260,141 @@ def _first_false(formula: Formula, state: State, objects: Universe, binding: Bin
     atom = instantiate(formula, binding) if isinstance(formula, Atom) else None
     text = format_formula(formula, binding)
     return Broken(text if wanted else f"(not {text})", atom, wanted)
+
+
+def regress(cube: Cube, operator: Operator) -> tuple[Cube, ...]:
+    """The weakest precondition of ``cube`` under ``operator``, exactly, the operator's own included.
+
+    ``operator`` applies in a state and leads to one that satisfies ``cube`` if and only if one of the
+    returned cubes holds in that state. No returned cube contradicts itself or is implied by another. They
+    are sorted.
+    """
+    positive, negative = cube
+    if positive & negative or negative & operator.add:
+        return ()
+    before = Cube(
+        operator.precondition.positive | (positive & ~operator.add),
+        operator.precondition.negative | (negative & ~operator.delete),
+    )
+    clauses: list[Sequence[Cube]] = [_opposite(f) for f in operator.forbidden]
+    if operator.conditional:
+        kept_positive, kept_negative, more = _conditional_clauses(positive, negative, operator)
+        before = Cube(operator.precondition.positive | kept_positive, operator.precondition.negative | kept_negative)
+        clauses += more
+    elif positive & ~operator.add & operator.delete:
+        return ()
+    return _conjoin(before, clauses)
+
+
+def _conditional_clauses(positive: Bits, negative: Bits, operator: Operator) -> tuple[Bits, Bits, list[Sequence[Cube]]]:
+    """Literals that must hold before, and disjunctions of which one must, where effects have conditions."""
+    clauses: list[Sequence[Cube]] = []
+    wanted = positive & ~operator.add
+    unwanted = negative & ~operator.delete
+    may_add = may_delete = 0
+    for condition, add, delete in operator.conditional:
+        may_add |= add
+        may_delete |= delete & ~add
+        if add & negative:
+            clauses.append(_opposite(condition))
+    for bit in _bits(wanted & (may_add | may_delete | operator.delete)):
+        wanted &= ~bit
+        clauses.append(_made_true(bit, operator))
+    for bit in _bits(unwanted & may_delete):
+        unwanted &= ~bit
+        made_false = [c for c, _, delete in operator.conditional if delete & bit]
+        clauses.append([*made_false, Cube(0, bit)])
+    return wanted, unwanted, clauses
+
+
+def _made_true(bit: Bits, operator: Operator) -> Sequence[Cube]:
+    """The ways in which the atom ``bit``, which is not added in any case, holds afterwards."""
+    ways = [condition for condition, add, _ in operator.conditional if add & bit]
+    if not operator.delete & bit:
+        threats = [_opposite(c) for c, add, delete in operator.conditional if delete & bit and not add & bit]
+        ways.extend(_conjoin(Cube(bit, 0), threats))
+    return ways
+
+
+@lru_cache(maxsize=65536)
+def _opposite(cube: Cube) -> tuple[Cube, ...]:
+    """The negation of ``cube``, as a disjunction of single literals."""
+    return (*(Cube(0, b) for b in _bits(cube.positive)), *(Cube(b, 0) for b in _bits(cube.negative)))
+
+
+def _conjoin(start: Cube, clauses: Iterable[Sequence[Cube]]) -> tuple[Cube, ...]:
+    """The conjunction of ``start`` and of ``clauses`` (disjunctions), as a minimal disjunction of cubes."""
+    if start.positive & start.negative:
+        return ()
+    found = [start]
+    for clause in sorted(clauses, key=len):
+        grown: set[Cube] = set()
+        for positive, negative in found:
+            if any(p & ~positive == 0 and n & ~negative == 0 for p, n in clause):
+                grown.add(Cube(positive, negative))
+                continue
+            for more_positive, more_negative in clause:
+                both = Cube(positive | more_positive, negative | more_negative)
+                if not both.positive & both.negative:
+                    grown.add(both)
+        found = minimal(grown) if len(grown) > 1 else list(grown)
+        if not found:
+            return ()
+    return tuple(sorted(found))
+
+
+def minimal(cubes: Iterable[Cube]) -> list[Cube]:
+    """``cubes`` without those that another one of them implies, the shortest first."""
+    kept: list[Cube] = []
+    for cube in sorted(cubes, key=lambda c: (c.positive.bit_count() + c.negative.bit_count(), c)):
+        if not any(k.positive & ~cube.positive == 0 and k.negative & ~cube.negative == 0 for k in kept):
+            kept.append(cube)
+    return kept
+
+
+def _bits(bits: Bits) -> Iterable[Bits]:
+    while bits:
+        low = bits & -bits
+        yield low
+        bits ^= low
+
+
+MOST_CUBES = 64
+"""Conditional effects can make the constraints a long disjunction; the smallest cubes are kept. What is lost
+are only roundabout ways to make the sequence executable; every cube kept is exact."""
+
+
+def get_constraints(operators: Sequence[Operator]) -> list[tuple[Cube, ...]]:
+    """For each t the constraints of ``operators[t:]``, as a disjunction of cubes; the last entry is "true".
+
+    A sequence begun in a state that satisfies one of the cubes can be executed to its end. An empty
+    disjunction means that it never can.
+    """
+    found: list[tuple[Cube, ...]] = [(Cube(),)]
+    for operator in reversed(operators):
+        cubes: set[Cube] = set()
+        for cube in found[-1]:
+            cubes.update(regress(cube, operator))
+        found.append(tuple(sorted(cubes, key=_size)[:MOST_CUBES]))
+    found.reverse()
+    return found
+
+
+class Constraints:
+    """The constraints of instruction sequences in one task, remembered."""
+
+    def __init__(self, task: Task) -> None:
+        self._task = task
+        self._known: dict[tuple[Instruction, ...], tuple[Cube, ...]] = {}
+
+    def of(self, instructions: tuple[Instruction, ...]) -> tuple[Cube, ...]:
+        """The constraints of a sequence; those of its tails are kept as well, since tails are asked for next."""
+        if instructions not in self._known:
+            operators = [self._task.by_instruction[i] for i in instructions]
+            for t, cubes in enumerate(get_constraints(operators)):
+                self._known[instructions[t:]] = cubes
+        return self._known[instructions]
+
+
+def _size(cube: Cube) -> tuple[int, int, int]:
+    return (cube.positive.bit_count() + cube.negative.bit_count(), cube.positive, cube.negative)

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from tmd.pddl.hierarchy import parents_first
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -30,6 +29,7 @@ from tmd.pddl.model import (
     Predicate,
     Problem,
     TypedName,
+    parents_first,
 )
 
 _WIDTH = 100

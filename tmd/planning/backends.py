@@ -60,11 +60,11 @@ def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
 
         return FirstSearch(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:
-        from tmd.planning.fast_downward import fast_downward
+        from tmd.planning.unified import fast_downward
 
         return fast_downward(task)
     if name == FAST_DOWNWARD_FIRST:
-        from tmd.planning.fast_downward import first_plan
+        from tmd.planning.unified import first_plan
 
         return first_plan(task)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):

@@ -7,14 +7,14 @@ search.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.memo import Memo
+from tmd.pddl.model import Instruction
+from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.in_process import DEFAULT_CAP, Backend, OptimalSearch, replayed
-from tmd.planning.unsolvability.proofs import Impossible
+from tmd.planning.unsolvable import Impossible
 
 BRIEF = 100
 """Generated states after which a search stops to ask whether its goal is impossible."""
@@ -115,3 +115,149 @@ class GapFiller:
             if reason is not None:
                 return Unreachable(reason), ()
         return answer, search.steps
+
+
+Goal = tuple[Cube, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class MemoEntry:
+    """A plan, and the states from which it reaches the goal."""
+
+    needs: Cube
+    steps: tuple[int, ...]
+    cost: int
+
+
+class Memo:
+    """What a filler remembers.
+
+    Args:
+        operators: The operators of the task; plans are remembered by their numbers.
+        generalise: Whether plans are carried over to other states.
+    """
+
+    def __init__(self, operators: Sequence[Operator], generalise: bool) -> None:
+        self._operators = operators
+        self._generalise = generalise
+        self._exact: dict[tuple[Bits, Goal], Answer] = {}
+        self._entries: dict[Goal, list[MemoEntry]] = {}
+
+    def exact(self, state: Bits, goal: Goal) -> Answer | None:
+        """The answer that was given for the very same question."""
+        return self._exact.get((state, goal))
+
+    def matching(self, state: Bits, goal: Goal) -> MemoEntry | None:
+        """The cheapest remembered plan that works from ``state``; the oldest among equals."""
+        for entry in self._entries.get(goal, ()):
+            if entry.needs.holds(state):
+                return entry
+        return None
+
+    def store(self, state: Bits, goal: Goal, answer: Answer, steps: Sequence[int] = ()) -> None:
+        """Remember an answer; ``steps`` is the plan of a new one by operator numbers."""
+        self._exact[state, goal] = answer
+        if self._generalise and isinstance(answer, Filled) and steps:
+            cube = next(cube for cube in goal if cube.holds(answer.state))
+            needs = needs_of([self._operators[step] for step in steps], state, cube)
+            entries = self._entries.setdefault(goal, [])
+            entries.append(MemoEntry(needs, tuple(steps), answer.cost))
+            entries.sort(key=lambda entry: entry.cost)
+
+    def clear(self) -> None:
+        """Forget everything."""
+        self._exact.clear()
+        self._entries.clear()
+
+
+def needs_of(plan: Sequence[Operator], state: Bits, goal: Cube) -> Cube:
+    """What must hold for ``plan`` to reach ``goal`` the way it does from ``state``."""
+    passed = []
+    for operator in plan:
+        passed.append(state)
+        state = operator.apply(state)
+    needs = goal
+    for operator, before in zip(reversed(plan), reversed(passed), strict=True):
+        needs = needs_before(operator, before, needs)
+    return needs
+
+
+def needs_before(operator: Operator, state: Bits, goal: Cube) -> Cube:
+    """A cube that holds in ``state`` and from all of whose states ``operator`` leads into ``goal``.
+
+    ``operator`` must apply in ``state`` and lead from it into ``goal``.
+    """
+    fired = [effect for effect in operator.conditional if effect.condition.holds(state)]
+    positive, negative = operator.precondition
+    wanted, unwanted = goal.positive & ~operator.add, goal.negative & ~operator.delete
+    for effect in fired:
+        (true, false), add, delete = effect
+        if wanted & add or unwanted & delete:
+            positive, negative = positive | true, negative | false
+            wanted, unwanted = wanted & ~add, unwanted & ~delete
+    positive, negative = positive | wanted, negative | unwanted
+    silent = list(operator.forbidden)
+    for effect in operator.conditional:
+        (_, _), add, delete = effect
+        if not effect.condition.holds(state) and (add & goal.negative or delete & ~add & wanted):
+            silent.append(effect.condition)
+    for true, false in silent:
+        if true & negative or false & positive:
+            continue
+        absent, present = true & ~state, false & state
+        if absent:
+            negative |= absent & -absent
+        else:
+            positive |= present & -present
+    return Cube(positive, negative)
+
+
+def eliminate(plan: Sequence[Instruction], task: Task, state: Bits, goal: Sequence[Cube]) -> tuple[Instruction, ...]:
+    """The plan without what it does not need to get from ``state`` to a cube of ``goal``."""
+    kept = tuple(plan)
+    place = 0
+    while place < len(kept):
+        shorter, end = _executable(kept[:place] + kept[place + 1 :], task, state)
+        if any(cube.holds(end) for cube in goal):
+            kept = shorter
+        else:
+            place += 1
+    return kept
+
+
+def untouched(
+    plan: Sequence[Instruction],
+    task: Task,
+    state: Bits,
+    reached: Callable[[Sequence[Instruction]], bool],
+    counted: Bits,
+) -> tuple[Instruction, ...]:
+    """The plan without the objects that it handles for nothing.
+
+    Args:
+        plan: The plan.
+        task: The ground problem.
+        state: Where it starts.
+        reached: Whether a plan does what it is for.
+        counted: The atoms that count as changes; what is left out must not leave more of them changed.
+    """
+    kept = tuple(plan)
+    for name in dict.fromkeys(a for i in plan for a in i.args):
+        rest = [i for i in kept if name not in i.args]
+        shorter, end = _executable(rest, task, state)
+        before = _executable(kept, task, state)[1]
+        fewer = ((end ^ state) & counted).bit_count() <= ((before ^ state) & counted).bit_count()
+        if len(rest) < len(kept) and fewer and reached(shorter):
+            kept = shorter
+    return kept
+
+
+def _executable(plan: Sequence[Instruction], task: Task, state: Bits) -> tuple[tuple[Instruction, ...], Bits]:
+    """What of ``plan`` can be executed in its order, and where it ends."""
+    done = []
+    for instruction in plan:
+        operator = task.by_instruction[instruction]
+        if operator.applicable(state):
+            done.append(instruction)
+            state = operator.apply(state)
+    return tuple(done), state

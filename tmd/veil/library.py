@@ -12,7 +12,6 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.clause_alignment import split
 from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.detours import tidy
 from tmd.veil.template import Template, generalise
 from tmd.veil.world import World
 
@@ -229,3 +228,23 @@ def run(world: World, state: int, instructions: Iterable[Instruction]) -> int:
         if operator is not None:
             state = operator.apply(state)
     return state
+
+
+def tidy(instructions: Sequence[Instruction], world: World, state: Bits) -> tuple[Instruction, ...]:
+    """The instructions without detours, begun in ``state``; one that can never apply here is left where it is."""
+    kept: list[Instruction] = []
+    states = [state]
+    for instruction in instructions:
+        operator = world.task.by_instruction.get(instruction)
+        after = operator.apply(states[-1]) if operator is not None else states[-1]
+        if operator is None or not instruction.args:
+            kept.append(instruction)
+            states.append(after)
+            continue
+        if after in states:
+            back = states.index(after)
+            del kept[back:], states[back + 1 :]
+        else:
+            kept.append(instruction)
+            states.append(after)
+    return tuple(kept)

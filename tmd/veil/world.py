@@ -7,11 +7,9 @@ from dataclasses import dataclass
 
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.grounding.ground import ground
-from tmd.pddl.hierarchy import Universe, universe
-from tmd.pddl.model import Problem
+from tmd.pddl.model import Problem, Universe, universe
 from tmd.pddl.task import Task
-from tmd.veil.mentions import Mentions
-from tmd.veil.profiles import Profiles
+from tmd.veil.profiles import Mentions, Profiles
 
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)

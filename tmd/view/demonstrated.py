@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.veil.demonstration import Demonstration, Segment
 from tmd.veil.world import World
 from tmd.view.subject import PlannedStep, Said, Subject

@@ -6,8 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tmd.inference.ranking import StepGoal
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State
+from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import validate
 from tmd.view.text.wording import Wording

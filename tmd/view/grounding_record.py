@@ -13,7 +13,7 @@ from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal, StepGoa
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_condition
-from tmd.pddl.reading.parentheses import parse
+from tmd.pddl.reading.syntax import parse
 from tmd.view.goals import why_refused
 
 

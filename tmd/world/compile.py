@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -21,11 +20,11 @@ from tmd.pddl.model import (
     Problem,
     State,
     TypedName,
+    universe,
 )
 from tmd.pddl.reading.formulas import read_effects
-from tmd.pddl.reading.parentheses import parse
 from tmd.pddl.reading.reader import parse_domain
-from tmd.pddl.reading.syntax import nearest, read_text
+from tmd.pddl.reading.syntax import nearest, parse, read_text
 from tmd.pddl.semantics import apply
 from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
 from tmd.world.environment import Environment

@@ -5,8 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.formulas import conjuncts, free_variables, predicates_of
-from tmd.pddl.model import TRUE, ActionSchema, Atom, Domain, Equals, Formula, Not, Or
+from tmd.pddl.model import (
+    TRUE,
+    ActionSchema,
+    Atom,
+    Domain,
+    Equals,
+    Formula,
+    Not,
+    Or,
+    conjuncts,
+    free_variables,
+    predicates_of,
+)
 from tmd.pddl.reading.syntax import Source
 
 

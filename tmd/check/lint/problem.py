@@ -6,8 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from tmd.check.lint.reachable import Possible, possible
 from tmd.diagnostics import TmdError
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.model import Atom, Domain, GroundAtom, Not, Problem
+from tmd.pddl.model import Atom, Domain, GroundAtom, Not, Problem, conjuncts
 from tmd.pddl.reading.syntax import Source
 
 

@@ -9,9 +9,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.hierarchy import TypeHierarchy, Universe, universe
-from tmd.pddl.model import ActionSchema, Atom, Effect, GroundAtom, Problem, TypedName
+from tmd.pddl.model import (
+    ActionSchema,
+    Atom,
+    Effect,
+    GroundAtom,
+    Problem,
+    TypedName,
+    TypeHierarchy,
+    Universe,
+    conjuncts,
+    universe,
+)
 
 Scope = Mapping[str, tuple[str, ...]]
 """The types of variables."""

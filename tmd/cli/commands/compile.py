@@ -51,7 +51,7 @@ def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
 
 def _environment(roots: Roots, path: Path, output: Path | None, goal: str | None) -> ExitCode:
     from tmd.files import write_text
-    from tmd.pddl.reading.goal import with_goal
+    from tmd.pddl.reading.reader import with_goal
     from tmd.pddl.writer import format_problem
     from tmd.world.compile import compile_problem
     from tmd.world.environment import load_environment

@@ -13,7 +13,7 @@ from tmd.cli.output import emit, emit_json, rounded
 from tmd.diagnostics import ExitCode, TmdError
 
 if TYPE_CHECKING:
-    from tmd.inference.learned.knowledge import Knowledge
+    from tmd.inference.learned.store import Knowledge
     from tmd.inference.learning.weight_learning import Learned
     from tmd.veil.corpus import Corpus
 
@@ -40,8 +40,7 @@ def command(
     what it was learned from; otherwise it learns anew each time. The weights are used when asked for:
     `tmd ground --weights learned`.
     """
-    from tmd.inference.learned.digest import digest
-    from tmd.inference.learned.store import place, save
+    from tmd.inference.learned.store import digest, place, save
 
     corpus = roots.corpus(roots.folder(domain))
     directory = place(corpus, out or learned)
@@ -62,8 +61,7 @@ def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learne
 
     import numpy as np
 
-    from tmd.inference.learned.knowledge import study
-    from tmd.inference.learned.progress import Progress
+    from tmd.inference.learned.store import Progress, study
 
     demonstrations = corpus.demonstrations()
     if not demonstrations:
@@ -89,8 +87,8 @@ def _check_goals(corpus: Corpus) -> None:
     Raises:
         TmdError: A goal cannot be read or does not hold at the end; with its place.
     """
-    from tmd.veil.goal import check_goal
-    from tmd.veil.replay import final_state
+    from tmd.veil.corpus import final_state
+    from tmd.veil.demonstration import check_goal
 
     for demonstration in corpus.demonstrations():
         if demonstration.goal is not None:

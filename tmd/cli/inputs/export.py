@@ -16,7 +16,7 @@ from tmd.diagnostics import ExitCode, Location, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text
 
 ASKED, CHANGED = "asked", "changed"
@@ -105,8 +105,7 @@ def load_problem(roots: Roots, path: Path, domain: str | None) -> Problem:
 
 
 def _domain_name(text: str, path: Path) -> str:
-    from tmd.pddl.reading.parentheses import parse
-    from tmd.pddl.reading.syntax import Group, Word
+    from tmd.pddl.reading.syntax import Group, Word, parse
 
     for group in parse(text, str(path)).groups:
         for part in group.parts:

@@ -18,7 +18,7 @@ from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig, preset
 
 if TYPE_CHECKING:
     from tmd.ground import Grounded
-    from tmd.inference.weights import Weights
+    from tmd.inference.energy import Weights
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World
 
@@ -185,7 +185,7 @@ def _no_weights(domain: str) -> NoReturn:
 
 
 def _weights(given: str) -> Weights:
-    from tmd.inference.weights import named_weights, read_weights
+    from tmd.inference.energy import named_weights, read_weights
 
     path = Path(given)
     return read_weights(path) if path.suffix or path.is_file() else named_weights(given)

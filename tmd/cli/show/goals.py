@@ -11,7 +11,7 @@ from tmd.ground import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.pddl.model import Problem
-from tmd.pddl.reading.goal import aimed_at
+from tmd.pddl.reading.reader import aimed_at
 from tmd.pddl.writer import format_formula, format_problem
 from tmd.view.goals import ShownGoal, in_words
 

@@ -19,7 +19,7 @@ class InstructionTree:
     """A log-linear reward searches over the sequence of instructions for every clause.
 
     P(next instruction | words of the clause, sequence so far) ∝ exp(θ·φ) over what the syntactical constraints
-    (:mod:`tmd.inference.policy.action_constraints`) allow; φ is in :mod:`tmd.inference.policy.features`. The reward of
+    (:mod:`tmd.inference.policy.features`) allow; φ is in :mod:`tmd.inference.policy.features`. The reward of
     a sequence is its log-probability and a bonus for its length; a beam search finds the best one, clause by clause.
     Which objects there are is known, in which state they are is not: neither states nor preconditions are read.
 

@@ -14,13 +14,13 @@ from tmd.evaluation.models.paper_models import ROWS, libraries
 from tmd.evaluation.models.predefined_templates import PredefinedTemplates
 from tmd.evaluation.models.prediction import Prediction, by_clause
 from tmd.evaluation.runs.dataset import Dataset, Example
-from tmd.inference.factors import delta_env, delta_nl
+from tmd.inference.energy import delta_env, delta_nl
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest
-from tmd.veil.instantiate import Instantiation, instantiate
 from tmd.veil.library import Library, run
+from tmd.veil.template import Instantiation, instantiate
 from tmd.veil.world import World
 
 

@@ -40,9 +40,9 @@ from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import WORDNET
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.instantiate import replace
 from tmd.veil.library import run
-from tmd.veil.mentions import CONTAINED
+from tmd.veil.profiles import CONTAINED
+from tmd.veil.template import replace
 from tmd.veil.world import World
 from tmd.world.folder import find_domain
 

@@ -13,8 +13,7 @@ from typing import Annotated
 from pydantic import BaseModel, BeforeValidator, ConfigDict
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.hierarchy import Universe, hierarchy
-from tmd.pddl.model import Domain, Instruction, TypedName
+from tmd.pddl.model import Domain, Instruction, TypedName, Universe, hierarchy
 from tmd.pddl.reading.syntax import nearest
 from tmd.world.folder import DomainFolder
 from tmd.world.yaml_positions import YamlSource

@@ -20,7 +20,7 @@ from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.goal import read_goal
+from tmd.veil.demonstration import read_goal
 from tmd.veil.world import World, make_world
 from tmd.world.folder import find_domain, find_problems
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.files import make_directory, write_text
-from tmd.inference.weights import Weights
+from tmd.inference.energy import Weights
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of

@@ -8,8 +8,7 @@ from enum import StrEnum
 from functools import cached_property
 
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
-from tmd.goals.sources.senses import state_words
-from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable
+from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable, state_words
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
 from tmd.language.lexicon.word_lists import section

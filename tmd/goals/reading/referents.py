@@ -9,8 +9,7 @@ from itertools import pairwise
 from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
-from tmd.goals.sources.senses import state_words, words_of
-from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
+from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types, state_words, words_of
 from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import split_name

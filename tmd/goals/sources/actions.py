@@ -15,12 +15,33 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import permutations
 
-from tmd.goals.sources.senses import family, result_verbs, results
-from tmd.goals.sources.table import ACTIONS, LOCATED, PREPOSITIONS, GoalRow, GoalTable, Slot
+from tmd.goals.sources.table import (
+    ACTIONS,
+    LOCATED,
+    PREPOSITIONS,
+    GoalRow,
+    GoalTable,
+    Slot,
+    family,
+    result_verbs,
+    results,
+)
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
-from tmd.pddl.hierarchy import hierarchy
-from tmd.pddl.model import ActionSchema, And, Atom, Domain, Effect, Exists, Formula, Not, Or, Predicate, TypedName
+from tmd.pddl.model import (
+    ActionSchema,
+    And,
+    Atom,
+    Domain,
+    Effect,
+    Exists,
+    Formula,
+    Not,
+    Or,
+    Predicate,
+    TypedName,
+    hierarchy,
+)
 from tmd.pddl.writer import format_formula
 
 _ACTORS = frozenset({"robot", "agent", "gripper", "hand", "arm", "actor"})

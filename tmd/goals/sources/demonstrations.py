@@ -20,8 +20,17 @@ from tmd.diagnostics import TmdError
 from tmd.goals.commitments import passing_predicates
 from tmd.goals.grounder import FALSE, Grounder, Moments
 from tmd.goals.reading.nouns import Nouns
-from tmd.goals.sources.senses import results, words_of
-from tmd.goals.sources.table import LEARNED, PREPOSITIONS, RELATION, GoalRow, GoalTable, PutBack, read_row
+from tmd.goals.sources.table import (
+    LEARNED,
+    PREPOSITIONS,
+    RELATION,
+    GoalRow,
+    GoalTable,
+    PutBack,
+    read_row,
+    results,
+    words_of,
+)
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name

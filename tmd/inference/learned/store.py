@@ -1,6 +1,6 @@
 """Directories with what was learned of a domain: where `tmd learn` saves, and the cache of the user.
 
-``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned.knowledge` learns,
+``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned.store` learns,
 ``weights.txt`` the learned weights if there are any. ``learned.json`` is written last and has checksums: of what
 everything was made from, and of the other files. Where one of them does not fit, nothing of the directory is used.
 
@@ -14,20 +14,171 @@ import hashlib
 import json
 import os
 import shutil
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
-from typing import Any
+from types import TracebackType
+from typing import Any, Self
+
+import numpy as np
 
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import make_directory, write_bytes
-from tmd.goals.sources.demonstrations import table_from_json, table_to_json
-from tmd.inference.learned.digest import digest
-from tmd.inference.learned.knowledge import Knowledge, study
-from tmd.inference.learned.library_json import library_from_json, library_to_json
-from tmd.inference.learned.policy_json import reward_from_json, reward_to_json, weights_bytes
-from tmd.inference.learned.progress import Progress
-from tmd.inference.weights import format_weights, parse_weights
+from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
+from tmd.goals.sources.table import GoalTable
+from tmd.inference.energy import Weights, format_weights, parse_weights
+from tmd.inference.learned.json_form import (
+    library_from_json,
+    library_to_json,
+    reward_from_json,
+    reward_to_json,
+    weights_bytes,
+)
+from tmd.inference.policy.policy import Reward
+from tmd.inference.policy.training import learn_policy
 from tmd.veil.corpus import Corpus
+from tmd.veil.demonstration import Demonstration
+from tmd.veil.library import Library, learn
+
+_PATIENCE = 2.0
+"""Seconds that nobody minds waiting without a word."""
+
+
+class Progress:
+    """Tells of work under way, once it has taken two seconds: its share on a terminal, one line elsewhere.
+
+    Args:
+        what: The work, such as *learning from the demonstrations of kitchen*.
+    """
+
+    def __init__(self, what: str) -> None:
+        self._what = what
+        self._begun = time.monotonic()
+        self._shown = ""
+
+    def tell(self, share: float) -> None:
+        """Say how much is done, from 0 to 1."""
+        if sys.stderr is None or time.monotonic() - self._begun < _PATIENCE:
+            return
+        if sys.stderr.isatty():
+            self._show(f"\r{self._what}: {share:4.0%}")
+        elif not self._shown:
+            self._show(f"{self._what} …\n")
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, at: TracebackType | None) -> None:
+        if self._shown.startswith("\r"):
+            self._show("\r" + " " * len(self._shown) + "\r")
+
+    def _show(self, text: str) -> None:
+        if text != self._shown:
+            self._shown = text
+            sys.stderr.write(text)
+            sys.stderr.flush()
+
+
+_ROOT = Path(__file__).resolve().parents[2]
+_PACKAGES = ("pddl", "world", "language", "veil", "goals", "inference/policy", "inference/learned")
+"""The packages whose code decides what is learned from a demonstration."""
+_DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
+
+
+def digest(corpus: Corpus) -> str:
+    """The checksum; the same wherever the folders lie."""
+    found = hashlib.sha256(_program().encode())
+    for name, path in _files(corpus):
+        content = path.read_bytes()
+        found.update(f"{name} {len(content)}\n".encode())
+        found.update(content)
+    return found.hexdigest()
+
+
+def _files(corpus: Corpus) -> Iterator[tuple[str, Path]]:
+    for name in _DOMAIN:
+        path = corpus.folder.path / name
+        if path.is_file():
+            yield name, path
+    for pattern in ("environments/*.yaml", "environments/*.pddl", "*/demonstrations.jsonl"):
+        for path in sorted(corpus.directory.glob(pattern)):
+            yield path.relative_to(corpus.directory).as_posix(), path
+
+
+@lru_cache(maxsize=1)
+def _program() -> str:
+    """Of the code and the word lists of the packages below."""
+    found = hashlib.sha256()
+    for package in _PACKAGES:
+        for path in sorted((_ROOT / package).rglob("*")):
+            if path.is_file() and path.suffix != ".pyc":
+                content = path.read_bytes()
+                found.update(f"{path.relative_to(_ROOT).as_posix()} {len(content)}\n".encode())
+                found.update(content)
+    return found.hexdigest()
+
+
+_SEED = 0
+"""The policy's own: the same demonstrations teach the same."""
+_LIBRARY = 0.15
+"""The share of the work that the library is, roughly; the policy is the rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Knowledge:
+    """What was learned of a domain.
+
+    Attributes:
+        library: The templates.
+        reward: What the policy was learned to be; ``None`` where there are no demonstrations.
+        weights: Weights that were learned on the demonstrations, if any were.
+        goals: What verbs were learned to mean; ``None`` where there are no demonstrations.
+    """
+
+    library: Library
+    reward: Reward | None = None
+    weights: Weights | None = None
+    goals: GoalTable | None = None
+
+
+def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowledge:
+    """Learn library and policy from all demonstrations of a domain.
+
+    Args:
+        corpus: The domain.
+        tell: Is told which share of the work is done.
+
+    Raises:
+        TmdError: A demonstration is wrong, or cannot be executed in its environment.
+    """
+    demonstrations = corpus.demonstrations()
+    told = tell or _nobody
+    library = learn(_counted(demonstrations, told), corpus.world, corpus.lexicon)
+    if not len(library):
+        return Knowledge(library)
+    random = np.random.default_rng(_SEED)
+
+    def on(share: float) -> None:
+        told(_LIBRARY + (1 - _LIBRARY) * share)
+
+    goals = learn_goals(demonstrations, corpus.world, corpus.lexicon)
+    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=on), goals=goals)
+
+
+def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
+    """The demonstrations; ``tell`` is told how far they are taken."""
+    for number, demonstration in enumerate(demonstrations):
+        tell(_LIBRARY * number / len(demonstrations))
+        yield demonstration
+
+
+def _nobody(share: float) -> None:
+    """Nobody wants to know."""
+
 
 FOLDER = "learned"
 """Where it is kept beside a domain's demonstrations."""
@@ -51,7 +202,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
         knowledge: What was learned.
         corpus: The domain.
         directory: Where to.
-        made_from: The :func:`~tmd.inference.learned.digest.digest` of the corpus before it was read, where others may
+        made_from: The :func:`~tmd.inference.learned.store.digest` of the corpus before it was read, where others may
             write to it meanwhile; what it is now where none is given.
 
     Raises:

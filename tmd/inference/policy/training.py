@@ -7,10 +7,20 @@ from typing import NamedTuple
 
 import numpy as np
 
-from tmd.inference.policy.action_constraints import KnownObjects, Syntax, learn_syntax
-from tmd.inference.policy.features import STOP, Features, Ints, Menu, Node, followers, properties, steps
-from tmd.inference.policy.log_linear import Made, ascend, likelihood
-from tmd.inference.policy.policy import Reward, bag, mentioned, nothing
+from tmd.inference.policy.features import (
+    STOP,
+    Features,
+    Ints,
+    KnownObjects,
+    Menu,
+    Node,
+    Syntax,
+    followers,
+    learn_syntax,
+    properties,
+    steps,
+)
+from tmd.inference.policy.policy import Made, Reward, ascend, bag, likelihood, mentioned, nothing
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Instruction

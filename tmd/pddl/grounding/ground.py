@@ -2,7 +2,7 @@
 
 In three steps. Actions are instantiated while relaxed reachability collects the atoms that may hold
 (:mod:`tmd.pddl.grounding.instantiate`). Then what can never apply, and what never changes, is pruned
-(:mod:`tmd.pddl.grounding.prune`). At last the atoms that are left are numbered.
+(:mod:`tmd.pddl.grounding.ground`). At last the atoms that are left are numbered.
 """
 
 from __future__ import annotations
@@ -10,13 +10,22 @@ from __future__ import annotations
 import gc
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, replace
 
-from tmd.pddl.grounding.ground_action import Conditional, GroundAction
+from tmd.pddl.grounding.ground_action import (
+    FALSE,
+    TRUE,
+    Conditional,
+    GroundAction,
+    Literals,
+    Reachability,
+    Tree,
+    disjunctive,
+    expand,
+    grouped,
+)
 from tmd.pddl.grounding.instantiate import Instances, instantiate_actions
-from tmd.pddl.grounding.normal_form import FALSE, TRUE, Literals, Tree, disjunctive, expand
-from tmd.pddl.grounding.prune import Pruned, prune
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import Binding, bind
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 
@@ -147,3 +156,58 @@ def _bits(atoms: Iterable[int], bit: dict[int, int]) -> Bits:
     for atom in atoms:
         found |= 1 << bit[atom]
     return found
+
+
+@dataclass(frozen=True, slots=True)
+class Pruned:
+    """What is left: the actions, the atoms that change, and those that hold always."""
+
+    actions: tuple[GroundAction, ...]
+    fluent: frozenset[int]
+    always: frozenset[int]
+
+
+def prune(actions: Sequence[GroundAction], reachability: Reachability) -> Pruned:
+    """Drop actions, effects and conditions that can play no part."""
+    atoms = [literal >> 1 for literal in reachability.reached if not literal & 1]
+    fluent = frozenset(atom for atom in atoms if reachability.holds(2 * atom + 1))
+    known = _Known(fluent, frozenset(atoms) - fluent)
+    left = tuple(
+        known.action(action, [e for k, e in enumerate(action.effects) if (number, k) in reachability.fired])
+        for number, action in enumerate(actions)
+        if (number, -1) in reachability.fired
+    )
+    return Pruned(left, fluent, known.always)
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """Atoms that are neither ``fluent`` nor ``always`` true are always false."""
+
+    fluent: frozenset[int]
+    always: frozenset[int]
+
+    def truth(self, literal: int) -> bool | None:
+        """The value of ``literal``; ``None`` where it changes."""
+        if literal >> 1 in self.fluent:
+            return None
+        return (literal >> 1 in self.always) != bool(literal & 1)
+
+    def open(self, literals: Literals) -> Literals:
+        if all(literal >> 1 in self.fluent for literal in literals):
+            return literals
+        return frozenset(literal for literal in literals if literal >> 1 in self.fluent)
+
+    def action(self, action: GroundAction, effects: Sequence[Conditional]) -> GroundAction:
+        clauses = (c for c in action.clauses if not any(self.truth(literal) for literal in c))
+        kept: list[Conditional] = []
+        shortened = False
+        for condition, add, delete in effects:
+            add, delete = add & self.fluent, delete & self.fluent
+            if (add or delete) and not any(self.truth(literal) is False for literal in condition):
+                kept.append(Conditional(self.open(condition), add, delete))
+                shortened |= len(kept[-1].condition) < len(condition)
+        left = tuple(dict.fromkeys(self.open(c) for c in clauses))
+        found = GroundAction(action.instruction, left, tuple(kept), action.cost, action.forced)
+        # Shorter conditions may coincide or be empty; then adding wins anew.
+        return replace(found, effects=grouped(found.flat())) if shortened else found

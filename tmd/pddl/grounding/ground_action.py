@@ -1,14 +1,207 @@
-"""Actions over numbered atoms, as they are while grounding: clauses, and effects grouped by condition."""
+"""Ground conditions in normal form, actions over numbered atoms, and which of them relaxed reachability can reach."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from itertools import product
+from typing import NamedTuple, TypeAlias
 
-from tmd.pddl.grounding.normal_form import Literals
-from tmd.pddl.grounding.reachability import Rule
-from tmd.pddl.model import Instruction
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Instruction, Not, Or, Universe
+from tmd.pddl.semantics import Binding, bindings, instantiate
+
+Tree: TypeAlias = "int | tuple[str, tuple[Tree, ...]]"
+"""A literal, or ``("and", parts)`` or ``("or", parts)``."""
+
+TRUE: Tree = ("and", ())
+FALSE: Tree = ("or", ())
+
+Lookup: TypeAlias = Callable[[GroundAtom], Tree]
+"""What is known of an atom: :data:`TRUE`, :data:`FALSE`, or the literal that stands for it."""
+
+Literals: TypeAlias = frozenset[int]
+
+_MOST = 3_000
+
+
+def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True) -> Tree:
+    """``formula`` (or its negation) over literals: quantifiers spread out, constants gone."""
+    match formula:
+        case Atom():
+            found = lookup(instantiate(formula, binding))
+            if positive:
+                return found
+            if isinstance(found, int):
+                return found ^ 1
+            return FALSE if found == TRUE else TRUE
+        case Equals(left, right):
+            return TRUE if (binding.get(left, left) == binding.get(right, right)) == positive else FALSE
+        case Not(part):
+            return expand(part, binding, objects, lookup, not positive)
+        case And(parts):
+            found_parts = (expand(p, binding, objects, lookup, positive) for p in parts)
+            return _combine("and" if positive else "or", found_parts)
+        case Or(parts):
+            found_parts = (expand(p, binding, objects, lookup, positive) for p in parts)
+            return _combine("or" if positive else "and", found_parts)
+        case Imply(left, right):
+            sides = (
+                expand(left, binding, objects, lookup, not positive),
+                expand(right, binding, objects, lookup, positive),
+            )
+            return _combine("or" if positive else "and", sides)
+        case Forall(parameters, part):
+            inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
+            return _combine("and" if positive else "or", inner)
+        case Exists(parameters, part):
+            inner = (expand(part, b, objects, lookup, positive) for b in bindings(parameters, objects, binding))
+            return _combine("or" if positive else "and", inner)
+
+
+def _combine(word: str, parts: Iterable[Tree]) -> Tree:
+    neutral, absorbing = (TRUE, FALSE) if word == "and" else (FALSE, TRUE)
+    kept: list[Tree] = []
+    for part in parts:
+        if part == absorbing:
+            return absorbing
+        if part == neutral:
+            continue
+        if not isinstance(part, int) and part[0] == word:
+            kept.extend(part[1])
+        else:
+            kept.append(part)
+    return kept[0] if len(kept) == 1 else (word, tuple(kept))
+
+
+def conjunctive(tree: Tree, what: str) -> list[Literals]:
+    """``tree`` as clauses, all of which must hold; an empty clause is false.
+
+    Raises:
+        TmdError: It has too many clauses; ``what`` says whose condition it is.
+    """
+    return _normal(tree, "and", what)
+
+
+def disjunctive(tree: Tree, what: str) -> list[Literals]:
+    """``tree`` as cubes, one of which must hold; an empty cube is true.
+
+    Raises:
+        TmdError: It has too many cubes; ``what`` says whose condition it is.
+    """
+    return _normal(tree, "or", what)
+
+
+def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
+    if isinstance(tree, int):
+        return [frozenset((tree,))]
+    word, parts = tree
+    if word == outer:
+        return _absorb({clause for part in parts for clause in _normal(part, outer, what)})
+    if all(isinstance(p, int) for p in parts):
+        literals = frozenset(p for p in parts if isinstance(p, int))
+        return [] if any(p ^ 1 in literals for p in literals) else [literals]
+    found: list[Literals] = [frozenset()]
+    for part in parts:
+        choices = _normal(part, outer, what)
+        if len(found) * len(choices) > _MOST:
+            raise TmdError(
+                f"the condition of {what} has more than {_MOST} cases when written out",
+                hint="split it, or name the inner condition by a predicate of its own",
+            )
+        joined = {a | b for a, b in product(found, choices)}
+        found = _absorb({c for c in joined if not any(literal ^ 1 in c for literal in c)})
+    return found
+
+
+def _absorb(clauses: set[Literals]) -> list[Literals]:
+    """Without clauses that contain another one; sorted."""
+    if len(clauses) < 2:
+        return list(clauses)
+    kept: list[Literals] = []
+    for clause in sorted(clauses, key=lambda c: (len(c), sorted(c))):
+        if len(clause) == 1 or not any(k <= clause for k in kept):
+            kept.append(clause)
+    return kept
+
+
+Tag: TypeAlias = tuple[int, int]
+"""Which rule: the action's number, and the number of its effect or -1 for the action itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class Rule:
+    """When every clause can hold, so can the literals ``heads``, and the rules ``then`` come into being."""
+
+    tag: Tag
+    clauses: Sequence[Literals]
+    heads: Sequence[int]
+    then: Sequence[Rule] = ()
+
+
+class Reachability:
+    """A fixpoint that can be extended by more rules while it runs.
+
+    Args:
+        literals: What holds at the start.
+        starts_false: Whether an atom is false in some initial state.
+    """
+
+    def __init__(self, literals: Iterable[int], starts_false: Callable[[int], bool]) -> None:
+        self.reached: dict[int, None] = {}
+        self.fired: set[Tag] = set()
+        self._starts_false = starts_false
+        self._queue: list[int] = []
+        self._watchers: dict[int, list[list[int]]] = {}
+        self._rules: list[Rule] = []
+        self._missing: list[int] = []
+        self._new: list[int] = []
+        self._reach(literals)
+
+    def holds(self, literal: int) -> bool:
+        """Whether ``literal`` can hold, as far as is known now."""
+        return literal in self.reached or bool(literal & 1 and self._starts_false(literal >> 1))
+
+    def add(self, rule: Rule) -> None:
+        """Let ``rule`` take part; call :meth:`run` afterwards."""
+        waiting = [c for c in rule.clauses if not any(self.holds(literal) for literal in c)]
+        if not waiting:
+            self._fire(rule)
+            return
+        number = len(self._rules)
+        self._rules.append(rule)
+        self._missing.append(len(waiting))
+        for clause in waiting:
+            watcher = [number, 0]
+            for literal in clause:
+                self._watchers.setdefault(literal, []).append(watcher)
+
+    def run(self) -> list[int]:
+        """Follow all rules to the end; the literals reached since the last call, in order."""
+        while self._queue:
+            for watcher in self._watchers.pop(self._queue.pop(), ()):
+                number, done = watcher
+                if done:
+                    continue
+                watcher[1] = 1
+                self._missing[number] -= 1
+                if not self._missing[number]:
+                    self._fire(self._rules[number])
+        new, self._new = self._new, []
+        return new
+
+    def _reach(self, literals: Iterable[int]) -> None:
+        for literal in literals:
+            if literal not in self.reached:
+                self.reached[literal] = None
+                self._queue.append(literal)
+                self._new.append(literal)
+
+    def _fire(self, rule: Rule) -> None:
+        self.fired.add(rule.tag)
+        self._reach(rule.heads)
+        for inner in rule.then:
+            self.add(inner)
 
 
 class GroundEffect(NamedTuple):

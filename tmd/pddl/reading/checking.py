@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from tmd.diagnostics import Location, TmdError
-from tmd.pddl.hierarchy import TypeHierarchy
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -28,6 +27,7 @@ from tmd.pddl.model import (
     Predicate,
     Problem,
     TypedName,
+    TypeHierarchy,
 )
 from tmd.pddl.reading.requirements import missing_requirements
 from tmd.pddl.reading.syntax import Source, nearest

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from tmd.pddl.hierarchy import parents_first
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -13,9 +12,17 @@ from tmd.pddl.model import (
     Predicate,
     TypeDeclaration,
     TypedName,
+    parents_first,
 )
-from tmd.pddl.reading.formulas import Effects, read_condition, read_effects
-from tmd.pddl.reading.names import read_name, read_parameters, read_typed_list, unsupported
+from tmd.pddl.reading.formulas import (
+    Effects,
+    read_condition,
+    read_effects,
+    read_name,
+    read_parameters,
+    read_typed_list,
+    unsupported,
+)
 from tmd.pddl.reading.syntax import Document, Group, Node, Source, Word, nearest
 
 

@@ -16,7 +16,7 @@ from tmd.planning.search import greedy, kernel
 from tmd.planning.search.flat_task import Ints, Tables, build, literals, rows, words_of
 from tmd.planning.search.numba_build import Functions, SearchFunction, array, arrays, compiled
 from tmd.planning.search.relaxation import Goal, prepared
-from tmd.planning.unsolvability.reachability import unreachable_reason
+from tmd.planning.unsolvable import unreachable_reason
 
 Backend = Literal["auto", "numba", "python"]
 """Which form of the kernel runs. ``auto`` begins in plain Python, and goes over to numba, where that is installed,

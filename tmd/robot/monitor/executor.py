@@ -6,10 +6,9 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import Protocol
 
-from tmd.pddl.constraints import get_constraints
 from tmd.pddl.grounding.ground import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
-from tmd.pddl.semantics import apply, first_broken
+from tmd.pddl.semantics import apply, first_broken, get_constraints
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Unreachable

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from tmd.pddl.grounding.ground import ground
-from tmd.pddl.hierarchy import universe
-from tmd.pddl.model import GroundAtom, Instruction, Problem, State
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import apply
 from tmd.pddl.task import Operator, Task
 from tmd.robot.skills.skill_file import Skills

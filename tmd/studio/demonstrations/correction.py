@@ -14,10 +14,9 @@ from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.constraints import get_constraints
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.semantics import bind
+from tmd.pddl.semantics import bind, get_constraints
 from tmd.pddl.task import Bits
 from tmd.planning.backends import IN_PROCESS, make
 from tmd.planning.result import Filled, Planner, Unreachable

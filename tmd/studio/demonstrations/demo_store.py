@@ -16,10 +16,15 @@ from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.lock import locked
-from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration, Segment, demonstration_line, read_demonstration, read_demonstrations
-from tmd.veil.goal import check_goal
-from tmd.veil.replay import check_executable, final_state
+from tmd.veil.corpus import Corpus, check_executable, final_state
+from tmd.veil.demonstration import (
+    Demonstration,
+    Segment,
+    check_goal,
+    demonstration_line,
+    read_demonstration,
+    read_demonstrations,
+)
 from tmd.veil.world import World
 
 SHOWN = "shown"

@@ -13,8 +13,7 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.ground import Grounded, ground
-from tmd.inference.learned.knowledge import Knowledge
-from tmd.inference.learned.store import known
+from tmd.inference.learned.store import Knowledge, known
 from tmd.studio.demonstrations.alignment import Habits
 from tmd.studio.learning.training import Trained, Training
 from tmd.veil.corpus import Corpus

@@ -12,10 +12,8 @@ from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
-from tmd.inference.learned.digest import digest
-from tmd.inference.learned.knowledge import Knowledge, study
-from tmd.inference.learned.policy_json import reward_from_json, reward_to_json, weights_bytes
-from tmd.inference.learned.store import place, save
+from tmd.inference.learned.json_form import reward_from_json, reward_to_json, weights_bytes
+from tmd.inference.learned.store import Knowledge, digest, place, save, study
 from tmd.inference.policy.policy import Reward
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

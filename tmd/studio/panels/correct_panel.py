@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.reading.goal import with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.panels.context import PanelContext

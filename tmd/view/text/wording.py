@@ -9,8 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from tmd.pddl.formulas import conjuncts
-from tmd.pddl.hierarchy import universe
 from tmd.pddl.model import (
     And,
     Atom,
@@ -24,6 +22,8 @@ from tmd.pddl.model import (
     Or,
     Problem,
     State,
+    conjuncts,
+    universe,
 )
 from tmd.pddl.semantics import Binding, bind, bindings, holds, instantiate, schema_of
 from tmd.pddl.writer import format_formula
