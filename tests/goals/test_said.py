@@ -189,6 +189,59 @@ def test_to_put_something_where_another_thing_is() -> None:
     assert "(at pen1 cabinet1_top_drawer in)" in state  # rather than (holding pr2 pen1)
 
 
+# environment, text, the goals of the steps: forms of speech that come to the same as plain requests
+SAID_OTHERWISE = [
+    ("02_table/corner1", "However, the book should end up on the table.", ["(at book1 table1 on)"]),
+    ("02_table/corner1", "The book happens to be on the floor; put it on the table.", ["(at book1 table1 on)"]),
+    (
+        "03_drawer/study2",
+        "Both drawers shut, please.",
+        ["(and (not (opened cabinet1_bottom_drawer)) (not (opened cabinet1_top_drawer)))"],
+    ),
+    ("03_drawer/study2", "Put the pen in the drawer that has the key in it.", ["(at pen1 cabinet1_top_drawer in)"]),
+    ("03_drawer/study2", "Take the stapler to where the key is.", ["(at stapler1 cabinet1_top_drawer in)"]),
+    ("03_drawer/study2", "I want all the drawers open except the bottom one.", ["(opened cabinet1_top_drawer)"]),
+    (
+        "03_drawer/study2",
+        "Put the pen in the top drawer and leave everything else where it is.",
+        ["(at pen1 cabinet1_top_drawer in)"],
+    ),
+    (
+        "03_drawer/study1",
+        "Put the pen in the drawer, and the drawer shut after that.",
+        ["(at pen1 desk1_drawer in)", "(not (opened desk1_drawer))"],
+    ),
+    ("kitchen/kitchen1", "Put one of the two mugs in the sink.", ["(at mug1 sink1 in)"]),
+    ("living_room/room1", "Both pillows onto the sofa.", ["(and (at pillow1 sofa1 on) (at pillow2 sofa1 on))"]),
+    (
+        "living_room/room1",
+        "Put one pillow on the sofa and the other one on the armchair.",
+        ["(and (at pillow1 sofa1 on) (at pillow2 armchair1 on))"],
+    ),
+    (
+        "living_room/room4",
+        "Put one bottle in the bin and another one on the table.",
+        [
+            "(or (and (at beer_bottle2 bin1 in) (at beer_bottle1 snack_table1 on))"
+            " (and (at beer_bottle3 bin1 in) (at beer_bottle1 snack_table1 on)))"
+        ],
+    ),
+]
+
+
+@pytest.mark.parametrize(("where", "text", "wanted"), SAID_OTHERWISE, ids=[s[1] for s in SAID_OTHERWISE])
+def test_a_form_of_speech_comes_to_the_same_as_the_plain_request(where: str, text: str, wanted: list[str]) -> None:
+    assert goals(said(*where.split("/"), text)) == wanted
+
+
+def test_two_of_the_burners_are_two_and_one_that_went_back_stands_where_it_stood() -> None:
+    facts = end(said("kitchen", "kitchen4", "Turn on two of the burners."))
+    assert sum(fact.startswith("(active stove1_burner") for fact in facts) == 2
+    facts = end(said("kitchen", "kitchen1", "Take the kettle to the sink, fill it and put it back on its burner."))
+    assert "(contains kettle1 water)" in facts
+    assert any(fact.startswith("(at kettle1 stove1_burner") for fact in facts)
+
+
 def test_what_leaves_no_trace_is_not_claimed_to_be_done() -> None:
     grounded = said("living_room", "room1", "Fold the blanket.")
     assert grounded.refused is not None

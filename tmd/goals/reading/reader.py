@@ -310,6 +310,8 @@ class GoalReader:
         """The goal by the first rows that fit every thing the verb acts on."""
         parted = self._one_and_other(reading)
         candidates = self.referents.targets(parted, reading) if parted is not None else ()
+        things = tuple(n for n in candidates if n not in self.world.profiles.constants)
+        candidates = things or candidates  # a bottle, not the beer
         if parted is None or len(candidates) < 2:
             found = self._of_units(rows, reading)
             return found if isinstance(found, Refused) else self._finished(*found, reading)

@@ -8,7 +8,7 @@ from typing import TypeAlias
 from tmd.goals.clause_goal import ClauseReading, Refused, Why, text_of
 from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disjunction
 from tmd.goals.reading.nouns import Mode, Referent
-from tmd.goals.reading.referents import Referents
+from tmd.goals.reading.referents import EXCEPTING, Referents
 from tmd.goals.sources.table import PREPOSITIONS, RELATION, GoalRow, Slot, results
 from tmd.language.clause import PERSONS, Quantifier
 from tmd.language.syntax.pronouns import is_pronoun
@@ -283,12 +283,14 @@ class States:
     def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refused:
         clause = reading.clause
         relations = self.referents.relations_of(noun, clause)
+        excepted = [r for r in relations if r[0] in EXCEPTING]
+        relations = [r for r in relations if r not in excepted]
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
         row = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
         failure: Refused | None = None
-        for referent in self.referents.referents(noun, row, row.slots[0], (), reading):
+        for referent in self.referents.referents(noun, row, row.slots[0], excepted, reading):
             if not referent.names:
                 failure = failure or self.referents.missing(referent, reading)
                 continue
