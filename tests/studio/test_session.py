@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
-from tmd.language.tagging.length import MAX_WORDS
+from tmd.language.parser import MAX_WORDS
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.studio.demonstrations.clause_spans import MAX_CHARACTERS, clean, cut

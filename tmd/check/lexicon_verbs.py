@@ -10,7 +10,7 @@ from tmd.check.lexicon_goals import Written
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import family
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section
 from tmd.pddl.reading.syntax import read_text
 
 _PARTICLE_WITHIN = 4

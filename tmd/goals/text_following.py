@@ -15,8 +15,8 @@ from tmd.goals.reading.referents import EXCEPTING
 from tmd.goals.reading.requirements import BE
 from tmd.goals.sources.table import words_of
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
-from tmd.language.lexicon.coverage import REMINDER
 from tmd.language.syntax.pronouns import is_pronoun
+from tmd.language.syntax.subordinate_folding import REMINDER
 from tmd.pddl.task import Bits, Cube, Task
 
 GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})

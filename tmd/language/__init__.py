@@ -7,10 +7,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
+from tmd.language.clause import (
+    Clause,
+    Parsed,
+    Relation,
+    Skipped,
+    Span,
+    by_segment,
+    clause_json,
+    print_clause,
+    read_clause,
+    segments,
+)
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.notation import clause_json, print_clause, read_clause
-from tmd.language.tagging.segments import by_segment, segments
 
 if TYPE_CHECKING:
     from tmd.language.parser import parse

@@ -1,42 +1,51 @@
-"""The front door: text to clauses, with everything that no clause accounts for.
+"""Text to clauses, with everything that no clause accounts for, and the reason.
 
-The passes, in order: tokens, repeated runs, first tags, verb or noun, requests that are no imperatives, folds, chunks,
-the LALR grammar, attachment, subordinate clauses, antecedents, coverage. Each is linear in the length of the text.
+The passes, in order: tokens, repeated runs, words that are read as others, first tags, parts of speech, requests that
+are no imperatives, subordinate clauses folded, chunks, the LALR grammar, attachment, subordinate clauses read,
+antecedents. Each is linear in the length of the text.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+import re
+from collections.abc import Callable, Sequence
+from functools import cache
 from typing import Protocol
 
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
-from tmd.language.lexicon.coverage import foreign, skipped
+from tmd.diagnostics import TmdError
+from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin
-from tmd.language.lexicon.word_lists import section
-from tmd.language.rewriting.causatives import NEGATED
-from tmd.language.rewriting.requests import rewrite_requests
-from tmd.language.rewriting.sentences import rewrite_words
-from tmd.language.syntax.attachment import ClauseDraft, drafts
+from tmd.language.lexicon.words import section, slips
+from tmd.language.syntax.attachment import drafts, parse_tokens
 from tmd.language.syntax.chunking import chunk
-from tmd.language.syntax.grammar import parse_tokens
-from tmd.language.syntax.pronouns import resolve, resolve_alone
+from tmd.language.syntax.first_tags import tag
+from tmd.language.syntax.part_of_speech import decide
+from tmd.language.syntax.pronouns import resolve
+from tmd.language.syntax.requests import rewrite_requests
+from tmd.language.syntax.sentences import rewrite_words
 from tmd.language.syntax.subordinate_folding import fold_subordinates
-from tmd.language.syntax.subordinate_reading import (
-    Reader,
-    condition_words,
-    read_condition,
-    read_prohibition,
-    read_relative,
-)
-from tmd.language.tagging.first_tags import tag
-from tmd.language.tagging.readings import decide
-from tmd.language.tagging.tokens import Kind, Token, drop_repeats, tokenise
+from tmd.language.syntax.subordinate_reading import read_prohibitions, read_subordinates
+from tmd.language.syntax.tokens import Kind, Token, drop_repeats, tokenise
 
-_HAPPENING = frozenset({"boil", "heat", "warm", "cool", "chill", "dry", "cook", "simmer", "soak", "charge", "melt"})
-"""What a thing does by itself when it is put somewhere: to have it do so is what that is for."""
 _DEEPEST = 3
 """So deep may subordinate clauses stand in one another."""
+NO_VERB = "no verb that this could belong to"
+FOREIGN = "most words are not English"
+NO_WORDS = "there are no words in the text"
+MAX_WORDS = 1_000
+"""Texts with more words are not grounded at once."""
+
+_ENGLISH_SHARE = 0.5
+"""A text of which fewer words than this are known is not English ..."""
+_FEWEST_WORDS = 3
+"""... if it has as many different words."""
+_ADVERB = 5
+"""Longer words that end in *ly* are adverbs."""
+_FILLERS = (
+    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "be", "modals", "ensure",
+    "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
+)  # fmt: skip
+_JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
 
 
 class ClauseParser(Protocol):
@@ -63,7 +72,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     kept, repeated = drop_repeats(tokenise(text))
     for token in repeated:
         token.note = "repeats what was just said"
-    strange = foreign(kept, words) if not depth else None
+    strange = _foreign(kept, words) if not depth else None
     if strange is not None:
         return Parsed(text, (), strange(text))
     folded = tag(rewrite_words(kept), words)
@@ -79,81 +88,109 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
         return _parse(inner, words, depth + 1).clauses
 
     if depth < _DEEPEST:
-        _read_subordinates(found, words, read)
+        read_subordinates(found, words, read)
     clauses = resolve(found, text, [t for t in folded if t.kind is Kind.SKIP])
-    constraints, understood = _prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
+    constraints, understood = read_prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
     rest = [t for t in (*folded, *repeated) if t not in understood]
-    return Parsed(text, clauses, skipped(text, clauses, rest), constraints)
+    return Parsed(text, clauses, _skipped(text, clauses, rest), constraints)
 
 
-def _read_subordinates(found: Sequence[ClauseDraft], lexicon: Lexicon, read: Reader) -> None:
-    """Read what was folded into each clause; a condition in front of a sentence holds for the whole of it."""
-    before: ClauseDraft | None = None
-    asked: list[Condition] = []
-    for draft in found:
-        for token in draft.folds:
-            if token.form == "condition" and condition_words(token) in (["if", "so"], ["if", "yes"]):
-                draft.conditions += asked
-                draft.fronted = True
-            elif token.form == "condition" and condition_words(token)[1:] == ["there", "is", "any"]:
-                continue  # "some sweets, if there are any": where there are none, that is told anyway
-            elif token.form == "condition":
-                draft.conditions.append(read_condition(condition_words(token), lexicon, read))
-                asked = [c for c in draft.conditions if c.word == "if"] or asked
-                draft.fronted = draft.fronted or token.span < draft.verb.span
-            elif token.form == "purpose":
-                words = condition_words(token)
-                said = read_condition(["to", *_purpose(words)], lexicon, read)
-                draft.conditions.append(replace(said, text=" ".join(words)))
-            elif token.form == "relative":
-                _add_relative(draft, token, lexicon, read)
-        same = before is not None and before.verb.sentence == draft.verb.sentence and before.fronted
-        if before is not None and same and not draft.conditions and not draft.verb.otherwise:
-            draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in ("if", "unless")]
-            draft.fronted = True
-        before = draft
+def short_enough(text: str) -> str:
+    """The text, if it can be grounded at once.
+
+    Raises:
+        TmdError: It has too many words.
+    """
+    count = len(text.split())
+    if count > MAX_WORDS:
+        raise TmdError(
+            f"the text has {count:,} words; at most {MAX_WORDS:,} are grounded at once", hint="ground it in parts"
+        )
+    return text
 
 
-def _purpose(words: list[str]) -> list[str]:
-    """The words of a purpose as those of an instruction to somebody."""
-    while words and words[0] in ("to", "so", "that", "in", "order", "so_that", "in_order_to", "so_as_to"):
-        words = words[1:]
-    if len(words) == 1 and words[0] in _HAPPENING:
-        words = [*words, "it"]  # "put the kettle on the stove to boil"
-    return words if words and words[0] in section("subjects") | section("pronouns") else ["you", *words]
+def is_filler(word: str) -> bool:
+    """Tell whether a word may stand outside of all clauses without being reported.
+
+    Fillers carry nothing of a clause: conjunctions, adverbs, articles, politeness, auxiliaries, addressing
+    words and verbs that only introduce another ("need to").
+    """
+    return all(_is_filler(part) for part in re.split("[-_]", word.lower().replace("\u2019", "'").rstrip("'")))
 
 
-def _add_relative(draft: ClauseDraft, token: Token, lexicon: Lexicon, read: Reader) -> None:
-    """Add what a relative clause says to the noun before it."""
-    ahead = [phrase for phrase in draft.mentions() if phrase.place < token.span.start]
-    if not ahead:
-        return
-    noun = max(ahead, key=lambda phrase: phrase.place)
-    attributes, relations, clause = read_relative(token, lexicon, read)
-    noun.attributes += attributes
-    for relation, target in relations:
-        draft.relations.append(Relation(relation, noun.name, target))
-        if clause is not None:
-            draft.further[target] = clause.phrase(target)
+def _is_filler(word: str) -> bool:
+    word = slips().get(word, word)
+    word = word.removesuffix("'s") if word not in section("be") else word
+    if word in _JOINTS or (word.endswith("ly") and len(word) > _ADVERB) or word.endswith(("'ll", "'d", "'ve")):
+        return True
+    return any(word in section(name) for name in _FILLERS) or word in _inside_phrases()
 
 
-def _prohibitions(
-    tokens: Sequence[Token], clauses: Sequence[Clause], text: str, lexicon: Lexicon, read: Reader
-) -> tuple[tuple[Clause, ...], list[Token]]:
-    """What must not be done, and the tokens that say so."""
-    found: list[Clause] = []
-    understood: list[Token] = []
-    for token in tokens:
-        negated = token.kind is Kind.SKIP and token.note == NEGATED
-        manner = token.kind is Kind.MOD and token.form == "manner"
-        if not (negated or manner) or not token.inner:
+@cache
+def _inside_phrases() -> frozenset[str]:
+    words: set[str] = set()
+    for name in ("multiword_adverbs", "ensure"):
+        for entry in section(name):
+            words.update(entry.split("_"))
+    return frozenset(words)
+
+
+def _foreign(tokens: Sequence[Token], lexicon: Lexicon) -> Callable[[str], tuple[Skipped, ...]] | None:
+    """Return how to report a text without English words, or ``None`` for all other texts."""
+    words = [t.text for t in tokens if t.kind is Kind.WORD]
+    if not words and not any(t.kind is Kind.NUM for t in tokens):
+        return lambda text: (Skipped(text.strip(), Span(0, len(text)), NO_WORDS),)
+    distinct = sorted(set(words))
+    if len(distinct) < _FEWEST_WORDS:
+        return None
+    known = sum(lexicon.knows(w) or lexicon.correct(w) is not None for w in distinct)
+    if known >= _ENGLISH_SHARE * len(distinct):
+        return None
+    return lambda text: (Skipped(text.strip(), Span(0, len(text)), FOREIGN),)
+
+
+def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> tuple[Skipped, ...]:
+    """Return what lies outside of all clauses and is not filler, in order of the text.
+
+    Args:
+        text: The text.
+        clauses: Its clauses.
+        tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
+    """
+    covered = _merge([c.span for c in clauses])
+    pieces: list[tuple[Span, str]] = []
+    place = 0
+    for token in sorted(tokens, key=lambda t: t.span):
+        while place < len(covered) and covered[place].end <= token.span.start:
+            place += 1
+        inside = place < len(covered) and covered[place].start <= token.span.start
+        noted = token.kind is Kind.SKIP or bool(token.note)
+        if inside and not noted:
             continue
-        before = [clause for clause in clauses if clause.span.start < token.span.start]
-        said = read_prohibition(condition_words(token), before[-1] if before else None, lexicon, read)
-        found += [
-            replace(resolve_alone(c, before), mood=Mood.AVOID, span=token.span, text=text[slice(*token.span)])
-            for c in said
-        ]
-        if said and negated:
-            understood.append(token)
-    return tuple(found), understood
+        if not noted and (token.kind in (Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC) or _all_filler(token)):
+            continue
+        reason = token.note or NO_VERB
+        if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span):
+            pieces[-1] = (Span(pieces[-1][0].start, token.span.end), reason)
+        else:
+            pieces.append((token.span, reason))
+    return tuple(Skipped(text[s.start : s.end], s, reason) for s, reason in pieces)
+
+
+def _all_filler(token: Token) -> bool:
+    return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.split())
+
+
+def _adjacent(text: str, before: Span, after: Span) -> bool:
+    between = text[before.end : after.start]
+    return not any(sign in between for sign in ".!?;")
+
+
+def _merge(spans: list[Span]) -> list[Span]:
+    merged: list[Span] = []
+    for span in sorted(spans):
+        if merged and span.start <= merged[-1].end:
+            merged[-1] = Span(merged[-1].start, max(merged[-1].end, span.end))
+        else:
+            merged.append(span)
+    return merged

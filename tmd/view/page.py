@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 from tmd import __version__
-from tmd.language.clause import Clause
-from tmd.language.notation import print_clause
+from tmd.language.clause import Clause, print_clause
 from tmd.pddl.model import TRUE
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula

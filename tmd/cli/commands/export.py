@@ -65,7 +65,7 @@ def command(
     from tmd.cli.inputs.text import said
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
-    from tmd.language.tagging.length import short_enough
+    from tmd.language.parser import short_enough
 
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)

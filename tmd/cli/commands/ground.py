@@ -42,7 +42,7 @@ def command(
     from tmd.cli.show.goals import whole_goal_json, whole_goal_text
     from tmd.cli.show.plans import grounded_json, grounded_text
     from tmd.cli.show.warnings import remarks
-    from tmd.language.tagging.length import short_enough
+    from tmd.language.parser import short_enough
 
     if goal_only and not options.config().goals:
         raise click.UsageError(f"the model {options.model_name} knows no goals: leave --model out")

@@ -92,7 +92,7 @@ def command(
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling, plan_json, refusal_json
     from tmd.cli.signals import stoppable
-    from tmd.language.tagging.length import short_enough
+    from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.monitor.faults import InjectedFault
     from tmd.robot.run_plan import Filming, run_plan

@@ -66,7 +66,7 @@ def command(
     from tmd.cli.inputs.view import STANDARD, ViewRequest
     from tmd.cli.inputs.view_source import subject_of_file, subject_of_text
     from tmd.files import write_text
-    from tmd.language.tagging.length import short_enough
+    from tmd.language.parser import short_enough
     from tmd.view.page import render
 
     if source is None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Skipped
-from tmd.language.notation import clause_json, print_clause
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Skipped, clause_json, print_clause
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from tmd.evaluation.runs.dataset import Example
 from tmd.language.clause import Span
-from tmd.language.tagging.tokens import Kind, tokenise
+from tmd.language.syntax.tokens import Kind, tokenise
 from tmd.veil.demonstration import Segment
 
 _ENDS = frozenset(".!?…")

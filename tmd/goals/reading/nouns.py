@@ -11,7 +11,7 @@ from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, nega
 from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable, state_words
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section
 from tmd.language.syntax.attachment import WHOLES
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits

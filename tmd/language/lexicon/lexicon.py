@@ -11,8 +11,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 from tmd.diagnostics import Location
-from tmd.language.lexicon.morphology import positive, singular, verb_stem
-from tmd.language.lexicon.word_lists import data_text, section, sections
+from tmd.language.lexicon.words import data_text, positive, section, sections, singular, verb_stem
 
 _TYPO_LENGTH = 4
 """Shorter words are never corrected."""

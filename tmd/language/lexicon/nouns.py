@@ -1,8 +1,9 @@
 """Which things of an environment a noun may name, with the kind of evidence for each.
 
-The order of evidence is fixed: the thing's own name, an alias of the domain, an alias learned in training, WordNet
-similarity, nothing. A weaker kind is only asked where all stronger ones are silent; but where a name agrees only in
-part, an alias of the whole noun goes before it.
+The order of evidence is fixed: the thing's own name, an alias of the domain, WordNet similarity, nothing. A weaker kind
+is only asked where all stronger ones are silent; but where a name agrees only in part, an alias of the whole noun goes
+before it. Similarity is that of Wu and Palmer (1994) among WordNet's artifacts, food and substances, loaded when a noun
+has to be compared (``data/rebuild.py`` writes the file).
 """
 
 from __future__ import annotations
@@ -10,14 +11,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import NamedTuple
 
-from tmd.language.lexicon import wordnet
 from tmd.language.lexicon.lexicon import Lexicon, builtin
-from tmd.language.lexicon.morphology import singular
+from tmd.language.lexicon.words import data_text, singular
 
-NAME, ALIAS, LEARNED, WORDNET = "name", "alias", "learned", "wordnet"
+NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 """What :attr:`Match.how` can say, strongest first."""
 
 SIMILAR = 0.85
@@ -87,7 +87,6 @@ def rank(
     noun: str,
     candidates: Sequence[NounMatch],
     lexicon: Lexicon | None = None,
-    learned: Mapping[str, Mapping[str, float]] | None = None,
     threshold: float = SIMILAR,
 ) -> list[Match]:
     """Rank the things a noun may name.
@@ -96,7 +95,6 @@ def rank(
         noun: A language-object (``fridge_door``, ``burner_3``, ``cups``).
         candidates: What there is.
         lexicon: The domain's words; its ``nouns`` are the aliases.
-        learned: Aliases from training: noun to class (or name) to weight in (0, 1].
         threshold: Least WordNet similarity.
 
     Returns:
@@ -113,7 +111,6 @@ def rank(
     for found in (
         named,
         _by_alias(noun, parsed, candidates, aliases),
-        _by_learned(noun, parsed, candidates, learned or {}),
         _by_wordnet(parsed, candidates, threshold),
     ):
         if found:
@@ -222,24 +219,9 @@ def _by_alias(
     return []
 
 
-def _by_learned(
-    noun: str, parsed: _Noun, candidates: Sequence[NounMatch], learned: Mapping[str, Mapping[str, float]]
-) -> list[Match]:
-    for form in _spellings(noun, parsed):
-        table = learned.get(form, {})
-        found = []
-        for candidate in candidates:
-            weight = max((w for target, w in table.items() if _names(candidate, target)), default=0.0)
-            if weight > 0:
-                found.append(Match(candidate.name, round(weight, 4), LEARNED))
-        if found:
-            return _numbered(found, parsed)
-    return []
-
-
 def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) -> list[Match]:
     whole = "_".join(noun.words)
-    word = whole if wordnet.known(whole) else noun.head
+    word = whole if _in_wordnet(whole) else noun.head
     found = []
     for candidate in candidates:
         score = max((_similar(word, words) for words in _vocabulary(candidate)), default=0.0)
@@ -250,4 +232,86 @@ def _by_wordnet(noun: _Noun, candidates: Sequence[NounMatch], threshold: float) 
 
 def _similar(word: str, words: tuple[str, ...]) -> float:
     whole = "_".join(words)
-    return wordnet.similarity(word, whole if wordnet.known(whole) else words[-1])
+    return similarity(word, whole if _in_wordnet(whole) else words[-1])
+
+
+class _Taxonomy:
+    """Synsets by number, parents before children."""
+
+    def __init__(self, lines: list[str]) -> None:
+        self.parents: list[tuple[int, ...]] = []
+        self.depth: list[int] = []
+        self.senses: dict[str, list[tuple[int, int]]] = {}
+        for number, line in enumerate(lines):
+            above, _, lemmas = line.partition("\t")
+            parents = tuple(int(p) for p in above.split(",") if p)
+            self.parents.append(parents)
+            self.depth.append(1 + min((self.depth[p] for p in parents), default=0))
+            for lemma in lemmas.split():
+                word, _, sense = lemma.rpartition(".")
+                self.senses.setdefault(word, []).append((int(sense), number))
+        for senses in self.senses.values():
+            senses.sort()
+
+    def ancestors(self, number: int) -> dict[int, int]:
+        """Return every hypernym with its distance, the synset itself included."""
+        distance, frontier = {number: 0}, [number]
+        while frontier:
+            following = []
+            for node in frontier:
+                for parent in self.parents[node]:
+                    if parent not in distance:
+                        distance[parent] = distance[node] + 1
+                        following.append(parent)
+            frontier = following
+        return distance
+
+
+@cache
+def _taxonomy() -> _Taxonomy:
+    return _Taxonomy(data_text("wordnet_nouns.txt.gz").split("\n")[:-1])
+
+
+_SENSES = 4
+"""Rarer senses of a word are not looked at."""
+
+
+def _in_wordnet(noun: str) -> bool:
+    """Tell whether WordNet's subset has a noun."""
+    return bool(_senses(noun))
+
+
+@cache
+def _senses(noun: str) -> list[tuple[int, int]]:
+    taxonomy = _taxonomy()
+    found = taxonomy.senses.get(noun) or taxonomy.senses.get(singular(noun)) or []
+    return [pair for pair in found if pair[0] <= _SENSES]
+
+
+@cache
+def similarity(first: str, second: str) -> float:
+    """Return the Wu-Palmer similarity of two nouns, 0 to 1: their closest senses; 0 for unknown words.
+
+    ``2 d(lcs) / (d(lcs) + l1 + d(lcs) + l2)`` with the depth ``d`` of the lowest common hypernym and the
+    lengths ``l`` of the paths up to it.
+    """
+    taxonomy = _taxonomy()
+    best = 0.0
+    for _, one in _senses(first):
+        for _, other in _senses(second):
+            best = max(best, _wu_palmer(taxonomy, _above(one), _above(other)))
+    return best
+
+
+@cache
+def _above(number: int) -> dict[int, int]:
+    return _taxonomy().ancestors(number)
+
+
+def _wu_palmer(taxonomy: _Taxonomy, first: dict[int, int], second: dict[int, int]) -> float:
+    best = 0.0
+    for node, up in first.items():
+        if node in second:
+            depth = taxonomy.depth[node]
+            best = max(best, 2 * depth / (2 * depth + up + second[node]))
+    return best

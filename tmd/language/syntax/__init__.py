@@ -1,4 +1,9 @@
-"""From tagged tokens to clauses: chunks, the grammar, attachment of prepositions, subordinate clauses, pronouns.
+"""The passes from text to clauses, which :mod:`tmd.language.parser` calls in order.
 
-Begin with :mod:`tmd.language.syntax.attachment`, whose rules ``docs/language.md`` has.
+Words: :mod:`~tmd.language.syntax.tokens`, :mod:`~tmd.language.syntax.sentences` with the turns of phrase of
+:mod:`~tmd.language.syntax.idioms`. Their classes: :mod:`~tmd.language.syntax.first_tags` from lists,
+:mod:`~tmd.language.syntax.part_of_speech` from the neighbours. Clauses: :mod:`~tmd.language.syntax.requests`,
+:mod:`~tmd.language.syntax.subordinate_folding`, :mod:`~tmd.language.syntax.chunking`,
+:mod:`~tmd.language.syntax.attachment`, :mod:`~tmd.language.syntax.subordinate_reading`,
+:mod:`~tmd.language.syntax.pronouns`.
 """

@@ -1,22 +1,74 @@
-"""From the parse tree to clauses: which noun is object, and between which nouns a preposition stands.
-
-The rules are those of ``docs/language.md``, section "Attachment".
-"""
+"""Run the LALR clause grammar over tagged tokens. Linear: a token that cannot follow is set aside, not retried."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
+from importlib.resources import files
 
-from lark import Tree
+from lark import Lark, Tree
+from lark import Token as LarkToken
+from lark.exceptions import UnexpectedInput
+from lark.lexer import Lexer
 
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
-from tmd.language.lexicon.morphology import singular
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section, singular
 from tmd.language.syntax.chunking import CHOICE
-from tmd.language.syntax.grammar import Leaf
-from tmd.language.tagging.tokens import IMPLIED, NAME, Kind, Token
+from tmd.language.syntax.tokens import IMPLIED, NAME, Kind, Token
+
+UNEXPECTED = "does not fit into a clause here"
+
+
+class _NoLexer(Lexer):
+    """The parser is fed token by token; nothing is left to lex."""
+
+    def __init__(self, lexer_conf: object) -> None:
+        """Take lark's configuration, which is not needed."""
+
+    def lex(self, data: object) -> Iterator[LarkToken]:  # type: ignore[override]
+        """Yield nothing."""
+        return iter(())
+
+
+@cache
+def _parser() -> Lark:
+    grammar = (files("tmd.language.syntax") / "clauses.lark").read_text(encoding="utf-8")
+    return Lark(grammar, start="text", parser="lalr", lexer=_NoLexer)
+
+
+class Leaf(LarkToken):
+    """A lark token that carries ours."""
+
+    __slots__ = ("source",)
+    source: Token
+
+
+def _leaf(token: Token) -> Leaf:
+    leaf = Leaf(token.kind.value, token.text)
+    leaf.source = token
+    return leaf
+
+
+def parse_tokens(tokens: list[Token]) -> tuple[Tree[Leaf], list[Token]]:
+    """Parse tagged tokens.
+
+    Returns:
+        The tree, and the tokens that fitted nowhere.
+    """
+    parser = _parser().parse_interactive("")
+    unexpected = []
+    for token in tokens:
+        try:
+            parser.feed_token(_leaf(token))
+        except UnexpectedInput:
+            token.note = UNEXPECTED
+            unexpected.append(token)
+            token.kind = Kind.FILLER
+    end = LarkToken("$END", "")
+    return parser.feed_token(end), unexpected
+
 
 _ORIGIN = frozenset({"from", "out_of", "off"})
 _NEVER_HOSTS = frozenset({"with", "without", "except", "for", "using", "of", "containing"})

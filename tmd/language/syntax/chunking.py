@@ -6,10 +6,9 @@ from itertools import pairwise
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.morphology import singular
-from tmd.language.lexicon.word_lists import section
-from tmd.language.tagging.first_tags import fold
-from tmd.language.tagging.tokens import Kind, Token
+from tmd.language.lexicon.words import section, singular
+from tmd.language.syntax.first_tags import fold
+from tmd.language.syntax.tokens import Kind, Token
 
 ALONE = "alone"
 """The form of a verb that lost its object to a slip: it shares none."""

@@ -11,10 +11,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.language.clause import PERSONS, Clause, Condition
-from tmd.language.lexicon.morphology import singular
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section, singular
 from tmd.language.syntax.attachment import ClauseDraft, Phrase
-from tmd.language.tagging.tokens import Kind, Token
+from tmd.language.syntax.tokens import Kind, Token
 
 SINGULAR = frozenset({"it", "this", "that", "itself"})
 PLURAL = frozenset({"them", "they", "these", "those", "both", "themselves"})

@@ -9,10 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from tmd.language.clause import Clause, Condition, Relation
+from tmd.language.clause import Clause, Condition, Mood, Relation
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.word_lists import section
-from tmd.language.tagging.tokens import Kind, Token
+from tmd.language.lexicon.words import section
+from tmd.language.syntax.attachment import ClauseDraft
+from tmd.language.syntax.pronouns import resolve_alone
+from tmd.language.syntax.subordinate_folding import NEGATED
+from tmd.language.syntax.tokens import Kind, Token
 
 BE = "be"
 Reader = Callable[[str], tuple[Clause, ...]]
@@ -52,10 +55,85 @@ _SOFT = frozenset(
 _NOTICE = frozenset({"see", "find", "notice", "spot", "discover"})
 """What you see is there."""
 _POSTURE = frozenset({"left", "standing", "lying", "sitting", "around", "about", "somewhere", "remaining"})
+_HAPPENING = frozenset({"boil", "heat", "warm", "cool", "chill", "dry", "cook", "simmer", "soak", "charge", "melt"})
+"""What a thing does by itself when it is put somewhere: to have it do so is what that is for."""
 _DETERMINED = section("determiners") | section("quantifiers")
 
 
-def read_condition(words: Sequence[str], lexicon: Lexicon, read: Reader) -> Condition:
+def read_subordinates(found: Sequence[ClauseDraft], lexicon: Lexicon, read: Reader) -> None:
+    """Read what was folded into each clause; a condition in front of a sentence holds for the whole of it."""
+    before: ClauseDraft | None = None
+    asked: list[Condition] = []
+    for draft in found:
+        for token in draft.folds:
+            if token.form == "condition" and _condition_words(token) in (["if", "so"], ["if", "yes"]):
+                draft.conditions += asked
+                draft.fronted = True
+            elif token.form == "condition" and _condition_words(token)[1:] == ["there", "is", "any"]:
+                continue  # "some sweets, if there are any": where there are none, that is told anyway
+            elif token.form == "condition":
+                draft.conditions.append(_read_condition(_condition_words(token), lexicon, read))
+                asked = [c for c in draft.conditions if c.word == "if"] or asked
+                draft.fronted = draft.fronted or token.span < draft.verb.span
+            elif token.form == "purpose":
+                words = _condition_words(token)
+                said = _read_condition(["to", *_purpose(words)], lexicon, read)
+                draft.conditions.append(replace(said, text=" ".join(words)))
+            elif token.form == "relative":
+                _add_relative(draft, token, lexicon, read)
+        same = before is not None and before.verb.sentence == draft.verb.sentence and before.fronted
+        if before is not None and same and not draft.conditions and not draft.verb.otherwise:
+            draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in ("if", "unless")]
+            draft.fronted = True
+        before = draft
+
+
+def _purpose(words: list[str]) -> list[str]:
+    """The words of a purpose as those of an instruction to somebody."""
+    while words and words[0] in ("to", "so", "that", "in", "order", "so_that", "in_order_to", "so_as_to"):
+        words = words[1:]
+    if len(words) == 1 and words[0] in _HAPPENING:
+        words = [*words, "it"]  # "put the kettle on the stove to boil"
+    return words if words and words[0] in section("subjects") | section("pronouns") else ["you", *words]
+
+
+def _add_relative(draft: ClauseDraft, token: Token, lexicon: Lexicon, read: Reader) -> None:
+    """Add what a relative clause says to the noun before it."""
+    ahead = [phrase for phrase in draft.mentions() if phrase.place < token.span.start]
+    if not ahead:
+        return
+    noun = max(ahead, key=lambda phrase: phrase.place)
+    attributes, relations, clause = _read_relative(token, lexicon, read)
+    noun.attributes += attributes
+    for relation, target in relations:
+        draft.relations.append(Relation(relation, noun.name, target))
+        if clause is not None:
+            draft.further[target] = clause.phrase(target)
+
+
+def read_prohibitions(
+    tokens: Sequence[Token], clauses: Sequence[Clause], text: str, lexicon: Lexicon, read: Reader
+) -> tuple[tuple[Clause, ...], list[Token]]:
+    """What must not be done, and the tokens that say so."""
+    found: list[Clause] = []
+    understood: list[Token] = []
+    for token in tokens:
+        negated = token.kind is Kind.SKIP and token.note == NEGATED
+        manner = token.kind is Kind.MOD and token.form == "manner"
+        if not (negated or manner) or not token.inner:
+            continue
+        before = [clause for clause in clauses if clause.span.start < token.span.start]
+        said = _read_prohibition(_condition_words(token), before[-1] if before else None, lexicon, read)
+        found += [
+            replace(resolve_alone(c, before), mood=Mood.AVOID, span=token.span, text=text[slice(*token.span)])
+            for c in said
+        ]
+        if said and negated:
+            understood.append(token)
+    return tuple(found), understood
+
+
+def _read_condition(words: Sequence[str], lexicon: Lexicon, read: Reader) -> Condition:
     """Return what the words of a subordinate clause say; without clauses where it is not understood.
 
     Args:
@@ -198,7 +276,9 @@ def _event(subject: list[str], words: list[str], lexicon: Lexicon, read: Reader)
     return read(" ".join([_imperative(found[0]), *subject, *words[1:]]))
 
 
-def read_prohibition(words: Sequence[str], before: Clause | None, lexicon: Lexicon, read: Reader) -> tuple[Clause, ...]:
+def _read_prohibition(
+    words: Sequence[str], before: Clause | None, lexicon: Lexicon, read: Reader
+) -> tuple[Clause, ...]:
     """Return what must not be done; empty where it is not understood.
 
     Args:
@@ -231,14 +311,14 @@ def read_prohibition(words: Sequence[str], before: Clause | None, lexicon: Lexic
     return ()
 
 
-def read_relative(
+def _read_relative(
     token: Token, lexicon: Lexicon, read: Reader
 ) -> tuple[list[str], list[tuple[str, str]], Clause | None]:
     """Return what a relative clause says of its noun: adjectives, and relations with other nouns.
 
     *That are dirty* gives an adjective; *where the mug is* a relation ``where``, *that has milk in it* one ``with``.
     """
-    words = [part for word in condition_words(token) for part in _expanded(word)]
+    words = [part for word in _condition_words(token) for part in _expanded(word)]
     if not words:
         return [], [], None
     rest = words[1:]
@@ -273,7 +353,7 @@ def read_relative(
     return ["_".join(words)], [], None
 
 
-def condition_words(token: Token) -> list[str]:
+def _condition_words(token: Token) -> list[str]:
     """Return the words of a folded condition."""
     words = [t.text for t in token.inner if t.kind is not Kind.COMMA] or token.text.split()
     return [words[0], *(part for word in words[1:] for part in word.split("_"))]

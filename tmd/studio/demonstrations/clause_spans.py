@@ -10,7 +10,7 @@ from tmd.diagnostics import TmdError
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.tagging.length import short_enough
+from tmd.language.parser import short_enough
 
 MAX_CHARACTERS = 20_000
 """Longer texts are refused before anything else is done with them."""

@@ -8,8 +8,8 @@ from difflib import SequenceMatcher
 
 from tmd.language.clause import Clause, Span
 from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.morphology import positive, singular
-from tmd.language.tagging.tokens import Kind, Token, tokenise
+from tmd.language.lexicon.words import positive, singular
+from tmd.language.syntax.tokens import Kind, Token, tokenise
 
 VERB, OBJECT = "verb", "object"
 _SHORTEST_SLIP, _ALIKE = 4, 0.8

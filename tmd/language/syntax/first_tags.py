@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from itertools import pairwise
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.morphology import comparative_root, positive, singular
-from tmd.language.lexicon.word_lists import phrases, section, slips
-from tmd.language.tagging.tokens import NAME, Kind, Token
+from tmd.language.lexicon.words import comparative_root, phrases, positive, section, singular, slips
+from tmd.language.syntax.tokens import NAME, Kind, Token
 
 _PHRASES = (
     ("multiword_prepositions", Kind.P, ""),
@@ -237,8 +235,3 @@ def _closed(word: str) -> Kind:
     if word in section("adverbs") and word not in section("verbs"):
         return Kind.ADV
     return Kind.WORD
-
-
-def texts(tokens: Iterable[Token]) -> str:
-    """Return the words of tokens, for messages and folds."""
-    return " ".join(t.text for t in tokens)

@@ -6,9 +6,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section
 from tmd.language.syntax.attachment import is_number
-from tmd.language.tagging.tokens import Kind, Token
+from tmd.language.syntax.tokens import Kind, Token
 
 SPEAKERS = frozenset({"i", "we"})
 _PUTTING = frozenset({"put", "place", "pop", "stick", "go", "goes", "belong", "belongs"})

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from tmd.language.lexicon.word_lists import section
+from tmd.language.lexicon.words import section
 from tmd.language.syntax.chunking import ALSO
-from tmd.language.tagging.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 
 HAVE, PUT = "have", "put"
 _WISHES = frozenset({"like", "love", "want", "wants", "prefer", "fancy", "fancies"})

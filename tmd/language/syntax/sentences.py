@@ -6,11 +6,11 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.word_lists import section
-from tmd.language.rewriting.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS
+from tmd.language.lexicon.words import section
+from tmd.language.syntax.first_tags import fold
+from tmd.language.syntax.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS
 from tmd.language.syntax.subordinate_folding import STATEMENT
-from tmd.language.tagging.first_tags import fold
-from tmd.language.tagging.tokens import Kind, Token
+from tmd.language.syntax.tokens import Kind, Token
 
 _ASKING = frozenset({"can", "could", "may", "should", "shall"})
 """What a question begins with that asks for something; *will it be hot* does not."""

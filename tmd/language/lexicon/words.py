@@ -1,50 +1,63 @@
-"""Singular nouns and verb stems without a dictionary of word forms."""
+"""Word lists by section (``data/words.txt``), and word forms: singular nouns, verb stems, positive adjectives."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+import gzip
+from collections.abc import Callable, Iterator, Mapping
+from functools import cache
+from importlib.resources import files
 
-from tmd.language.lexicon.word_lists import section
+
+def data_text(name: str) -> str:
+    """Return a data file of the language package as text; ``.gz`` is unpacked."""
+    raw = (files("tmd.language") / "data" / name).read_bytes()
+    return (gzip.decompress(raw) if name.endswith(".gz") else raw).decode("utf-8")
+
+
+@cache
+def sections() -> Mapping[str, tuple[str, ...]]:
+    """Return every section of ``data/words.txt`` in the order of the file."""
+    found: dict[str, list[str]] = {}
+    current: list[str] = []
+    for line in data_text("words.txt").splitlines():
+        if line.startswith("["):
+            current = found.setdefault(line.strip("[]"), [])
+        elif not line.startswith("#"):
+            current.extend(line.split())
+    return {name: tuple(words) for name, words in found.items()}
+
+
+@cache
+def section(name: str) -> frozenset[str]:
+    """Return one section of ``data/words.txt``."""
+    return frozenset(sections()[name])
+
+
+@cache
+def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
+    """Return a section of several-word entries by first word, longest first."""
+    table: dict[str, list[tuple[str, ...]]] = {}
+    for entry in sections()[name]:
+        words = tuple(entry.split("_"))
+        table.setdefault(words[0], []).append(words)
+    return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
+
+
+@cache
+def slips() -> Mapping[str, str]:
+    """Return the slips that no likeness finds, with the words they stand for."""
+    return dict(entry.split("=") for entry in sections()["slips"])
+
 
 _IRREGULAR = {
-    "knives": "knife",
-    "shelves": "shelf",
-    "loaves": "loaf",
-    "leaves": "leaf",
-    "halves": "half",
-    "dishes": "dish",
-    "glasses": "glass",
-    "children": "child",
-    "people": "people",
-    "men": "man",
-    "women": "woman",
-    "feet": "foot",
-    "teeth": "tooth",
-    "mice": "mouse",
-    "geese": "goose",
-    "movies": "movie",
-    "cookies": "cookie",
-    "pies": "pie",
-    "ties": "tie",
-    "brownies": "brownie",
-    "smoothies": "smoothie",
-    "veggies": "veggie",
-    "potatoes": "potato",
-    "tomatoes": "tomato",
-    "mangoes": "mango",
-    "heroes": "hero",
-    "axes": "axe",
-    "shoes": "shoe",
-    "canoes": "canoe",
-    "buses": "bus",
-    "lenses": "lens",
-    "batteries": "battery",
-    "hoodies": "hoodie",
-    "calories": "calorie",
-    "quiches": "quiche",
-    "canvases": "canvas",
-    "dominoes": "domino",
-}
+    "knives": "knife", "shelves": "shelf", "loaves": "loaf", "leaves": "leaf", "halves": "half", "dishes": "dish",
+    "glasses": "glass", "children": "child", "people": "people", "men": "man", "women": "woman", "feet": "foot",
+    "teeth": "tooth", "mice": "mouse", "geese": "goose", "movies": "movie", "cookies": "cookie", "pies": "pie",
+    "ties": "tie", "brownies": "brownie", "smoothies": "smoothie", "veggies": "veggie", "potatoes": "potato",
+    "tomatoes": "tomato", "mangoes": "mango", "heroes": "hero", "axes": "axe", "shoes": "shoe", "canoes": "canoe",
+    "buses": "bus", "lenses": "lens", "batteries": "battery", "hoodies": "hoodie", "calories": "calorie",
+    "quiches": "quiche", "canvases": "canvas", "dominoes": "domino",
+}  # fmt: skip
 _VOWELS = "aeiou"
 
 
@@ -87,11 +100,6 @@ def comparative_root(word: str) -> tuple[str, ...]:
     root = word[:-2]
     undoubled = (root[:-1],) if root[-1] == root[-2] else ()
     return (f"{root[:-1]}y",) if root.endswith("i") else (root, f"{root}e", *undoubled)
-
-
-def is_plural(noun: str) -> bool:
-    """Tell whether a noun is a plural form."""
-    return singular(noun) != noun or noun.rpartition("_")[2] in ("scissors", "tongs", "clothes", "people")
 
 
 def verb_candidates(word: str) -> Iterator[tuple[str, str]]:
