@@ -212,6 +212,17 @@ SAID_OTHERWISE = [
         ["(at pen1 desk1_drawer in)", "(not (opened desk1_drawer))"],
     ),
     ("kitchen/kitchen1", "Put one of the two mugs in the sink.", ["(at mug1 sink1 in)"]),
+    ("kitchen/kitchen2", "Put all the mugs but one in the sink.", ["(or (at mug1 sink1 in) (at mug2 sink1 in))"]),
+    (
+        "kitchen/kitchen1",
+        "Turn on all the burners except the first.",
+        ["(and (active stove1_burner2) (active stove1_burner3) (active stove1_burner4))"],
+    ),
+    (
+        "03_drawer/study2",
+        "Put the stapler in the top drawer, and leave the key in there.",
+        ["(at stapler1 cabinet1_top_drawer in)"],
+    ),
     ("living_room/room1", "Both pillows onto the sofa.", ["(and (at pillow1 sofa1 on) (at pillow2 sofa1 on))"]),
     (
         "living_room/room1",

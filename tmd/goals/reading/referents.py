@@ -310,10 +310,19 @@ class Referents:
         """All that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
         return self._all_kinds(noun, self.nouns.things(noun, state), ("object",), state)[0]
 
+    def _any_one(self, noun: str, reading: ClauseReading) -> bool:
+        """Whether any one will do: nothing was said that tells which."""
+        said = reading.clause.phrase(noun)
+        return not (said.definite or said.plural or said.attributes or self.relations_of(noun, reading.clause))
+
     def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> Referent:
         """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
         for relation, target in relations:
             names = self.targets(target, reading)
+            if relation in EXCEPTING and is_one(target) and self._any_one(target, reading) and referent.names:
+                number = len(referent.names) - 1  # "all but one"
+                referent = replace(referent, mode=Mode.NUMBER, number=number)
+                continue
             if relation in EXCEPTING:
                 wide = (n for one in reading.clause.meant(target) for n in self.every_kind(one, reading.state))
                 names = (*names, *(wide if not is_one(target) else ()))

@@ -226,6 +226,9 @@ class ClauseDraft:
         placed = any(r.relation not in _UNPLACED for r in self.relations)
         if any(phrase.name in WHOLES for phrase in self.direct):
             placed = placed and self.verb.stem != "leave"  # "leave everything else on the table": what is there
+        if self.direct and not any(phrase.pronoun for phrase in self.direct):
+            there = all(r.target == "it" for r in self.relations if r.relation not in _UNPLACED)
+            placed = placed and not (self.verb.stem == "leave" and there)  # "leave the key in there"
         relative = any(t.form == "relative" for t in self.folds)
         if self.verb.stem == "leave" and self.direct and (relative or not placed):
             return Mood.KEEP
@@ -378,7 +381,8 @@ class _Attachment:
             self.host, self.behind = [], name  # "except the one on the chair | on the shelf"
             return
         self.behind = name
-        if (name not in _NEVER_HOSTS or targets[0].name in ("one", "ones")) and targets[0].name not in PERSONS:
+        told = targets[0].name in ("one", "ones") and bool(targets[0].lead)  # "but the one on the shelf", not "but one"
+        if (name not in _NEVER_HOSTS or told) and targets[0].name not in PERSONS:
             self.host = targets
 
     def gapped(self, node: Tree[Leaf], following: Tree[Leaf], beyond: Tree[Leaf] | Leaf | None) -> bool:

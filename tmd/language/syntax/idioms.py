@@ -31,7 +31,11 @@ _CLOSING = {"closed": "close", "shut": "shut", "open": "open"}
 _AFTERWARDS = frozenset(
     {"again", "afterwards", "after", "that", "this", "too", "as", "well", "please", "then", "finally"}
 )
+_ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last"})
 JOINTS = frozenset({"and", "but", "then", "while"})
+
+_BEHIND = section("prepositions") | JOINTS
+"""Words with which a noun phrase is over."""
 
 
 def _none_of(tokens: list[Token]) -> list[Token]:
@@ -240,6 +244,29 @@ def _at_most(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _all_but_one(tokens: list[Token]) -> list[Token]:
+    """Read "all but one of the cups" as "all the cups but one"."""
+    for at in range(len(tokens) - 5):
+        words = [t.text for t in tokens[at : at + 5]]
+        if words[0] == "all" and words[1] in ("but", "except") and words[2:4] == ["one", "of"]:
+            end = at + 5
+            while end < len(tokens) and not (tokens[end].kind in BREAKS or tokens[end].text in _BEHIND):
+                end += 1
+            return [*tokens[: at + 1], *tokens[at + 4 : end], *tokens[at + 1 : at + 3], *tokens[end:]]
+    return tokens
+
+
+def _bare_ordinal(tokens: list[Token]) -> list[Token]:
+    """Read "except the first" as "except the first one"."""
+    found: list[Token] = []
+    for at, token in enumerate(tokens):
+        found.append(token)
+        ends = at + 1 == len(tokens) or tokens[at + 1].kind in BREAKS or tokens[at + 1].text in JOINTS
+        if at > 1 and ends and token.text in _ORDINALS and tokens[at - 1].text == "the":
+            found.append(replace(token, text="one"))
+    return found
+
+
 def _last_state(tokens: list[Token]) -> list[Token]:
     """Read "…, and the drawer closed after that" as "… and close the drawer after that"."""
     words = [t.text for t in tokens]
@@ -262,6 +289,8 @@ IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
     _plain_copula,
     _at_most,
+    _all_but_one,
+    _bare_ordinal,
     _one_of_them,
     _last_state,
     _none_of,

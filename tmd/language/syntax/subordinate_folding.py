@@ -327,6 +327,9 @@ class _Folder:
                 return place + 1  # "where the cup was | and the kettle on the stove"
             if verb and inside and token.kind in (Kind.P, Kind.TO):
                 return place  # "the cup that has water in it | in the sink"
+            owns = said and self.tokens[at + 1].text in ("has", "have") and self._kind(place + 1) is not Kind.PRON
+            if owns and token.text in ("in", "on", "at"):
+                return place  # "the pot that has an egg | on the stove"; but "the pot that has an egg in it"
             if verb and said and token.kind in (Kind.P, Kind.TO) and token.text in _WHITHER and token.form != "inf":
                 return place
             said = said or (verb and (token.kind in (Kind.N, Kind.PRON, Kind.ADJ) or token.text in ("there", "here")))
