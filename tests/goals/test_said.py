@@ -211,7 +211,28 @@ SAID_OTHERWISE = [
         "Put the pen in the drawer, and the drawer shut after that.",
         ["(at pen1 desk1_drawer in)", "(not (opened desk1_drawer))"],
     ),
-    ("kitchen/kitchen1", "Put one of the two mugs in the sink.", ["(at mug1 sink1 in)"]),
+    ("kitchen/kitchen1", "Put the mug on the counter in the sink.", ["(at mug1 sink1 in)"]),
+    ("living_room/room1", "Put the pillow on the floor on the sofa.", ["(at pillow1 sofa1 on)"]),
+    (
+        "03_drawer/study2",
+        "Put everything in the drawers on the table.",
+        ["(and (at key1 table1 on) (at pen1 table1 on))"],
+    ),
+    (
+        "kitchen/kitchen4",
+        "Move everything from the table with the ramen on it to the other table, but leave the bowl where it is.",
+        ["(and (at mug1 table2 on) (at spoon1 table2 on) (at ramen1 table2 on))"],
+    ),
+    (
+        "living_room/room5",
+        "Turn the floor lamp up. No, wait, raise the blind instead.",
+        ["(opened window1_blind)"],
+    ),
+    (
+        "living_room/room5",
+        "Turn off one of the two lamps and leave the other one on.",
+        ["(or (not (active lamp1)) (not (active floor_lamp1)))", "(active floor_lamp1)"],
+    ),
     ("kitchen/kitchen2", "Put all the mugs but one in the sink.", ["(or (at mug1 sink1 in) (at mug2 sink1 in))"]),
     (
         "kitchen/kitchen1",
@@ -385,7 +406,6 @@ WRONG = [
     ("02_table/corner1", "Swap the cup and the book.", {"(at cup1 shelf1 on)", "(at book1 table1 on)"}),
     ("02_table/corner1", "Put the book under the table.", None),
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
-    ("03_drawer/study2", "Put everything in the drawers on the table.", {"(at key1 table1 on)", "(at pen1 table1 on)"}),
     ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),
 ]
 

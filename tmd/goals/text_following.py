@@ -161,11 +161,13 @@ class TextConstraints:
         task: The task without the operators that are forbidden.
         kept: What must hold at the end of every step.
         notes: What could not be taken into account.
+        left: The things that must stay where they are, or not be touched.
     """
 
     task: Task
     kept: tuple[Kept, ...] = ()
     notes: tuple[str, ...] = ()
+    left: tuple[str, ...] = ()
 
 
 class Follower:
@@ -189,6 +191,7 @@ class Follower:
         constraints = self._constraints(parsed, state, memory)
         if isinstance(constraints, Refused):
             return constraints
+        memory = replace(memory, left=constraints.left)
         return in_order(parsed.clauses), Context(memory, constraints.kept), constraints
 
     def target(self, step: GoalStep, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
@@ -316,6 +319,7 @@ class Follower:
         """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
         forbidden = Cube(0, 0)
         names: set[str] = set()
+        left: set[str] = set()
         kept: list[Kept] = []
         for clause in parsed.constraints:
             found = self._avoided(clause, state, memory)
@@ -331,8 +335,10 @@ class Follower:
                 if isinstance(preserved, Refused):
                     return preserved
                 kept += preserved
+                if not clause.result:
+                    left.update(n for noun in clause.direct for n in self._kept_things(clause, noun, state))
         task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
-        return TextConstraints(task, tuple(kept))
+        return TextConstraints(task, tuple(kept), left=tuple(sorted(left | names)))
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
         """The literals that must not come to hold, the things that must not be handled, and literals to keep."""

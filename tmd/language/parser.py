@@ -22,7 +22,7 @@ from tmd.language.syntax.first_tags import tag
 from tmd.language.syntax.part_of_speech import decide
 from tmd.language.syntax.pronouns import resolve
 from tmd.language.syntax.requests import rewrite_requests
-from tmd.language.syntax.sentences import rewrite_words
+from tmd.language.syntax.sentences import drop_headings, drop_taken_back, rewrite_words
 from tmd.language.syntax.subordinate_folding import fold_subordinates
 from tmd.language.syntax.subordinate_reading import read_prohibitions, read_subordinates
 from tmd.language.syntax.tokens import Kind, Token, drop_repeats, tokenise
@@ -70,8 +70,14 @@ def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
 
 def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     kept, repeated = drop_repeats(tokenise(text))
+    kept, taken_back = drop_taken_back(kept)
+    kept, headings = drop_headings(kept)
     for token in repeated:
         token.note = "repeats what was just said"
+    for token in taken_back:
+        token.note = "taken back by what was said next"
+    for token in headings:
+        token.note = "a heading: what follows says how"
     strange = _foreign(kept, words) if not depth else None
     if strange is not None:
         return Parsed(text, (), strange(text))
@@ -91,7 +97,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
         read_subordinates(found, words, read)
     clauses = resolve(found, text, [t for t in folded if t.kind is Kind.SKIP])
     constraints, understood = read_prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
-    rest = [t for t in (*folded, *repeated) if t not in understood]
+    rest = [t for t in (*folded, *repeated, *taken_back, *headings) if t not in understood]
     return Parsed(text, clauses, _skipped(text, clauses, rest), constraints)
 
 

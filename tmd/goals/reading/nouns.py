@@ -73,11 +73,13 @@ class Memory:
         bound: The nouns that were spoken of, the latest last.
         recent: Objects that were spoken of, the latest first.
         first: The state before the text.
+        left: The things that the text says to leave as they are.
     """
 
     bound: Mapping[str, Bound] = field(default_factory=dict)
     recent: tuple[str, ...] = ()
     first: Bits = 0
+    left: tuple[str, ...] = ()
 
 
 class Nouns:

@@ -194,6 +194,7 @@ class GoalReader:
     def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refused:
         """What ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         reading = ClauseReading(clause, state, Moments(state, memory.first), memory, awaited=awaited)
+        clause = reading.clause = self.referents.reattached(reading)
         if (
             clause.implied
             and clause.verb == "have"

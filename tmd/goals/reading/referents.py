@@ -13,10 +13,12 @@ from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types, state_
 from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import split_name
+from tmd.language.lexicon.words import section
 from tmd.language.syntax.pronouns import is_one, is_pronoun
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
+_PLACES = frozenset({"in", "into", "inside", "on", "onto", "to", "next_to", "under", "at"})
 EXCEPTING = frozenset({"except", "besides", "apart_from"})
 """Relations to what is left out."""
 
@@ -92,6 +94,33 @@ class Referents:
         ]
         return places[:1] or [(relation, target)]
 
+    def reattached(self, reading: ClauseReading) -> Clause:
+        """The clause with the last of two places as where its thing shall be: "the cup on the table in the sink".
+
+        The parser takes that for a table in the sink. It is not where the first place tells which cup is meant, and the
+        table is in no sink.
+        """
+        clause = reading.clause
+        found = list(clause.relations)
+        if clause.verb not in section("placing"):
+            return clause
+        for number, relation in enumerate(clause.relations):
+            source = relation.source or ""
+            hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
+            if relation.relation not in _PLACES or not hosts or source in clause.direct:
+                continue
+            target = self.targets(relation.target, reading)
+            now = self.nouns.related_now(
+                Referent(source, self.targets(source, reading)),
+                relation.relation, target, reading.state, reading.moments,
+            )  # fmt: skip
+            units = [Unit(host.source, []) for host in hosts]
+            tells = all(self.tells_which(u, h.relation, h.target, reading) for u, h in zip(units, hosts, strict=True))
+            if target and not now and tells:
+                found[number] = relation._replace(source=hosts[0].source)
+                found += [relation._replace(source=host.source) for host in hosts[1:]]
+        return replace(clause, relations=tuple(found)) if found != list(clause.relations) else clause
+
     def tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
         """Whether a relation of what is acted on holds now of one of its candidates."""
         if not unit.direct:
@@ -154,6 +183,11 @@ class Referents:
             relations = self.relations_of(pronoun, reading.clause)
             spoken = reading.memory.bound.get(antecedent)
             same = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
+            within = antecedent in reading.clause.phrases and antecedent not in reading.taken
+            if said.quantifier is Quantifier.OTHER and within:  # "from the table with the mug to the other one"
+                first, whole = self.targets(antecedent, reading), self._antecedent_of_kind(antecedent, types, reading)
+                if first and set(first) < set(whole.names):
+                    return replace(whole, noun=pronoun, names=tuple(n for n in whole.names if n not in first))
             if pronoun == "one" and same and spoken is not None:  # "… the other plate. Put that one in the sink."
                 return self._antecedent(antecedent, "it", types, reading)
             return replace(
@@ -171,6 +205,10 @@ class Referents:
             mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
             return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
         return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
+
+    def _antecedent_of_kind(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        """All that a noun may mean, whatever else was said of it."""
+        return self._named(noun, NounPhrase(noun), types, [], reading)
 
     def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         names: dict[str, None] = {}
@@ -218,11 +256,14 @@ class Referents:
             mode, number = mode_of(phrase, group=False, thing=False)
             return Referent(noun, wanted_constants, mode, number, phrase.definite)
         mode, number = mode_of(phrase, group=group, thing=True, place=place)
-        if mode is not Mode.ANY and not group:
+        among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and things == likely
+        several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
+        if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
             objects, group = self._all_kinds(noun, objects, types, reading.state)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
-        referent = Referent(noun, objects, mode, number, phrase.definite, group, phrase.each)
+        definite = phrase.definite and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
+        referent = Referent(noun, objects, mode, number, definite, group, phrase.each)
         whole = referent.names
         referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
         if whole and not referent.names and any(relation == "of" for relation, _ in relations):
@@ -233,6 +274,9 @@ class Referents:
             referent = replace(referent, names=())
         reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
         referent = self._restricted(referent, relations, reading)
+        if referent.mode is Mode.ALL and noun in reading.clause.direct:  # "all of it to the table, but leave the bowl"
+            free = tuple(n for n in referent.names if n not in reading.memory.left)
+            referent = replace(referent, names=free or referent.names)
         if noun in reading.taken:
             other, one = phrase.quantifier is Quantifier.OTHER, reading.taken[noun]
             return replace(referent, names=tuple(n for n in referent.names if (n == one) != other))
@@ -372,7 +416,10 @@ class Referents:
         if bound is not None and set(bound.names) & set(things):
             return tuple(n for n in things if n in bound.names)
         constants = self.nouns.constants(noun, ("object",), reading.state)
-        return tuple(dict.fromkeys((*things, *constants)))
+        names = tuple(dict.fromkeys((*things, *constants)))
+        relations = self.relations_of(noun, reading.clause) if noun not in reading.clause.direct else []
+        said = [(r, t) for r, t in relations if r == "with"]  # "from the table with the ramen on it"
+        return self._restricted(Referent(noun, names), said, reading).names or names if said else names
 
     def _one_called(self, pronoun: str, antecedent: str, reading: ClauseReading) -> tuple[str, ...]:
         """What *the ceiling one* means where lamps were spoken of: a ceiling lamp."""

@@ -32,6 +32,7 @@ _AFTERWARDS = frozenset(
     {"again", "afterwards", "after", "that", "this", "too", "as", "well", "please", "then", "finally"}
 )
 _ORDINALS = frozenset({"first", "second", "third", "fourth", "fifth", "last"})
+_COPULAS = frozenset({"is", "are", "was", "lies", "stands", "sits", "remains", "has"})
 JOINTS = frozenset({"and", "but", "then", "while"})
 
 _BEHIND = section("prepositions") | JOINTS
@@ -267,6 +268,29 @@ def _bare_ordinal(tokens: list[Token]) -> list[Token]:
     return found
 
 
+def _whatever(tokens: list[Token]) -> list[Token]:
+    """Read "whatever is on the floor" as "everything that is on the floor"."""
+    for at, token in enumerate(tokens[:-1]):
+        if token.text == "whatever" and tokens[at + 1].text in _COPULAS:
+            that = [replace(token, text="everything"), replace(token, text="that")]
+            return [*tokens[:at], *that, *_whatever(tokens[at + 1 :])]
+    return tokens
+
+
+def _same_noun(tokens: list[Token]) -> list[Token]:
+    """Read "from the table with the mug to the other table" as "… to the other one"."""
+    for at in range(2, len(tokens)):
+        noun, told = tokens[at].text, tokens[at - 1].text in ("other", "empty", "free")
+        ends = at + 1 == len(tokens) or tokens[at + 1].kind in BREAKS or tokens[at + 1].text in JOINTS
+        if not (told and ends and tokens[at - 2].text == "the"):
+            continue
+        before = next((i for i in range(at - 3, 0, -1) if tokens[i].text == noun), 0)
+        joined = any(t.text in JOINTS or t.kind in BREAKS for t in tokens[before:at])
+        if before and tokens[before - 1].text in section("determiners") and not joined:
+            return [*tokens[:at], replace(tokens[at], text="one"), *_same_noun(tokens[at + 1 :])]
+    return tokens
+
+
 def _last_state(tokens: list[Token]) -> list[Token]:
     """Read "…, and the drawer closed after that" as "… and close the drawer after that"."""
     words = [t.text for t in tokens]
@@ -288,6 +312,8 @@ def _last_state(tokens: list[Token]) -> list[Token]:
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
     _plain_copula,
+    _whatever,
+    _same_noun,
     _at_most,
     _all_but_one,
     _bare_ordinal,

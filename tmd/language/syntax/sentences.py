@@ -38,8 +38,71 @@ _TREATMENTS = frozenset(
 )  # fmt: skip
 """Nouns for what is done to a thing that is given one."""
 _BEING = (["be"], ["stay"], ["remain"], ["stand"])
+_CORRECTIONS = frozenset(
+    {"no wait", "wait no", "no sorry", "sorry no", "no actually", "actually no", "scratch that", "no hang on",
+     "on second thought", "on second thoughts", "forget that", "no i mean", "i mean"}
+)  # fmt: skip
+_SUMMARIES = frozenset({"clear", "tidy", "clean", "sort", "set", "arrange", "organise", "organize"})
 _MODALS = frozenset({"should", "must", "may", "can", "shall"})
 _END_STATES = frozenset({"open", "closed", "shut", "on", "off", "locked", "unlocked", "full", "empty", "lit", "clean"})
+
+
+def drop_taken_back(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
+    """Remove what the speaker takes back: "on the table, no wait, on the shelf", "Open it. Actually, no, shut it".
+
+    A place takes back a place, a thing a thing, an instruction what was said since the last full stop. An instruction
+    with a pronoun takes nothing back, because what the pronoun stands for was named there.
+
+    Returns:
+        The tokens that stay and the tokens removed.
+    """
+    words = [t.text for t in tokens]
+    for at in range(1, len(tokens) - 2):
+        end = _correction(words, at)
+        if not end or tokens[at - 1].kind not in (*BREAKS, Kind.COMMA) or end + 1 >= len(tokens):
+            continue
+        stops = [i + 1 for i in range(at - 1) if tokens[i].kind is Kind.STOP]
+        start = stops[-1] if stops else 0
+        places = [i for i in range(start, at) if words[i] in section("prepositions")]
+        things = [i for i in range(start, at) if words[i] in section("determiners")]
+        if words[end] in section("prepositions") and places:
+            start = places[-1]
+        elif words[end] in section("determiners") and things:
+            start = things[-1]
+        elif words[end + 1] in PRONOUNS:
+            start = at
+        rest, dropped = drop_taken_back(tokens[end:])
+        return [*tokens[:start], *rest], [*tokens[start:end], *dropped]
+    return tokens, []
+
+
+def drop_headings(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
+    """Remove "clear the floor" from "clear the floor: the book onto the shelf, …": what follows says how.
+
+    Returns:
+        The tokens that stay and the tokens removed.
+    """
+    start = 0
+    for at, token in enumerate(tokens):
+        if token.kind is not Kind.STOP:
+            continue
+        stops = (i for i in range(at + 1, len(tokens)) if tokens[i].kind is Kind.STOP)
+        following = tokens[at + 1 : next(stops, len(tokens))]
+        placed = any(t.text in section("prepositions") for t in following)
+        if token.text == ":" and placed and tokens[start].text in _SUMMARIES:
+            rest, dropped = drop_headings(tokens[at + 1 :])
+            return [*tokens[:start], *rest], [*tokens[start : at + 1], *dropped]
+        start = at + 1
+    return tokens, []
+
+
+def _correction(words: list[str], at: int) -> int:
+    """Return where the words end with which a speaker corrects himself; 0 where there are none."""
+    plain = [(i, word) for i, word in enumerate(words[at : at + 6], at) if word not in (",", "-", "–")]
+    for count in (3, 2):
+        if " ".join(word for _, word in plain[:count]) in _CORRECTIONS and len(plain) > count:
+            return plain[count][0]
+    return 0
 
 
 def rewrite_words(tokens: list[Token]) -> list[Token]:
