@@ -1,527 +1,616 @@
-"""Verb or noun: each word gets one class from its neighbours, before any grammar runs.
+"""Parts of speech from the neighbours: verb or noun, pronoun or determiner, infinitive or preposition.
 
-Leaving the choice to an ambiguous grammar picks the noun reading in lists and is far slower. The words of open
-classes are read in :mod:`tmd.language.tagging.verb_or_noun`.
+Each word gets one class before any grammar runs; leaving the choice to an ambiguous grammar picks the noun reading in
+lists and is far slower. The rules are tables: of the table for a word (:func:`_rule`) the first row whose condition
+holds says what the word is. Each row has its reason and an example, in which the word stands between asterisks;
+To add a rule, add a row where it comes first.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
+from tmd.language.clause import NOWHERE
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.words import section
 from tmd.language.syntax.tokens import Kind, Token
 
-
-def decide(tokens: list[Token], lexicon: Lexicon) -> None:
-    """Set the kind of every undecided token, in place, in one pass."""
-    state = State()
-    previous: Token | None = None
-    _mark_purposes(tokens)
-    for at, token in enumerate(tokens):
-        following = next_token(tokens, at)
-        if token.text == ":" and previous is not None and previous.kind is Kind.V:
-            token.kind = Kind.FILLER
-        elif token.kind is Kind.STOP:
-            state = State()
-        elif token.kind in (Kind.SUB, Kind.REL, Kind.PURP):
-            _open_subordinate(token, previous, following, state)
-        elif token.kind is Kind.LET:
-            if previous is not None and previous.kind in (Kind.CC, Kind.COMMA):
-                state.close()
-            state.let = token.text != "leave"
-            if state.sub and state.nominal and previous is not None and previous.kind in (Kind.N, Kind.PRON):
-                token.kind, state.let = Kind.FINITE, False
-        elif token.kind is Kind.CC and token.text == "plus" and previous and previous.kind is Kind.DET:
-            token.kind = Kind.N
-        elif token.kind is Kind.TO:
-            open_thing = previous is not None and previous.text in ("something", "anything", "nothing")
-            causative = (state.let or open_thing) and following is not None and following.strength > 0
-            token.form = "inf" if causative or _infinitive(following, next_token(tokens, at, 2)) else ""
-        elif token.kind is Kind.DET:
-            _read_determiner(token, previous, following, state)
-        elif token.kind is Kind.PRON:
-            _read_pronoun(token, previous, following, state)
-        elif token.kind is Kind.AUX:
-            _read_auxiliary(token, previous, following, state, lexicon)
-        elif token.kind in (Kind.ADJ, Kind.ADV, Kind.P):
-            _read_modifier(token, previous, following)
-        elif token.kind is Kind.WORD:
-            token.kind = read_word(token, previous, following, state, lexicon, tokens, at)
-        if token.kind in (Kind.N, Kind.PRON):
-            state.nominal = True
-        elif token.kind is Kind.FINITE:
-            state.close()
-        elif token.kind is Kind.V:
-            state.close()
-            state.let, state.verb = False, True
-            if previous and previous.kind is Kind.V and previous.stem in SERIAL:
-                previous.kind = Kind.FILLER
-            else:
-                for word in helped(tokens, at):
-                    word.kind = Kind.ADV
-        if token.kind not in (Kind.ADV, Kind.FILLER):
-            previous = token
-
-
-def _open_subordinate(token: Token, previous: Token | None, following: Token | None, state: State) -> None:
-    ends = following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA, Kind.MOD)
-    if token.text == "once" and ends:
-        token.kind = Kind.ADV
-        return
-    if token.text in ("after", "before", "until") and following is not None and following.kind is Kind.MOD:
-        return
-    if token.text == "like" and previous is not None and previous.kind in (Kind.AUX, Kind.SUBJECT):
-        token.kind, token.stem, token.form = Kind.V, "like", "base"
-        return
-    state.sub, state.nominal = True, token.kind is Kind.REL
-
-
-def _infinitive(following: Token | None, after: Token | None) -> bool:
-    if following is not None and following.capital:
-        return False
-    if following is None or following.form not in ("base", "") or following.kind not in (Kind.WORD, Kind.LET):
-        return following is not None and following.text in ("be", "have", "do")
-    if following.strength == 3:
-        return True
-    opens = after is not None and (after.kind in OPENERS or (after.kind is Kind.WORD and after.strength < 2))
-    particle = after is not None and after.kind in (Kind.P, Kind.REL, Kind.SUB)
-    if following.strength == 2:
-        return opens or after is None or particle or after.kind in (Kind.STOP, Kind.CC, Kind.MOD)
-    return following.strength == 1 and after is not None and after.kind in ARTICLES
-
-
-def _read_determiner(token: Token, previous: Token | None, following: Token | None, state: State) -> None:
-    """Determiners without a noun are pronouns; "that" after a noun opens a relative clause."""
-    if token.text == "what" and following is not None and following.kind is Kind.AUX:
-        token.kind, state.sub, state.nominal = Kind.REL, True, True
-        return
-    if token.text in ("all", "both") and previous is not None and previous.kind is Kind.PRON:
-        token.kind = Kind.ADV
-        return
-    if token.text == "her" and previous is not None and previous.kind is Kind.V and previous.stem == "give":
-        token.kind = Kind.PRON
-        return
-    nominal = following is not None and following.kind in (Kind.DET, Kind.ADJ, Kind.NUM, Kind.WORD)
-    of = following is not None and following.text == "of"
-    if token.text == "that" and previous and previous.kind in (Kind.N, Kind.PRON):
-        verbal = following is not None and (
-            following.kind in (Kind.AUX, Kind.PRON, Kind.SUBJECT) or following.form in ("s", "ed") or following.capital
-        )
-        if verbal:
-            token.kind, state.sub, state.nominal = Kind.REL, True, True
-            return
-    if token.text in ("the", "a", "an", "my", "your", "its", "every"):
-        return
-    adjective = following is not None and following.text in section("drop_adjectives")  # "both empty bottles"
-    verb_next = following is not None and following.strength == 3 and following.form == "base" and not adjective
-    if not (nominal or of) or (verb_next and token.text in section("pronouns") and previous is not None):
-        token.kind = Kind.PRON if token.text in section("pronouns") else Kind.DET
-
-
-def _read_pronoun(token: Token, previous: Token | None, following: Token | None, state: State) -> None:
-    word = token.text
-    if word == "her" and following is not None and following.kind in (Kind.WORD, Kind.ADJ):
-        token.kind = Kind.DET
-        return
-    if word not in section("subjects") or (previous and previous.kind in (Kind.P, Kind.V, Kind.TO)):
-        return
-    if not state.sub:
-        token.kind = Kind.SUBJECT
-        state.narrative = word in ("he", "she", "they", "i", "we", "you")
-    else:
-        state.nominal = True
-
-
-def _read_auxiliary(
-    token: Token, previous: Token | None, following: Token | None, state: State, lexicon: Lexicon
-) -> None:
-    """Auxiliaries at the start of a sentence before a noun phrase are verbs ("have a look")."""
-    nominal = previous is not None and previous.kind in (Kind.N, Kind.DET, Kind.ADJ)
-    listed = following is None or following.kind in (Kind.CC, Kind.COMMA, Kind.STOP, Kind.P, Kind.TO)
-    verbal = following is not None and following.strength and following.form == "base"
-    if token.text == "can" and (listed or (nominal and not verbal)):
-        token.kind = Kind.N
-        return
-    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
-    object_next = following is not None and following.kind in ARTICLES and following.text != "you"
-    if token.text in ("need", "needs", "do") and start and object_next:
-        token.kind, token.stem, token.form = Kind.V, "do" if token.text == "do" else "need", "base"
-    state.close()
-
-
-def _read_modifier(token: Token, previous: Token | None, following: Token | None) -> None:
-    """Read "second" and "back" as modifiers a noun; "past" and "out" stay prepositions."""
-    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
-    article = following is not None and following.kind in ARTICLES
-    determined = previous is not None and previous.kind is Kind.DET
-    headless = following is None or following.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.P)
-    noun_next = following is not None and following.kind in (Kind.WORD, Kind.N, Kind.ADJ)
-    if determined and headless and token.text == "well":
-        token.kind = Kind.N
-        return
-    if determined and noun_next and token.text in ("upstairs", "downstairs"):
-        token.kind = Kind.N
-        return
-    if determined and headless and token.text in ("same", "other", "others"):
-        token.kind = Kind.N
-        return
-    if token.kind is Kind.ADJ and token.form == "base" and token.strength > 1 and start and article:
-        token.kind = Kind.V
-        return
-    narrated = (previous is not None and previous.kind is Kind.SUBJECT) or (start and article)
-    if token.kind is Kind.ADJ and token.form == "ed" and token.stem and narrated:
-        token.kind = Kind.V
-        return
-    sure = following is not None and following.strength == 3 and following.form == "base"
-    if token.text in section("adverbs") | {"next", "last"} and token.kind is not Kind.P and start and sure:
-        token.kind = Kind.ADV
-        return
-    beside = previous is not None and previous.kind is Kind.N and following is not None
-    if token.text in ("nearest", "closest") and beside and following and following.kind in OPENERS:
-        token.kind = Kind.P
-        return
-    inside = previous is not None and previous.kind in (Kind.DET, Kind.ADJ)
-    if (inside and token.text in section("keep_adjectives")) or (
-        inside and token.text in ("inside", "outside", "front", "back") and not noun_next
-    ):
-        token.kind = Kind.N
-    elif token.kind is Kind.ADV and token.text in section("keep_adjectives") and noun_next:
-        beside = following is not None and (following.text in section("keep_adjectives"))
-        verb_before = previous is not None and previous.kind in (Kind.P, Kind.V, Kind.CC, Kind.COMMA, Kind.N)
-        if token.text != "right" or beside or (verb_before and following and following.kind is Kind.WORD):
-            token.kind = Kind.N
-
-
-def _mark_purposes(tokens: list[Token]) -> None:
-    """Tell "hang it up so it dries" from "so, take the cup"."""
-    for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
-        if token.text != "so" or before.kind in (Kind.STOP, Kind.AUX, Kind.DET):
-            continue
-        clause = after.kind in (Kind.PRON, Kind.SUBJECT) or (after.kind is Kind.AUX and "'" in after.text)
-        if clause or (after.kind is Kind.DET and before.kind not in (Kind.CC, Kind.COMMA)):
-            token.kind = Kind.PURP
-
-
-ARTICLES = frozenset({Kind.DET, Kind.PRON})
-OPENERS = frozenset({Kind.DET, Kind.PRON, Kind.NUM, Kind.ADJ})
-DATIVE = frozenset({"me", "us", "him", "her", "you"})
-SERIAL = frozenset({"go", "come", "run", "help", "hurry"})
+_EDGE = Token(Kind.STOP, "", NOWHERE)
+"""What stands before the first word and behind the last."""
+_ARTICLES = frozenset({Kind.DET, Kind.PRON})
+_OPENERS = frozenset({Kind.DET, Kind.PRON, Kind.NUM, Kind.ADJ})
+_ENDS = frozenset({Kind.STOP, Kind.COMMA, Kind.CC})
+_OPEN_CLAUSES = frozenset({Kind.SUB, Kind.REL, Kind.PURP})
+_HEADS = frozenset({Kind.N, Kind.PRON})
+_PERSONS = frozenset({"me", "us", "him", "her", "you"})
+_NARRATORS = frozenset({"he", "she", "they", "i", "we", "you"})
+_SERIAL = frozenset({"go", "come", "run", "help", "hurry"})
+"""Verbs that only lead to the next one: "go get the cup"."""
+_DEGREES = frozenset({"really", "very", "quite", "too", "extremely"})
+_COLOURS = frozenset({"red", "blue", "green", "yellow", "orange", "pink", "brown", "black", "white", "grey", "gray"})
 
 
 @dataclass(slots=True)
-class State:
-    """What the pass remembers of the sentence so far."""
+class Sentence:
+    """What the rules know of the sentence so far."""
 
     sub: bool = False
-    """Inside a condition or relative clause whose own verb has not come yet."""
+    """Inside a condition or relative clause whose own verb has not come yet ..."""
     nominal: bool = False
     """... and whose subject has come."""
     narrative: bool = False
     """The sentence tells what somebody does: "she takes the cup"."""
     let: bool = False
+    """*Let* waits for its verb: "let the tea cool"."""
     verb: bool = False
     """An instruction verb has come."""
+
+    @property
+    def clause(self) -> bool:
+        """A condition or relative clause has a subject, and waits for its verb."""
+        return self.sub and self.nominal
 
     def close(self) -> None:
         """Leave the condition or relative clause."""
         self.sub = self.nominal = False
 
 
-def next_token(tokens: list[Token], at: int, step: int = 1) -> Token | None:
-    """Return the next token that is no adverb, or the one ``step`` further."""
-    for token in tokens[at + 1 : at + 8]:
-        if token.kind is not Kind.ADV:
-            step -= 1
-            if step == 0:
-                return token
-    return None
+class Word:
+    """A word and what stands around it: what a rule looks at.
 
+    Attributes:
+        left: The token before it that is no adverb, decided.
+        right: The token behind it that is no adverb, with its first tag.
+        beyond: The one behind that.
+    """
 
-def helped(tokens: list[Token], at: int) -> list[Token]:
-    """Return "help me" right before a verb: the verb behind it is what counts."""
-    lead = tokens[max(0, at - 2) : at]
-    helps = len(lead) == 2 and lead[0].kind is Kind.V and lead[0].stem == "help"
-    return lead if helps and lead[1].text in DATIVE else []
+    __slots__ = ("at", "beyond", "left", "lexicon", "right", "sentence", "token", "tokens")
 
+    def __init__(self, tokens: list[Token], at: int, left: Token, sentence: Sentence, lexicon: Lexicon) -> None:
+        """Look at the word at one place of a text."""
+        self.token, self.tokens, self.at, self.left = tokens[at], tokens, at, left
+        self.sentence, self.lexicon = sentence, lexicon
+        ahead = [t for t in tokens[at + 1 : at + 8] if t.kind is not Kind.ADV]
+        self.right, self.beyond = [*ahead, _EDGE, _EDGE][:2]
 
-_STARTS = frozenset({Kind.STOP, Kind.ENSURE, Kind.PURP, Kind.MOD})
-_DEGREES = frozenset({"really", "very", "quite", "too", "extremely"})
-_CONTINUES = frozenset({Kind.P, Kind.ADV, Kind.STOP, Kind.MOD, Kind.SUB, Kind.PURP, Kind.TO})
-_COLOURS = frozenset({"red", "blue", "green", "yellow", "orange", "pink", "brown", "black", "white", "grey", "gray"})
+    @property
+    def text(self) -> str:
+        """The word as it is written, in lower case."""
+        return self.token.text
 
+    @property
+    def sure(self) -> int:
+        """How sure the word is a verb: 3 no noun, 2 a noun as well, 1 more often a noun."""
+        return self.token.strength
 
-def read_word(
-    token: Token,
-    previous: Token | None,
-    following: Token | None,
-    state: State,
-    lexicon: Lexicon,
-    tokens: list[Token],
-    at: int,
-) -> Kind:
-    """Return the class of a word that no list of closed classes has."""
-    if token.form == "possessive":
-        return Kind.N
-    if token.capital and previous is not None and previous.kind in (Kind.P, Kind.TO):
-        return Kind.N
-    if _is_result(token, previous, following):
-        return Kind.ADV
-    determined = previous is not None and previous.kind is Kind.DET
-    if determined and token.text in section("drop_adjectives") and following is not None and following.text == "can":
-        return Kind.ADJ  # "the empty can": the noun, which looks like an auxiliary
-    if at and tokens[at - 1].text in _DEGREES and not (following and following.kind in ARTICLES):
-        return Kind.ADJ
-    turning = previous is not None and previous.kind is Kind.V and previous.stem in ("turn", "go", "look", "head")
-    if turning and token.text in ("left", "right") and not (following and following.kind is Kind.WORD):
-        return Kind.ADV
-    particle = lexicon.particle(token.stem, following.text) if token.stem and following is not None else None
-    if particle is not None and previous is not None and previous.kind is Kind.TO:
-        return Kind.V  # "use the remote to switch on the television"
-    if _heads_place(token, previous, following, lexicon, tokens, at):
-        return Kind.N
-    if not token.stem:
-        return _read_unknown(token, previous, following, lexicon)
-    if token.form == "ing":
-        return _read_ing(token, previous, following, lexicon)
-    if token.form == "ed":
-        return _read_past(token, previous, following, state)
-    if token.form == "s":
-        return _read_third_person(token, previous, following, state, lexicon)
-    return _read_base(token, previous, following, state, lexicon, tokens, at)
+    def among(self, *names: str) -> bool:
+        """Tell whether one of these sections of ``words.txt`` has the word."""
+        return any(self.token.text in section(name) for name in names)
 
+    @property
+    def first(self) -> bool:
+        """It begins a sentence or a part of one."""
+        return self.left.kind in _ENDS
 
-def _is_result(token: Token, previous: Token | None, following: Token | None) -> bool:
-    """Tell what a thing becomes: "lay it flat", "tie the bag shut", "paint the fence white"."""
-    if previous is None or previous.kind not in (Kind.PRON, Kind.N):
+    @property
+    def determined(self) -> bool:
+        """An article or the like stands before it."""
+        return self.left.kind is Kind.DET
+
+    @property
+    def article(self) -> bool:
+        """An article or a pronoun stands behind it."""
+        return self.right.kind in _ARTICLES
+
+    @property
+    def object(self) -> bool:
+        """What stands behind it can be its object: an article, a pronoun, or a number behind a likely verb."""
+        relative = self.right.text == "that" and (self.beyond.kind is Kind.AUX or self.beyond.form in ("s", "ed"))
+        if relative and self.left.kind in (Kind.N, Kind.DET):
+            return False  # "the slice that is left"
+        return self.article or (self.right.kind is Kind.NUM and self.sure > 1)
+
+    @property
+    def opener(self) -> bool:
+        """What stands behind it can begin a noun phrase."""
+        return self.right.kind in _OPENERS or _weak(self.right)
+
+    @property
+    def modified(self) -> bool:
+        """A word that it may belong to as an adjective stands behind it."""
+        return self.right.kind in (Kind.WORD, Kind.ADJ, Kind.NUM) or self.right.text in ("one", "ones")
+
+    @property
+    def noun_next(self) -> bool:
+        """A likely noun stands behind it."""
+        return _weak(self.right) or self.right.text == "can"
+
+    @property
+    def particle(self) -> bool:
+        """The word behind it is its particle: "switch on"."""
+        return self.lexicon.particle(self.token.stem or self.text, self.right.text) is not None
+
+    @property
+    def moved(self) -> Token:
+        """What the particle before it moves: "turn it on wait"."""
+        near = self.at > 1 and self.tokens[self.at - 1] is self.left
+        return self.tokens[self.at - 2] if near else _EDGE
+
+    @property
+    def person(self) -> bool:
+        """Somebody stands before it: "hand me the cup"."""
+        return self.left.text in _PERSONS
+
+    @property
+    def helped(self) -> list[Token]:
+        """*Help me* right before it: it is the verb that counts."""
+        lead = self.tokens[max(0, self.at - 2) : self.at]
+        helps = len(lead) == 2 and lead[0].kind is Kind.V and lead[0].stem == "help"
+        return lead if helps and lead[1].text in _PERSONS else []
+
+    @property
+    def predicate(self) -> bool:
+        """The adjectives before it belong to a verb: "is full"."""
+        before = (t.kind for t in reversed(self.tokens[max(0, self.at - 4) : self.at]))
+        return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
+
+    @property
+    def later_verb(self) -> bool:
+        """A verb comes later in the same part of the sentence."""
+        for token in self.tokens[self.at + 1 :]:
+            if token.kind in _ENDS:
+                return False
+            if (token.strength >= 2 and token.form == "base") or token.kind is Kind.AUX:
+                return True
         return False
-    if token.text == "flat" and previous.kind is Kind.PRON:
-        return True
-    ends = following is None or following.kind in (Kind.STOP, Kind.CC, Kind.COMMA, Kind.P)
-    colour = token.text in _COLOURS and previous.text not in ("egg", *section("keep_adjectives"))
-    return ends and (colour or token.text == "shut")
 
 
-def _heads_place(
-    token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon, tokens: list[Token], at: int
-) -> bool:
-    """Tell whether a noun that looks like a verb says what goes where, or is on or off: "water in the pot", "TV on"."""
-    starts = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
-    if not starts or following is None or not lexicon.is_noun(token.text) or token.strength > 1:
-        return False
-    if lexicon.particle(token.stem or token.text, following.text) is not None:
-        return False  # "switch on the light"
-    ahead = next_token(tokens, at + 1)
-    ends = ahead is None or ahead.kind in (Kind.STOP, Kind.COMMA, Kind.CC)
-    return (following.text in ("on", "off", "out") and ends) or (
-        following.text in ("in", "into", "on", "onto") and not ends
-    )
+class Rule(NamedTuple):
+    """One row of a table: the class of a word, why, when, and an example with the word between asterisks."""
+
+    tag: Kind
+    reason: str
+    when: Callable[[Word], bool]
+    example: str
 
 
-def _read_unknown(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:
-    """A word that is no known verb: a verb only where nothing else can stand ("zap the soup")."""
-    article = following is not None and (
-        following.text in ("the", "a", "an", "my", "it", "them") and following.kind in ARTICLES
-    )
-    start = previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.SUBJECT)
-    if article and start and not lexicon.is_noun(token.text) and token.text.isalpha():
-        token.stem, token.form = token.text, "base"
-        return Kind.V
-    return Kind.N
+def _always(_: Word) -> bool:
+    return True
 
 
-def _read_ing(token: Token, previous: Token | None, following: Token | None, lexicon: Lexicon) -> Kind:
-    noun_next = following is not None and following.kind is Kind.WORD and following.strength < 2
-    noun_next = noun_next or (following is not None and following.text == "can")
-    if token.text in section("drop_adjectives") and noun_next:
-        return Kind.ADJ
-    if previous is not None and previous.kind in (Kind.AUX, Kind.SUB):
-        return Kind.ING
-    if previous is not None and previous.kind is Kind.P and previous.text in ("by", "without", "after", "before"):
-        return Kind.ING
-    if previous is not None and previous.kind is Kind.V and previous.stem in section("lead_verbs") | {"keep", "stop"}:
-        return Kind.ING
-    if lexicon.is_noun(token.text) or (previous is not None and previous.kind in (Kind.DET, Kind.ADJ, Kind.P)):
-        return Kind.N
-    if previous is None or previous.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.N, Kind.PRON, Kind.MOD):
-        modifier = token.text in section("ing_modifiers") or token.strength < 3
-        bare_noun = noun_next and modifier and (previous is None or previous.kind is not Kind.COMMA)
-        return Kind.N if bare_noun else Kind.ING
-    return Kind.N
+def _weak(token: Token) -> bool:
+    """Tell whether a token is a likely noun."""
+    return token.kind is Kind.WORD and token.strength < 2
 
 
-def _read_past(token: Token, previous: Token | None, following: Token | None, state: State) -> Kind:
-    kind = previous.kind if previous else Kind.STOP
-    if kind is Kind.AUX or kind is Kind.SUB:
-        return Kind.PARTICIPLE
-    if kind is Kind.SUBJECT or (state.narrative and kind in (Kind.CC, Kind.COMMA)):
-        return Kind.V
-    if token.text == "left" and kind is not Kind.PRON and following is not None and following.kind is Kind.WORD:
-        return Kind.N
-    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL):
-        return Kind.FINITE
-    article = following is not None and following.kind in ARTICLES
-    if kind in (Kind.STOP, Kind.CC, Kind.COMMA) and article:
-        return Kind.V
-    if kind in (Kind.N, Kind.PRON, Kind.NUM):
-        return Kind.FINITE if article else Kind.PARTICIPLE
-    ends = following is None or following.kind in (Kind.STOP, Kind.COMMA, Kind.CC, Kind.P, Kind.TO, Kind.SUB)
-    if kind is Kind.DET and ends and not token.text.endswith("ed"):
-        return Kind.N  # "the rose", "the dove"
-    return Kind.N if token.text in section("keep_adjectives") | {"left"} else Kind.ADJ
+def _infinitive(word: Word) -> bool:
+    """Tell whether what follows can be an infinitive."""
+    right = word.right
+    return not right.capital and right.form in ("base", "") and right.kind in (Kind.WORD, Kind.LET)
 
 
-def _read_third_person(
-    token: Token, previous: Token | None, following: Token | None, state: State, lexicon: Lexicon
-) -> Kind:
-    kind = previous.kind if previous else Kind.STOP
-    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL, Kind.P, Kind.SUBJECT):
-        return Kind.FINITE
-    if kind is Kind.SUBJECT or (previous is not None and previous.text == "robot"):
-        state.narrative = True
-        return Kind.V
-    if state.narrative and kind in (Kind.CC, Kind.COMMA) and not lexicon.is_noun(token.text):
-        return Kind.V
-    article = following is not None and following.kind in ARTICLES
-    if kind is Kind.N and state.verb and not state.sub and not article:
-        return Kind.N
-    if kind in (Kind.N, Kind.PRON) and not lexicon.is_noun(token.text) and token.strength >= 2:
-        return Kind.FINITE if article or token.strength == 3 or (previous and previous.kind is Kind.PRON) else Kind.N
-    return Kind.N
+def _headless(word: Word) -> bool:
+    return word.right.kind in _ENDS | {Kind.P}
 
 
-def _read_base(
-    token: Token,
-    previous: Token | None,
-    following: Token | None,
-    state: State,
-    lexicon: Lexicon,
-    tokens: list[Token],
-    at: int,
-) -> Kind:
-    kind = previous.kind if previous else Kind.STOP
-    verb = Kind.V
-    sure = token.strength
-    adjective = token.text in section("drop_adjectives")
-    nominal_next = following is not None and following.kind in (Kind.WORD, Kind.ADJ, Kind.NUM)
-    nominal_next = nominal_next or (following is not None and following.text in ("one", "ones"))
-    ends = kind in (Kind.N, Kind.PRON) and token.text not in section("nouns") | section("noun_verbs")
-    noun = Kind.ADJ if adjective and (nominal_next or kind is Kind.AUX or ends) else Kind.N
-    counted = following is not None and following.kind is Kind.NUM and sure > 1
-    article = following is not None and (following.kind in ARTICLES or counted)
-    if following is not None and following.text == "that" and kind in (Kind.N, Kind.DET):
-        finite = next_token(tokens, at, 2)
-        article = article and not (finite is not None and (finite.kind is Kind.AUX or finite.form in ("s", "ed")))
-    opener = following is not None and (
-        following.kind in OPENERS or (following.kind is Kind.WORD and following.strength < 2)
-    )
-    if kind in (Kind.SUBJECT, Kind.NEG) or (kind is Kind.TO and previous and previous.form == "inf"):
-        return verb if sure else noun
-    counting = previous is not None and (kind is Kind.NUM or previous.text in ("both", "all"))
-    if counting and adjective and nominal_next:
-        return noun  # "the two empty bottles"
-    if kind is Kind.AUX:
-        be = previous is not None and previous.text in section("be") | {"has", "have", "had"}
-        return noun if be else verb
-    if state.sub and state.nominal and kind in (Kind.N, Kind.PRON, Kind.REL):
-        return Kind.FINITE if sure >= 2 or kind is not Kind.N else Kind.N
-    if kind in (Kind.SUB, Kind.DET, Kind.REL) or (kind is Kind.ADJ and not _predicate(tokens, at)):
-        return noun
-    if kind in (Kind.FINITE, Kind.ING, Kind.PARTICIPLE, Kind.ADJ):
-        return verb if sure >= 2 and (kind is not Kind.ING or sure == 3) else noun
-    if kind in (Kind.LET,):
-        return verb if sure >= 2 else noun
-    if state.let and kind in (Kind.N, Kind.PRON, Kind.TO):
-        person = previous is not None and previous.text in DATIVE
-        return verb if person or (sure and not (opener and sure == 1)) else noun
-    if sure >= 2 and helped(tokens, at):
-        return verb
-    if kind is Kind.V:
-        serial = previous is not None and previous.stem in SERIAL and sure >= 2
-        return verb if serial else noun
-    if kind in _STARTS or previous is None:
-        return _at_start(token, following, article, tokens, at, noun)
-    if kind in (Kind.CC, Kind.COMMA):
-        phrasal = following is not None and following.kind is Kind.P and lexicon.particle(token.stem, following.text)
-        moved = next_token(tokens, at, 2) if following is not None and following.text in ("up", "down", "out") else None
-        phrasal = phrasal or (moved is not None and moved.kind in ARTICLES)
-        return verb if phrasal else _after_conjunction(token, following, article, opener, noun)
-    if kind in (Kind.P, Kind.TO):
-        return verb if sure == 3 and _after_particle(token, previous, article, tokens, at) else noun
-    return _run_on(token, previous, following, article, opener, noun)
+def _modifies(word: Word) -> bool:
+    return word.right.kind in (Kind.WORD, Kind.N, Kind.ADJ)
 
 
-def _after_particle(token: Token, previous: Token | None, article: bool, tokens: list[Token], at: int) -> bool:
-    """Tell whether a verb begins a clause behind a particle: "turn it on wait"."""
-    if previous is None or previous.text not in section("particles") | {"inside", "outside"}:
-        return False
-    moved = tokens[at - 2] if at > 1 and tokens[at - 1] is previous else None
-    pronoun = moved is not None and moved.kind is Kind.PRON
-    return article or pronoun or (token.stem in section("intransitive") and moved is not None and moved.kind is Kind.N)
+def _heads(word: Word) -> bool:
+    """Tell whether it comes first, is a noun rather than a verb, and what follows is no particle of it."""
+    return word.first and word.sure < 2 and word.lexicon.is_noun(word.text) and not word.particle
 
 
-def _predicate(tokens: list[Token], at: int) -> bool:
-    """Tell whether the adjective before ``at`` ends a predicate ("is full")."""
-    for token in reversed(tokens[max(0, at - 4) : at]):
-        if token.kind is Kind.AUX:
-            return True
-        if token.kind not in (Kind.ADJ, Kind.ADV):
-            return False
-    return False
+def _starts(word: Word) -> bool:
+    """Tell whether an instruction can begin with it."""
+    return word.left.kind in (Kind.STOP, Kind.ENSURE, Kind.PURP, Kind.MOD)
 
 
-def _at_start(token: Token, following: Token | None, article: bool, tokens: list[Token], at: int, noun: Kind) -> Kind:
-    copula = following is not None and following.kind is Kind.AUX and following.text in section("be")
-    if copula and token.strength < 3:
-        return noun
-    if token.strength >= 2:
-        return Kind.V
-    if following is None or following.kind in (Kind.STOP, Kind.P, Kind.MOD) or article:
-        return Kind.V
-    behind = tokens[at + 2] if at + 2 < len(tokens) else None
-    counted = following.kind is Kind.NUM and behind is not None and (behind.kind is Kind.WORD or behind.text == "of")
-    if counted or following.kind is Kind.TO:
-        return Kind.V
-    if following.kind in (Kind.WORD, Kind.ADJ):
-        for later in tokens[at + 1 :]:
-            if later.kind in (Kind.STOP, Kind.COMMA, Kind.CC):
-                break
-            if (later.strength >= 2 and later.form == "base") or later.kind is Kind.AUX:
-                return noun
-        return Kind.V
-    return noun
+def _after_particle(word: Word) -> bool:
+    """Tell whether it is a sure verb behind what may be the particle of the verb before."""
+    particle = word.left.text in section("particles") | {"inside", "outside"}
+    return word.left.kind in (Kind.P, Kind.TO) and word.sure == 3 and particle
 
 
-def _after_conjunction(token: Token, following: Token | None, article: bool, opener: bool, noun: Kind) -> Kind:
-    if token.strength == 3:
-        return Kind.V
-    if token.strength == 2:
-        ends = following is None or following.kind in _CONTINUES
-        return Kind.V if opener or ends else noun
-    pronoun = following is not None and following.kind is Kind.PRON
-    return Kind.V if article and (pronoun or token.strength == 1) else noun
+V, N, P, DET, NUM, PRON, ADJ, ADV = Kind.V, Kind.N, Kind.P, Kind.DET, Kind.NUM, Kind.PRON, Kind.ADJ, Kind.ADV
+AUX, SUB, REL, TO, CC, COMMA, STOP = Kind.AUX, Kind.SUB, Kind.REL, Kind.TO, Kind.CC, Kind.COMMA, Kind.STOP
+ING, PARTICIPLE, FINITE, SUBJECT = Kind.ING, Kind.PARTICIPLE, Kind.FINITE, Kind.SUBJECT
+LET, MOD, WORD = Kind.LET, Kind.MOD, Kind.WORD
+
+# fmt: off
+CLOSED: dict[Kind, tuple[Rule, ...]] = {
+    STOP: (
+        Rule(Kind.FILLER, "a colon right behind a verb separates nothing",
+             lambda w: w.text == ":" and w.left.kind is V, "Take*:* the cup and the bowl."),
+    ),
+    CC: (
+        Rule(N, "behind an article it is a thing",
+             lambda w: w.text == "plus" and w.determined, "Press the *plus*."),
+    ),
+    SUB: (
+        Rule(ADV, "nothing that could be a clause follows: how often",
+             lambda w: w.text == "once" and w.right.kind in _ENDS | {MOD}, "Stir the soup *once*."),
+        Rule(V, "behind a subject or an auxiliary it is the verb",
+             lambda w: w.text == "like" and w.left.kind in (AUX, SUBJECT), "I would *like* a tea."),
+    ),
+    LET: (
+        Rule(FINITE, "the verb of a clause that has a subject",
+             lambda w: w.sentence.clause and w.left.kind in _HEADS, "If they *let* the cat in, close the door."),
+    ),
+    TO: (  # a row makes it the mark of an infinitive; otherwise it says whither
+        Rule(TO, "the verb that *let* and *allow* wait for",
+             lambda w: w.sentence.let and w.right.strength > 0, "Allow the tea *to* cool."),
+        Rule(TO, "what something is for",
+             lambda w: w.left.text in ("something", "anything", "nothing") and w.right.strength > 0,
+             "Bring me something *to* drink."),
+        Rule(TO, "an auxiliary follows",
+             lambda w: w.right.text in ("be", "have", "do"), "Use the cloth *to* do the dishes."),
+        Rule(TO, "a sure verb follows",
+             lambda w: _infinitive(w) and w.right.strength == 3, "Use the knife *to* open the box."),
+        Rule(TO, "a verb follows that is a noun as well, and behind it something that goes with verbs",
+             lambda w: _infinitive(w) and w.right.strength == 2
+             and (_weak(w.beyond) or w.beyond.kind in _OPENERS | {P, REL, SUB, STOP, CC, MOD}),
+             "Use the remote *to* set the clock."),
+        Rule(TO, "a noun follows that is a verb here, since it has an object",
+             lambda w: _infinitive(w) and w.right.strength == 1 and w.beyond.kind in _ARTICLES,
+             "Use the can *to* water the fern."),
+    ),
+    DET: (
+        Rule(REL, "an auxiliary follows: a clause",
+             lambda w: w.text == "what" and w.right.kind is AUX, "Take *what* is in the bowl."),
+        Rule(ADV, "behind a pronoun it belongs to that",
+             lambda w: w.text in ("all", "both") and w.left.kind is PRON, "Wash them *all*."),
+        Rule(PRON, "somebody is given something",
+             lambda w: w.text == "her" and w.left.kind is V and w.left.stem == "give", "Give *her* the book."),
+        Rule(REL, "behind a noun, and a verb or a subject follows: a clause",
+             lambda w: w.text == "that" and w.left.kind in _HEADS
+             and (w.right.kind in (AUX, PRON, SUBJECT) or w.right.form in ("s", "ed") or w.right.capital),
+             "Take the cup *that* is on the table."),
+        Rule(PRON, "no noun follows, nor *of*",
+             lambda w: w.among("pronouns")
+             and w.right.kind not in (DET, ADJ, NUM, WORD) and w.right.text != "of", "Take *this* to the hall."),
+        Rule(PRON, "a sure verb follows: the next instruction",
+             lambda w: w.among("pronouns") and w.left is not _EDGE
+             and w.right.strength == 3 and w.right.form == "base" and w.right.text not in section("drop_adjectives"),
+             "Take *these* bring the bowl."),
+    ),
+    PRON: (
+        Rule(DET, "a noun follows",
+             lambda w: w.text == "her" and w.right.kind in (WORD, ADJ), "Take *her* cup."),
+        Rule(SUBJECT, "it is no object, and no clause is open that it could be the subject of",
+             lambda w: w.among("subjects") and w.left.kind not in (P, V, TO) and not w.sentence.sub,
+             "Now *you* take the cup."),
+    ),
+    AUX: (
+        Rule(N, "nothing follows that it could help",
+             lambda w: w.text == "can" and w.right.kind in _ENDS | {P, TO}, "Open the *can*."),
+        Rule(N, "behind an article or a noun, and no verb follows",
+             lambda w: w.text == "can" and w.left.kind in (N, DET, ADJ)
+             and not (w.right.strength and w.right.form == "base"), "Open the *can* the robot brought."),
+        Rule(V, "an instruction with an object",
+             lambda w: w.text in ("need", "needs", "do") and w.first and w.article and w.right.text != "you",
+             "*Do* the dishes."),
+    ),
+}
+"""Words of lists that are something else in some places: by their first tag."""
+
+MODIFIERS = (
+    Rule(N, "behind an article, and no noun follows: a thing",
+         lambda w: w.determined and _headless(w) and w.text in ("well", "same", "other", "others"),
+         "Take the *others*."),
+    Rule(N, "which of several",
+         lambda w: w.determined and _modifies(w) and w.text in ("upstairs", "downstairs"),
+         "Open the *upstairs* window."),
+    Rule(V, "first, and an object follows",
+         lambda w: w.token.kind is ADJ and w.token.form == "base" and w.sure > 1 and w.first and w.article,
+         "*Clean* the floor."),
+    Rule(V, "somebody tells what was done",
+         lambda w: w.token.kind is ADJ and w.token.form == "ed" and w.token.stem != ""
+         and (w.left.kind is SUBJECT or (w.first and w.article)), "She *closed* the door."),
+    Rule(ADV, "first, and a sure verb follows",
+         lambda w: w.token.kind is not P and (w.among("adverbs") or w.text in ("next", "last")) and w.first
+         and w.right.strength == 3 and w.right.form == "base", "*Next* open the box."),
+    Rule(P, "between two nouns: where",
+         lambda w: w.text in ("nearest", "closest") and w.left.kind is N and w.right.kind in _OPENERS,
+         "Take the cup *nearest* the sink."),
+    Rule(N, "behind an article or an adjective: which of several",
+         lambda w: w.left.kind in (DET, ADJ) and w.among("keep_adjectives"), "Take the *red* cup."),
+    Rule(N, "behind an article, and no noun follows: a place",
+         lambda w: w.left.kind in (DET, ADJ) and w.text in ("inside", "outside", "front", "back") and not _modifies(w),
+         "Wipe the *inside* of the fridge."),
+    Rule(N, "before a noun: which of several",
+         lambda w: w.token.kind is ADV and w.among("keep_adjectives") and _modifies(w)
+         and (w.text != "right" or w.right.text in section("keep_adjectives")
+              or (w.left.kind in (P, V, CC, COMMA, N) and w.right.kind is WORD)), "Put the cup on *right* shelf."),
+)
+"""Adjectives, adverbs and prepositions that are something else in some places."""
+
+ANY_WORD = (
+    Rule(N, "whose it is",
+         lambda w: w.token.form == "possessive", "Open the *fridge's* door."),
+    Rule(N, "a name",
+         lambda w: w.token.capital and w.left.kind in (P, TO), "Give the cup to *Mark*."),
+    Rule(ADV, "how something shall be",
+         lambda w: w.text == "flat" and w.left.kind is PRON, "Lay it *flat*."),
+    Rule(ADV, "what becomes of the thing before it",
+         lambda w: w.left.kind in _HEADS and w.right.kind in _ENDS | {P}
+         and (w.text == "shut" or (w.text in _COLOURS and w.left.text not in section("keep_adjectives") | {"egg"})),
+         "Paint the fence *white*."),
+    Rule(ADJ, "before a noun that looks like an auxiliary",
+         lambda w: w.determined and w.among("drop_adjectives") and w.right.text == "can", "Take the *empty* can."),
+    Rule(ADJ, "behind *very* and the like",
+         lambda w: w.at > 0 and w.tokens[w.at - 1].text in _DEGREES and not w.article,
+         "If it is very *dry*, water the fern."),
+    Rule(ADV, "behind a verb of moving, and no noun follows: whither",
+         lambda w: w.text in ("left", "right") and w.left.kind is V and w.left.stem in ("turn", "go", "look", "head")
+         and w.right.kind is not WORD, "Turn *left*."),
+    Rule(V, "behind *to*, and its particle follows",
+         lambda w: w.token.stem != "" and w.left.kind is TO and w.particle, "Use the remote to *switch* on the tv."),
+    Rule(N, "first, and what follows says in what state it shall be",
+         lambda w: _heads(w) and w.right.text in ("on", "off", "out") and w.beyond.kind in _ENDS, "*Music* on."),
+    Rule(N, "first, and what follows says where it shall be",
+         lambda w: _heads(w) and w.right.text in ("in", "into", "on", "onto") and w.beyond.kind not in _ENDS,
+         "*Water* in the pot, lid on the pot."),
+)
+"""Words of no list of closed classes, whatever their form."""
+
+UNKNOWN_WORD = (
+    Rule(V, "nothing else can stand first before an article",
+         lambda w: w.right.text in ("the", "a", "an", "my", "it", "them") and w.article
+         and (w.first or w.left.kind is SUBJECT) and not w.lexicon.is_noun(w.text) and w.text.isalpha(),
+         "*Blorf* the soup."),
+    Rule(N, "what is no known verb is a thing", _always, "Take the *blorf*."),
+)
+"""Words that are no form of a known verb."""
+
+ING_FORM = (
+    Rule(ADJ, "before a noun: in what state it is",
+         lambda w: w.among("drop_adjectives") and w.noun_next, "Take the *running* tap."),
+    Rule(ING, "behind an auxiliary or a conjunction",
+         lambda w: w.left.kind in (AUX, SUB), "While *stirring*, add the milk."),
+    Rule(ING, "how, or when",
+         lambda w: w.left.kind is P and w.left.text in ("by", "without", "after", "before"),
+         "Open it by *pressing* the button."),
+    Rule(ING, "behind a verb that only leads to it",
+         lambda w: w.left.kind is V and w.left.stem in section("lead_verbs") | {"keep", "stop"}, "Keep *stirring*."),
+    Rule(N, "a known noun, or where only a noun can stand",
+         lambda w: w.lexicon.is_noun(w.text) or w.left.kind in (DET, ADJ, P), "Put the *wrapping* in the bin."),
+    Rule(N, "a noun follows: what kind that is",
+         lambda w: w.left.kind in {STOP, CC, MOD} | _HEADS and w.noun_next
+         and (w.among("ing_modifiers") or w.sure < 3), "Bring *frying* pans."),
+    Rule(ING, "where a clause can begin, or behind the noun that it is said of",
+         lambda w: w.left.kind in _ENDS | _HEADS | {MOD}, "The robot *holding* the cup."),
+    Rule(N, "anything else is a noun", _always, "Take two *painting* brushes."),
+)
+PAST_FORM = (
+    Rule(PARTICIPLE, "behind an auxiliary or a conjunction",
+         lambda w: w.left.kind in (AUX, SUB), "When the soup is *heated*, stir it."),
+    Rule(V, "somebody tells what was done",
+         lambda w: w.left.kind is SUBJECT or (w.sentence.narrative and w.left.kind in (CC, COMMA)),
+         "She *opened* the door."),
+    Rule(N, "the side",
+         lambda w: w.text == "left" and w.left.kind is not PRON and w.right.kind is WORD, "Open the *left* drawer."),
+    Rule(FINITE, "the verb of a clause that has a subject",
+         lambda w: w.sentence.clause and w.left.kind in _HEADS | {REL}, "Take the cup that Anna *washed*."),
+    Rule(V, "first, and an object follows",
+         lambda w: w.first and w.article, "*Opened* the door."),
+    Rule(FINITE, "behind its subject, and an object follows",
+         lambda w: w.left.kind in _HEADS | {NUM} and w.article, "The robot *opened* the door."),
+    Rule(PARTICIPLE, "behind the noun that it is said of",
+         lambda w: w.left.kind in _HEADS | {NUM}, "Take the cup *filled* with milk."),
+    Rule(N, "behind an article, and no noun follows",
+         lambda w: w.determined and w.right.kind in _ENDS | {P, TO, SUB} and not w.text.endswith("ed"),
+         "Put the *rose* in the vase."),
+    Rule(N, "which of several",
+         lambda w: w.text == "left" or w.among("keep_adjectives"), "Take the *boiled* egg."),
+    Rule(ADJ, "before a noun: in what state it is", _always, "Take the *folded* towel."),
+)
+THIRD_PERSON = (
+    Rule(FINITE, "the verb of a clause that has a subject",
+         lambda w: w.sentence.clause and w.left.kind in _HEADS | {REL, P, SUBJECT},
+         "When the kettle *whistles*, take it."),
+    Rule(V, "somebody tells what is done",
+         lambda w: w.left.kind is SUBJECT or w.left.text == "robot", "She *takes* the cup."),
+    Rule(V, "somebody goes on telling what is done",
+         lambda w: w.sentence.narrative and w.left.kind in (CC, COMMA) and not w.lexicon.is_noun(w.text),
+         "She opens the fridge and *takes* the milk."),
+    Rule(N, "behind a noun in an instruction, without an object: a plural",
+         lambda w: w.left.kind is N and w.sentence.verb and not w.sentence.sub and not w.article,
+         "Wash the coffee *grinds*."),
+    Rule(FINITE, "behind its subject",
+         lambda w: w.left.kind in _HEADS and w.sure >= 2 and not w.lexicon.is_noun(w.text)
+         and (w.left.kind is PRON or w.article or w.sure == 3), "The robot arm *takes* the cup."),
+    Rule(N, "a plural", _always, "Take the *slices*."),
+)
+BASE_FORM = (
+    # where only a verb can stand
+    Rule(V, "behind a subject or a negation",
+         lambda w: w.left.kind in (SUBJECT, Kind.NEG), "Do not *touch* the stove."),
+    Rule(V, "an infinitive",
+         lambda w: w.left.kind is TO and w.left.form == "inf", "Use the knife to *open* the box."),
+    Rule(N, "behind a number, before a noun: in what state it is",
+         lambda w: (w.left.kind is NUM or w.left.text in ("both", "all")) and w.among("drop_adjectives") and w.modified,
+         "Take the two *empty* bottles."),
+    Rule(N, "behind a form of *be* or *have*: what something is",
+         lambda w: w.left.kind is AUX and w.left.text in section("be") | {"has", "have", "had"},
+         "If it is *water*, drink it."),
+    Rule(V, "behind another auxiliary",
+         lambda w: w.left.kind is AUX, "The robot should *wash* the cup."),
+    # conditions and relative clauses
+    Rule(FINITE, "the verb of a clause that has a subject",
+         lambda w: w.sentence.clause and (w.left.kind in (PRON, REL) or (w.left.kind is N and w.sure >= 2)),
+         "When the potatoes *boil*, add salt."),
+    Rule(N, "the second noun of the subject of a clause",
+         lambda w: w.sentence.clause and w.left.kind is N, "When the bread *box* is empty, wash it."),
+    Rule(N, "where only a noun can stand",
+         lambda w: w.left.kind in (SUB, DET, REL) or (w.left.kind is ADJ and not w.predicate), "Take the *drink*."),
+    Rule(V, "a likely verb behind the verb of another clause",
+         lambda w: w.left.kind in (FINITE, PARTICIPLE, ADJ) and w.sure >= 2, "If the bowl is full *empty* it."),
+    Rule(V, "a sure verb behind a verb with -ing",
+         lambda w: w.left.kind is ING and w.sure == 3, "While stirring *add* the milk."),
+    Rule(N, "what the verb of another clause acts on",
+         lambda w: w.left.kind in (FINITE, ING, PARTICIPLE, ADJ), "While heating *water*, open the bag."),
+    # behind let
+    Rule(V, "a likely verb right behind *let*",
+         lambda w: w.left.kind is LET and w.sure >= 2, "Let *go* of the cup."),
+    Rule(N, "a noun right behind *let*",
+         lambda w: w.left.kind is LET, "Let *water* run."),
+    Rule(V, "the verb that *let* waits for",
+         lambda w: w.sentence.let and w.left.kind in _HEADS | {TO} and (w.person or w.sure >= 2 or not w.opener),
+         "Let the tea *steep*."),
+    Rule(N, "the second noun of what *let* is said of",
+         lambda w: w.sentence.let and w.left.kind in _HEADS | {TO}, "Let the tea *water* boil."),
+    # behind a verb
+    Rule(V, "behind *help me*", lambda w: w.sure >= 2 and w.helped != [], "Help me *fold* the towels."),
+    Rule(V, "behind *go* and the like",
+         lambda w: w.left.kind is V and w.left.stem in _SERIAL and w.sure >= 2, "Go *get* the cup."),
+    Rule(N, "what the verb before it acts on", lambda w: w.left.kind is V, "Add *water*."),
+    # at the start of a sentence
+    Rule(N, "first, and *is* follows: what a statement is about",
+         lambda w: _starts(w) and w.right.kind is AUX and w.right.text in section("be") and w.sure < 3,
+         "*Dinner* is ready."),
+    Rule(V, "a likely verb that comes first",
+         lambda w: _starts(w) and w.sure >= 2, "*Slice* bread."),
+    Rule(V, "first, and behind it an object, a place or nothing",
+         lambda w: _starts(w) and (w.object or w.right.kind in (STOP, P, MOD, TO)), "*Water* the fern."),
+    Rule(V, "first, and a number with its noun follows",
+         lambda w: _starts(w) and w.right.kind is NUM and (w.beyond.kind is WORD or w.beyond.text == "of"),
+         "*Water* two ferns."),
+    Rule(V, "first, before a noun, and no other verb follows",
+         lambda w: _starts(w) and w.right.kind in (WORD, ADJ) and not w.later_verb, "*Water* ferns."),
+    Rule(N, "first, but the verb comes later", lambda w: _starts(w), "*Water* bottle take it."),
+    # behind a comma or a conjunction
+    Rule(V, "its particle follows",
+         lambda w: w.left.kind in (CC, COMMA) and w.right.kind is P
+         and w.lexicon.particle(w.token.stem, w.right.text) is True,
+         "Take the remote and *switch* on the tv."),
+    Rule(V, "up, down or out follows, and then an object",
+         lambda w: w.left.kind in (CC, COMMA) and w.right.text in ("up", "down", "out") and w.beyond.kind in _ARTICLES,
+         "Take the cloth and *dust* down the shelf."),
+    Rule(V, "a sure verb", lambda w: w.left.kind in (CC, COMMA) and w.sure == 3, "Wash and *dry* the cup."),
+    Rule(V, "a likely verb, and behind it an object, a place or nothing",
+         lambda w: w.left.kind in (CC, COMMA) and w.sure == 2
+         and (w.opener or w.right.kind in {P, ADV, STOP, MOD, SUB, Kind.PURP, TO}), "Take the bread and *slice* it."),
+    Rule(V, "a noun that is a verb here, since it has an object",
+         lambda w: w.left.kind in (CC, COMMA) and w.sure == 1 and w.object, "Fill the can and *water* the fern."),
+    Rule(N, "the next noun of a list", lambda w: w.left.kind in (CC, COMMA), "Take the milk and *water*."),
+    # behind a preposition or a particle
+    Rule(V, "a sure verb behind a particle, with an object",
+         lambda w: _after_particle(w) and w.object, "Turn it on *take* the cup."),
+    Rule(V, "a sure verb behind the particle of a pronoun",
+         lambda w: _after_particle(w) and w.moved.kind is PRON, "Turn it on *wait*."),
+    Rule(V, "a verb without an object behind a particle",
+         lambda w: _after_particle(w) and w.token.stem in section("intransitive") and w.moved.kind is N,
+         "Turn the oven on *wait*."),
+    Rule(N, "behind a preposition", lambda w: w.left.kind in (P, TO), "Fill the cup with *water*."),
+    # right behind an object, with no sign between: "open the oven put the pan inside"
+    Rule(V, "an object follows", lambda w: w.object and not w.person, "Open the oven *put* the pan inside."),
+    Rule(V, "a sure verb without an object, and where, how long or how many",
+         lambda w: w.sure == 3 and not w.person and not (w.among("drop_adjectives") and w.right.kind is P)
+         and (w.right.kind in (P, NUM, ADJ) or (w.right.kind is MOD and w.right.form == "duration")
+              or (w.right.kind is TO and w.token.stem in section("intransitive"))),
+         "Close the door *walk* to the sink."),
+    Rule(V, "a sure verb before a noun",
+         lambda w: w.sure == 3 and w.right.kind is WORD,
+         "Open the oven *bake* bread."),
+    Rule(V, "a likely verb behind a pronoun, with an object",
+         lambda w: w.sure >= 2 and w.left.kind is PRON and not w.person and w.opener, "Take it *slice* bread."),
+    Rule(N, "the next noun of the object", _always, "Take the bread *box*."),
+)
+"""Words that can be the base form of a verb, which most nouns of a home can."""
+ADJECTIVES = (
+    Rule(ADJ, "before a noun", lambda w: w.among("drop_adjectives") and w.modified, "Take the *dry* towel."),
+    Rule(ADJ, "behind an auxiliary", lambda w: w.among("drop_adjectives") and w.left.kind is AUX,
+         "If it is *dry*, take it."),
+    Rule(ADJ, "behind the noun that it is said of",
+         lambda w: w.among("drop_adjectives") and w.left.kind in _HEADS and not w.among("nouns", "noun_verbs"),
+         "Wipe it *dry*."),
+)
+"""Those of them that are adjectives, where a row says noun."""
+# fmt: on
+
+_FORMS = {"": UNKNOWN_WORD, "ing": ING_FORM, "ed": PAST_FORM, "s": THIRD_PERSON, "base": BASE_FORM}
+_BY_FIRST_TAG = CLOSED | dict.fromkeys((ADJ, ADV, P), MODIFIERS)
 
 
-def _run_on(
-    token: Token,
-    previous: Token | None,
-    following: Token | None,
-    article: bool,
-    opener: bool,
-    noun: Kind,
-) -> Kind:
-    """A verb right after an object, with no sign between: "open the oven put the pan inside"."""
-    person = previous is not None and previous.text in DATIVE
-    if article and not person:
-        return Kind.V
-    if token.strength == 3 and following is not None:
-        moves = following.kind is Kind.TO and token.stem in section("intransitive")
-        state = token.text in section("drop_adjectives") and following.kind is Kind.P
-        timed = following.kind is Kind.MOD and following.form == "duration"
-        if not state and (moves or timed or following.kind in (Kind.P, Kind.NUM, Kind.ADJ)):
-            return Kind.V if not (previous is not None and previous.kind is Kind.PRON and person) else noun
-        if following.kind is Kind.WORD:
-            return Kind.V
-    if token.strength >= 2 and previous is not None and previous.kind is Kind.PRON and not person and opener:
-        return Kind.V
-    return noun
+def decide(tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token, Rule]]:
+    """Set the kind of every token that its neighbours decide, in place, in one pass; return which row did it."""
+    sentence, left = Sentence(), _EDGE
+    fired: list[tuple[Token, Rule]] = []
+    _mark_purposes(tokens)
+    for at, token in enumerate(tokens):
+        word = Word(tokens, at, left, sentence, lexicon)
+        rule = _rule(word)
+        if token.kind is TO:
+            token.form = "inf" if rule else ""
+        if rule is not None:
+            token.kind = rule.tag
+            fired.append((token, rule))
+        if token.kind is STOP:
+            sentence = Sentence()
+        _remember(word, sentence)
+        if token.kind not in (ADV, Kind.FILLER):
+            left = token
+    return fired
+
+
+def _rule(word: Word) -> Rule | None:
+    """The first row that holds for a word; ``None`` leaves it as it is."""
+    token = word.token
+    if token.kind is not WORD:
+        return _first(_BY_FIRST_TAG.get(token.kind, ()), word)
+    rule = _first(ANY_WORD, word)
+    if rule is None:
+        table = _FORMS.get(token.form if token.stem else "", BASE_FORM)
+        rule = _first(table, word)
+        if table is BASE_FORM and rule is not None and rule.tag is N:
+            rule = _first(ADJECTIVES, word) or rule
+    return rule
+
+
+def _first(table: tuple[Rule, ...], word: Word) -> Rule | None:
+    return next((rule for rule in table if rule.when(word)), None)
+
+
+def _remember(word: Word, sentence: Sentence) -> None:
+    """Note what a decided word says of the sentence."""
+    token, kind = word.token, word.token.kind
+    if kind in _OPEN_CLAUSES:
+        timed = token.text in ("after", "before", "until") and word.right.kind is MOD  # "after 3 minutes": no clause
+        if not timed:
+            sentence.sub, sentence.nominal = True, kind is REL
+    elif kind is LET:
+        if word.left.kind in (CC, COMMA):
+            sentence.close()
+        sentence.let = token.text != "leave"
+    elif kind is SUBJECT and word.among("subjects"):
+        sentence.narrative = token.text in _NARRATORS
+    elif kind in _HEADS:
+        sentence.nominal = True
+    elif kind in (FINITE, AUX):
+        sentence.close()
+    elif kind is V:
+        if not token.stem:  # a verb that no list has is its own stem
+            known = word.lexicon.verb(token.text)
+            token.stem, token.form = known[0] if known else token.text, "base"
+        sentence.close()
+        sentence.let, sentence.verb = False, True
+        sentence.narrative = sentence.narrative or token.form == "s"
+        if word.left.kind is V and word.left.stem in _SERIAL:
+            word.left.kind = Kind.FILLER
+        else:
+            for lead in word.helped:
+                lead.kind = ADV
+
+
+def _mark_purposes(tokens: list[Token]) -> None:
+    """Tell "hang it up so it dries" from "so, take the cup"."""
+    for before, token, after in zip(tokens, tokens[1:], tokens[2:], strict=False):
+        if token.text != "so" or before.kind in (STOP, AUX, DET):
+            continue
+        clause = after.kind in (PRON, SUBJECT) or (after.kind is AUX and "'" in after.text)
+        if clause or (after.kind is DET and before.kind not in (CC, COMMA)):
+            token.kind = Kind.PURP
