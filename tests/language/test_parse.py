@@ -118,6 +118,18 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("I can't see a thing in here, turn the lamp up.", ["(turn_up, [lamp])"]),
         ("Mind you shut the gate.", ["(shut, [gate])"]),
         ("The gate should be open and the window shut.", ["(open, [gate])", "(shut, [window])"]),
+        ("The lamp should be off and the crate empty.", ["(turn_off, [lamp])", "(empty, [crate])"]),
+        (
+            "Put the pen in the chest, and the chest closed after that.",
+            ["(put, [pen, chest], in: pen -> chest)", "(close, [chest])"],
+        ),
+        ("Take two ropes, but no more than two.", ["(take, [rope])"]),
+        ("Take the ropes, wherever they are, to the shed.", ["(take, [rope, shed], to: rope -> shed)"]),
+        ("Take the rope, but leave the crate there.", ["(take, [rope])", "(leave, [crate])"]),
+        (
+            "Apart from the red cup, all the cups should be on the desk.",
+            ["(put, [red_cup, cup, desk], on: cup -> desk, except: cup -> red_cup)"],
+        ),
         ("Deep-fry the fish.", ["(fry, [fish])"]),
         ("The chest's open, shut it.", ["(shut, [it])"]),
         ("Set the third dial to low.", ["(set, [third_dial])"]),

@@ -337,21 +337,6 @@ def _lovely(tokens: list[Token]) -> list[Token]:
     return [*lead, *tokens[:at], *tokens[end:]]
 
 
-def _with_exception(tokens: list[Token]) -> list[Token]:
-    """Read "except for the cup, put everything away" as "put everything away except for the cup"."""
-    words = [t.text for t in tokens]
-    fronted = words[:1] == ["except"] or words[:2] in (["apart", "from"], ["other", "than"])
-    cut = next((i for i, t in enumerate(tokens) if t.kind is Kind.COMMA), 0)
-    if not fronted or not cut:
-        return tokens
-    end = next((i for i, t in enumerate(tokens) if t.kind is Kind.STOP), len(tokens))
-    whole = next((i for i in range(cut, end) if words[i] in ("everything", "all", "anything")), None)
-    if whole is None:
-        return tokens
-    # behind the noun phrase: "everything on the table | except the cup | goes on the shelf"
-    return [*tokens[cut + 1 : whole + 1], *tokens[:cut], *tokens[whole + 1 :]]
-
-
 def _given(tokens: list[Token]) -> list[Token]:
     """Read "give it a good scrub" as "scrub it"."""
     words = [t.text for t in tokens]
@@ -528,7 +513,6 @@ _SENTENCES = (
     _coordinated_states,
     _unwanted,
     _lovely,
-    _with_exception,
     _given,
     _not_about,
     _of_oneself,
