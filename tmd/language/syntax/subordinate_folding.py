@@ -7,6 +7,8 @@ is (boil, [water]), "make sure it is off" is (turn_off, [it]).
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from tmd.language.clause import PERSONS
 from tmd.language.lexicon.words import section
 from tmd.language.syntax.chunking import ALSO
@@ -23,6 +25,7 @@ ADDRESS = "addresses somebody"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
 _WHITHER = frozenset({"to", "into", "onto", "off", "out_of"})
+_NAMING = frozenset({"call", "name", "label", "mark", "title"})
 _AFTER_SUBJECT = frozenset({Kind.AUX, Kind.ADV, Kind.SUBJECT})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.ADV, Kind.CC})
 _DUTIES = frozenset({"should", "must", "need", "needs", "has", "have", "ought"})
@@ -39,6 +42,21 @@ class _Folder:
         """The verb of the clause that is open."""
         self.start = True
         """Nothing but fillers since the last separator."""
+        self.handlers: dict[Kind, Callable[[int], int]] = {
+            Kind.SUB: self._condition,
+            Kind.PURP: self._purpose,
+            Kind.TO: self._infinitive,
+            Kind.REL: self._relative,
+            Kind.NEG: self._negation,
+            Kind.ING: self._ing,
+            Kind.SUBJECT: self._subject,
+            Kind.LET: self._let,
+            Kind.ENSURE: self._ensure,
+            Kind.AUX: self._auxiliary,
+            Kind.P: self._preposition,
+            Kind.PARTICIPLE: self._participle,
+            Kind.FINITE: self._drop,
+        }
 
     def run(self) -> list[Token]:
         at = 0
@@ -78,63 +96,69 @@ class _Folder:
         return end
 
     def _step(self, at: int) -> int:
+        """Read what begins at one place; return where reading goes on."""
         token = self.tokens[at]
         if token.kind in (Kind.CC, Kind.COMMA):
             self.start = self.start or self._kind(self._peek(at)) not in _NOMINAL
-        if self.start or token.kind in (Kind.CC, Kind.COMMA, Kind.STOP):
-            begin = at if token.kind not in (Kind.CC, Kind.COMMA, Kind.STOP) else at + 1
-            asked = _rewrite_should(self.tokens, begin) if begin < len(self.tokens) else None
-            if asked:
-                if begin > at:
-                    self._emit(token)
-                if any(t.kind is Kind.REL for t in asked[0]):
-                    self.tokens[begin : asked[1]] = asked[0]  # the relative clause is still to be folded
-                    self.start = False
-                    return begin
-                return self._rewritten(asked)
-            end = self._statement(begin)
-            if end is not None:
-                if token.kind in (Kind.CC, Kind.COMMA, Kind.STOP):
-                    self._emit(token)
-                    at += 1
-                return self._fold(at, end, Kind.SKIP, STATEMENT)
+        end = self._sentence(at)
+        if end is None:
+            end = self._set_apart(at)
+        if end is None:
+            end = self.handlers.get(token.kind, self._keep)(at)
+        return end
+
+    def _sentence(self, at: int) -> int | None:
+        """Read what should be done, or a statement, where a sentence or a part of one can begin."""
+        joint = self.tokens[at].kind in (Kind.CC, Kind.COMMA, Kind.STOP)
+        if not (self.start or joint):
+            return None
+        begin = at + joint
+        asked = _rewrite_should(self.tokens, begin) if begin < len(self.tokens) else None
+        end = self._statement(begin) if asked is None else None
+        if joint and (asked or end is not None):
+            self._emit(self.tokens[at])
+        if asked and any(t.kind is Kind.REL for t in asked[0]):
+            self.tokens[begin : asked[1]] = asked[0]  # the relative clause is still to be folded
+            self.start = False
+            return begin
+        if asked:
+            return self._rewritten(asked)
+        return self._fold(begin, end, Kind.SKIP, STATEMENT) if end is not None else None
+
+    def _set_apart(self, at: int) -> int | None:
+        """Read a name that is called, an aside in brackets, and "no need"."""
+        token = self.tokens[at]
         if self.start and token.kind is Kind.N and self._kind(at + 1) is Kind.COMMA and self._calls(at + 1):
             return self._fold(at, at + 1, Kind.SKIP, ADDRESS)
-        if token.text == "(":
-            aside = self._aside(at)
-            if aside is not None:
-                return self._fold(at, aside, Kind.SKIP, ASIDE)
+        aside = self._aside(at) if token.text == "(" else None
+        if aside is not None:
+            return self._fold(at, aside, Kind.SKIP, ASIDE)
         if token.text == "no" and at + 1 < len(self.tokens) and self.tokens[at + 1].text == "need":
             return self._negation(at)
-        handler = {
-            Kind.SUB: self._condition,
-            Kind.PURP: self._purpose,
-            Kind.TO: self._infinitive,
-            Kind.REL: self._relative,
-            Kind.NEG: self._negation,
-            Kind.ING: self._ing,
-            Kind.SUBJECT: self._subject,
-            Kind.LET: self._let,
-            Kind.ENSURE: self._ensure,
-            Kind.AUX: self._auxiliary,
-        }.get(token.kind)
-        if handler:
-            return handler(at)
-        if token.kind is Kind.P and token.text == "without" and self._kind(at + 1) is Kind.ING:
-            return self._fold(at, self.boundary(at + 1), Kind.MOD, "manner")
-        if token.kind is Kind.P and token.text == "by" and self._kind(at + 1) is Kind.ING:
-            self._filler(token)
-            return at + 1
-        if token.kind is Kind.PARTICIPLE and token.stem in ("call", "name", "label", "mark", "title"):
-            end = at + 1
-            while self._kind(end) in (Kind.N, Kind.ADJ, Kind.NUM):
-                end += 1
-            return self._fold(at, end, Kind.MOD, "relative")
-        if token.kind in (Kind.PARTICIPLE, Kind.FINITE):
-            self._filler(token)
-            return at + 1
-        self._emit(token)
+        return None
+
+    def _keep(self, at: int) -> int:
+        self._emit(self.tokens[at])
         return at + 1
+
+    def _drop(self, at: int) -> int:
+        self._filler(self.tokens[at])
+        return at + 1
+
+    def _preposition(self, at: int) -> int:
+        manner = self._kind(at + 1) is Kind.ING
+        if manner and self.tokens[at].text == "without":
+            return self._fold(at, self.boundary(at + 1), Kind.MOD, "manner")
+        return self._drop(at) if manner and self.tokens[at].text == "by" else self._keep(at)
+
+    def _participle(self, at: int) -> int:
+        """Fold "called the ark"; other participles say nothing of a clause."""
+        if self.tokens[at].stem not in _NAMING:
+            return self._drop(at)
+        end = at + 1
+        while self._kind(end) in (Kind.N, Kind.ADJ, Kind.NUM):
+            end += 1
+        return self._fold(at, end, Kind.MOD, "relative")
 
     def _aside(self, at: int) -> int | None:
         """Return where a bracket without a verb ends."""
