@@ -1,10 +1,12 @@
 """Every row of the part-of-speech tables decides the word of its example, as what the row says."""
 
+import re
+
 import pytest
 
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.syntax import part_of_speech as tables
-from tmd.language.syntax.first_tags import tag
+from tmd.language.syntax.first_tags import CLASSES, RUNS, ClassRule, RunRule, tag
 from tmd.language.syntax.part_of_speech import TagRule, decide
 from tmd.language.syntax.sentences import rewrite_words
 from tmd.language.syntax.tokens import Kind, tokenise
@@ -43,3 +45,15 @@ def test_to_is_no_infinitive_where_no_row_says_so() -> None:
     tokens = tag(tokenise("Take the cup to the kitchen."), builtin())
     decide(tokens, builtin())
     assert [(token.text, token.form) for token in tokens if token.kind is Kind.TO] == [("to", "")]
+
+
+@pytest.mark.parametrize("row", CLASSES, ids=lambda row: f"{row.tag}-{row.reason}")
+def test_the_first_class_that_holds_for_a_word_is_that_of_its_row(row: ClassRule) -> None:
+    assert next(rule for rule in CLASSES if rule.when(row.example)) is row
+
+
+@pytest.mark.parametrize("row", RUNS, ids=lambda row: row.example)
+def test_a_run_of_words_is_folded_by_its_row(row: RunRule) -> None:
+    assert next(rule for rule in RUNS if re.match(rule.pattern, f"{row.example} ")) is row
+    folded = tag(tokenise(f"Wait {row.example}."), builtin())[1]
+    assert (folded.kind, folded.form, folded.text) == (Kind.MOD, row.form, row.example)

@@ -1,8 +1,15 @@
-"""First tags: closed classes, phrases of several words, durations and measures, typos, verb readings."""
+"""First tags: classes of words by lists, phrases of several words, durations and measures, typos, verb readings.
+
+What is decided is in tables: of :data:`CLASSES` and :data:`RUNS` the first row that holds counts. Each row has its
+reason and an example, to which ``tests/language/test_part_of_speech.py`` holds it.
+"""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from itertools import pairwise
+from typing import NamedTuple
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon
@@ -10,26 +17,131 @@ from tmd.language.lexicon.words import comparative_root, phrases, positive, sect
 from tmd.language.syntax.tokens import NAME, Kind, Token
 
 _PHRASES = (
-    ("multiword_prepositions", Kind.P, ""),
-    ("multiword_adverbs", Kind.ADV, ""),
-    ("purposes", Kind.PURP, ""),
-    ("conditions", Kind.SUB, ""),
-    ("ensure", Kind.ENSURE, ""),
-)
-_SPELLING = {"in_to": "into", "on_to": "onto"}
-_CLOSED = (
-    ("be", Kind.AUX),
-    ("modals", Kind.AUX),
-    ("negations", Kind.NEG),
-    ("determiners", Kind.DET),
-    ("pronouns", Kind.PRON),
+    ("multiword_prepositions", Kind.P),
+    ("multiword_adverbs", Kind.ADV),
+    ("purposes", Kind.PURP),
     ("conditions", Kind.SUB),
     ("ensure", Kind.ENSURE),
-    ("let_verbs", Kind.LET),
 )
-_FRACTIONS = ("half", "quarter", "quarters", "third", "thirds")
+_SPELLING = {"in_to": "into", "on_to": "onto"}
 _TITLES = frozenset({"mr", "mrs", "ms", "miss", "dr", "doctor", "nurse", "professor", "sister", "captain"})
 _CONTRACTED = ("'ll", "'d", "'ve")
+
+
+class ClassRule(NamedTuple):
+    """One row of :data:`CLASSES`: the class of a word, why, when, and an example of such a word."""
+
+    tag: Kind
+    reason: str
+    when: Callable[[str], bool]
+    example: str
+
+
+class RunRule(NamedTuple):
+    """One row of :data:`RUNS`: the form of the fold, why, its words as a pattern, and an example.
+
+    In a pattern a blank stands behind each word.
+    """
+
+    form: str
+    reason: str
+    pattern: str
+    example: str
+
+
+def _in(*names: str) -> Callable[[str], bool]:
+    """Tell whether one of these sections of ``words.txt`` has a word."""
+    words = frozenset().union(*(section(name) for name in names))
+    return lambda word: word in words
+
+
+def _is_number(word: str) -> bool:
+    return (word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th"))) or word in section("numbers")
+
+
+def _is_superlative(word: str) -> bool:
+    root = positive(word)
+    return root != word and not section("drop_adjectives").isdisjoint((root, root + "e"))
+
+
+def _is_comparative(word: str) -> bool:
+    return not section("drop_adjectives").isdisjoint(comparative_root(word)) and word not in section("nouns")
+
+
+# fmt: off
+CLASSES = (
+    ClassRule(Kind.CC, "joins words or clauses", lambda w: w in ("and", "or", "plus", "but", "then"), "and"),
+    ClassRule(Kind.TO, "before a verb or a place", lambda w: w == "to", "to"),
+    ClassRule(Kind.NUM, "a number, in figures or in words", _is_number, "two"),
+    ClassRule(Kind.DET, "how many", _in("quantifiers"), "some"),
+    ClassRule(Kind.AUX, "an auxiliary", _in("be", "modals"), "should"),
+    ClassRule(Kind.NEG, "a negation", _in("negations"), "don't"),
+    ClassRule(Kind.DET, "which", _in("determiners"), "the"),
+    ClassRule(Kind.PRON, "stands for a thing or a person", _in("pronouns"), "it"),
+    ClassRule(Kind.SUB, "opens a condition", _in("conditions"), "if"),
+    ClassRule(Kind.ENSURE, "asks for a state", _in("ensure"), "ensure"),
+    ClassRule(Kind.LET, "lets something be done", _in("let_verbs"), "let"),
+    ClassRule(Kind.REL, "opens a relative clause", _in("relatives"), "which"),
+    ClassRule(Kind.ADJ, "an adjective that is dropped, and no verb", lambda w: w in section("drop_adjectives")
+              and w not in section("verbs") | section("noun_verbs"), "big"),
+    ClassRule(Kind.ADJ, "its superlative", _is_superlative, "dirtiest"),
+    ClassRule(Kind.ADJ, "its comparative", _is_comparative, "louder"),
+    ClassRule(Kind.P, "a preposition", _in("prepositions"), "under"),
+    ClassRule(Kind.ADV, "an adverb, and no verb", lambda w: w in section("adverbs") - section("verbs"), "slowly"),
+    ClassRule(Kind.WORD, "its neighbours decide (part_of_speech.py)", lambda _: True, "cup"),
+)
+# fmt: on
+"""The first tag of a word."""
+
+
+def _words(*names: str) -> str:
+    """The pattern of a word of these sections of ``words.txt``."""
+    words = sorted(frozenset().union(*(section(name) for name in names)), key=lambda word: (-len(word), word))
+    return f"(?:{'|'.join(map(re.escape, words))}) "
+
+
+_LEAD = f"(?:{_words('before_measure')})*+"
+_NUMBER = rf"(?:\d[^ ]*(?<!st)(?<!nd)(?<!rd)(?<!th) |{_words('numbers')})"
+_NUMBERS = f"(?:{_NUMBER})++(?:(?<=half )an? )?+"
+_FRACTION = r"(?:\d[^ ]*/[^ ]*|half|quarters?|thirds?) "
+_FEW = "(?![^ ]+ of )(?:(?:more|full) (?!$))?+"
+"""Not "two minutes of it"; but "two more minutes"."""
+_SCALES = "(?:(?:celsius|celcius|fahrenheit|c|f|full|the|way) )*+"
+_CLOCK = "(?:am|pm|o'clock) "
+_NO_THING = f"(?!{_words('nouns')}|of )"
+"""Not "in the evening dress"."""
+RUNS = (
+    RunRule("setting", "how full", rf"{_LEAD}(?:{_NUMBER})*{_FRACTION}full ", "three quarters full"),
+    RunRule("setting", "how far", rf"{_LEAD}{_NUMBERS}of the way ", "to two thirds of the way"),
+    RunRule("duration", "how long", rf"{_LEAD}{_NUMBERS}{_FEW}{_words('units_time')}", "for about 3 minutes"),
+    RunRule(
+        "duration",
+        'how long; not "a bit"',
+        rf"(?!an? (?:(?:more|full) )?bit ){_LEAD}an? {_FEW}{_words('units_time')}",
+        "for an hour",
+    ),
+    RunRule(
+        "setting",
+        "how much",
+        rf"{_LEAD}{_NUMBERS}{_FEW}(?:{_words('units')}|quarters |thirds ){_SCALES}",
+        "to 180 degrees",
+    ),
+    RunRule(
+        "setting",
+        "at what time",
+        rf"(?:(?:at|by) \d[^ ]* |{_words('before_time')}\d[^ ]* (?={_CLOCK}))(?:{_CLOCK})?+{_NO_THING}",
+        "before 6 pm",
+    ),
+    RunRule(
+        "setting",
+        "when",
+        rf"{_words('before_time')}(?:{_words('determiners', 'drop_adjectives')})*+{_words('time_nouns')}{_NO_THING}",
+        "in the morning",
+    ),
+)
+"""Runs of words that say how long, how much or when."""
+_PATTERNS = tuple((rule.form, re.compile(rule.pattern)) for rule in RUNS)
+_LONGEST_RUN = 8
 
 
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
@@ -45,9 +157,7 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     while position < len(tokens):
         merged, used = _phrase(tokens, position)
         if merged is None:
-            merged, used = _measure(tokens, position)
-        if merged is None:
-            merged, used = _time(tokens, position)
+            merged, used = _run(tokens, position)
         if merged is None:
             merged, used = tokens[position], 1
             if merged.kind is Kind.WORD:
@@ -87,99 +197,27 @@ def _misspelt_from(tokens: list[Token]) -> None:
 
 def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
     best: tuple[Token | None, int] = (None, 0)
-    for name, kind, form in _PHRASES:
+    for name, kind in _PHRASES:
         for words in phrases(name).get(tokens[at].text, ()):
             run = tokens[at : at + len(words)]
             measured = kind is Kind.ADV and tokens[at + len(words) :][:1] and tokens[at + len(words)].text == "of"
             if measured:
                 continue
             if len(words) > max(1, best[1]) and tuple(t.text for t in run) == words:
-                token = fold(run, kind, form=form)
+                token = fold(run, kind)
                 token.text = _SPELLING.get(token.text, token.text)
                 best = token, len(words)
     return best
 
 
-def _time(tokens: list[Token], at: int) -> tuple[Token | None, int]:
-    """Fold "at 6 pm", "in the morning", "for the given time": when, and no thing."""
-    if tokens[at].text not in section("before_time"):
-        return None, 0
-    words = [t.text for t in tokens[at : at + 6]]
-    end = 1
-    while end < len(words) and words[end] in section("determiners") | section("drop_adjectives"):
-        end += 1
-    clock = words[2:3] in (["am"], ["pm"], ["o'clock"])
-    if end == 1 and len(words) > 1 and words[1][0].isdigit() and (clock or words[0] in ("at", "by")):
-        end += 1 + clock
-    elif end < len(words) and words[end] in section("time_nouns"):
-        end += 1
-    else:
-        return None, 0
-    if words[end : end + 1] and tokens[at + end].kind is Kind.WORD and words[end] in section("nouns") | {"of"}:
-        return None, 0
-    return fold(tokens[at : at + end], Kind.MOD, " ", "setting"), end
-
-
-def _measure(tokens: list[Token], at: int) -> tuple[Token | None, int]:
-    """Fold "for about 3 minutes", "to 180 degrees", "two feet"; the numeral words are still undecided."""
-    end, words = at, [t.text for t in tokens[at : at + 8]]
-    for text in words:
-        if text in section("before_measure"):
-            end += 1
-        else:
-            break
-    lead = end - at
-    number = 0
-    while lead + number < len(words) and _is_number(words[lead + number]):
-        number += 1
-    unit = lead + number
-    if number and words[unit - 1] == "half" and words[unit : unit + 1] in (["a"], ["an"]):
-        unit += 1
-    if unit >= len(words):
-        return None, 0
-    article = number == 0 and lead < len(words) and words[lead] in ("a", "an")
-    if article:
-        unit += 1
-    parted = number and ("/" in words[unit - 1] or words[unit - 1] in _FRACTIONS)
-    if parted and words[unit : unit + 1] == ["full"]:
-        return fold(tokens[at : at + unit + 1], Kind.MOD, " ", "setting"), unit + 1
-    rest = words[unit : unit + 2]
-    of_next = len(rest) > 1 and rest[1] == "of"
-    if number and words[unit : unit + 3] == ["of", "the", "way"]:
-        return fold(tokens[at : at + unit + 3], Kind.MOD, " ", "setting"), unit + 3
-    if not rest or not (number or article) or of_next:
-        return None, 0
-    if rest[0] in ("more", "full") and rest[1:]:
-        unit, rest = unit + 1, rest[1:]
-    form = "duration" if rest[0] in section("units_time") else "setting"
-    if form == "duration" and article and not lead and rest[0] in ("bit", "times", "time"):
-        return None, 0
-    if form == "setting" and (article or not _is_unit(rest[0], words[unit:])):
-        return None, 0
-    used = unit + 1
-    if form == "setting":
-        while used < len(words) and words[used] in (
-            "celsius",
-            "celcius",
-            "fahrenheit",
-            "c",
-            "f",
-            "full",
-            "the",
-            "way",
-        ):
-            used += 1
-    return fold(tokens[at : at + used], Kind.MOD, " ", form), used
-
-
-def _is_number(word: str) -> bool:
-    return (word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th"))) or word in section("numbers")
-
-
-def _is_unit(word: str, words: list[str]) -> bool:
-    if word == "of" or word in ("step", "steps"):
-        return False
-    return word in section("units") or word in ("quarters", "thirds")
+def _run(tokens: list[Token], at: int) -> tuple[Token | None, int]:
+    """Fold what :data:`RUNS` has: "for about 3 minutes", "to 180 degrees", "at 6 pm"."""
+    words = "".join(f"{token.text.replace(' ', '_')} " for token in tokens[at : at + _LONGEST_RUN])
+    for form, pattern in _PATTERNS:
+        if match := pattern.match(words):
+            used = match.group().count(" ")
+            return fold(tokens[at : at + used], Kind.MOD, " ", form), used
+    return None, 0
 
 
 def _tag_word(token: Token, lexicon: Lexicon) -> None:
@@ -193,7 +231,7 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
         return
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
     word = token.text = (corrected or word).replace("-", "_")
-    token.kind = _closed(word)
+    token.kind = next(rule.tag for rule in CLASSES if rule.when(word))
     if token.kind is Kind.WORD and word.endswith("ly") and len(word) > 5 and not lexicon.is_noun(word):
         token.kind = Kind.ADV
     if token.capital and token.kind is Kind.WORD and not lexicon.knows(singular(word)):
@@ -208,30 +246,3 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:
         token.stem, token.form, token.strength = word, "base", 3
-
-
-def _closed(word: str) -> Kind:
-    if word in ("and", "or", "plus", "but", "then"):
-        return Kind.CC
-    if word == "to":
-        return Kind.TO
-    if _is_number(word):
-        return Kind.NUM
-    if word in section("quantifiers"):
-        return Kind.DET
-    for name, kind in _CLOSED:
-        if word in section(name):
-            return kind
-    if word in section("relatives"):
-        return Kind.REL
-    if word in section("drop_adjectives") and word not in section("verbs") | section("noun_verbs"):
-        return Kind.ADJ
-    if positive(word) != word and {positive(word), positive(word) + "e"} & section("drop_adjectives"):
-        return Kind.ADJ
-    if any(root in section("drop_adjectives") for root in comparative_root(word)) and word not in section("nouns"):
-        return Kind.ADJ
-    if word in section("prepositions"):
-        return Kind.P
-    if word in section("adverbs") and word not in section("verbs"):
-        return Kind.ADV
-    return Kind.WORD
