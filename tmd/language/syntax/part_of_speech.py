@@ -219,7 +219,7 @@ V, N, P, DET, NUM, PRON, ADJ, ADV = Kind.V, Kind.N, Kind.P, Kind.DET, Kind.NUM, 
 AUX, SUB, REL, TO, CC, COMMA, STOP = Kind.AUX, Kind.SUB, Kind.REL, Kind.TO, Kind.CC, Kind.COMMA, Kind.STOP
 ING, PARTICIPLE, FINITE, SUBJECT = Kind.ING, Kind.PARTICIPLE, Kind.FINITE, Kind.SUBJECT
 LET, MOD, WORD = Kind.LET, Kind.MOD, Kind.WORD
-Rule = TagRule
+Rule = TagRule  # short, so that a row takes two or three lines
 
 # fmt: off
 CLOSED: dict[Kind, tuple[TagRule, ...]] = {
