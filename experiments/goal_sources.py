@@ -11,14 +11,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tmd.inference.learned.knowledge import Knowledge
-
 from tmd.evaluation.sentence_tests import Outcome, SentenceTest, judge, read_sentences, summary
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
-from tmd.ground import Grounded, TaskPlanners, infer
+from tmd.ground import TaskPlanners, infer
+from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, named_weights
-from tmd.inference.learned.store import known
+from tmd.inference.learned.store import Knowledge, known
 from tmd.inference.learning.statistics import count
 from tmd.inference.policy.policy import Policy
 from tmd.language import parse
@@ -88,7 +87,9 @@ class Domain:
         found = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals)
         verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in found.plans)
         plans = found.plans if parsed.clauses else ()
-        return Grounded(parsed, plans, verdicts[: len(plans)], found.refusals, (), world, found.refused)
+        return Grounded(
+            parsed, plans, verdicts[: len(plans)], found.refusals, (), world, library, config, found.refused
+        )
 
 
 def main(paths: Sequence[Path]) -> None:
@@ -104,7 +105,7 @@ def main(paths: Sequence[Path]) -> None:
         for test in tests:
             domain = domains[test.domain]
             problem = domain.corpus.world(test.environment).task.problem
-            results.append(judge(test, domain.ground(test, config, change), problem, ()))
+            results.append(judge(test, domain.ground(test, config, change), problem))
         counts = summary(results)
         assert sum(r.outcome is Outcome.RIGHT for r in results) == counts["right"]
         print(

@@ -80,3 +80,17 @@ def test_another_parser_may_read_the_text() -> None:
 
     grounded = tmd.load_domain("02_table").ground("book on the table", "corner1", parser=elliptic)
     assert [str(i) for i in grounded.plans[0].instructions][-1] == "keep(book1, table1, on)"
+
+
+def test_what_words_could_not_be_used_is_told() -> None:
+    table = tmd.load_domain("02_table", domains=ROOT / "domains", problems=ROOT / "problems")
+    refused = table.ground("Put the zebra on the table.", "corner1")
+    assert refused.plans == ()
+    assert refused.unknown == ("zebra",)
+    assert refused.reason.startswith("clause 1: nothing here is called 'zebra'")
+    guessed = table.ground("Put the book on the table. Ahem!", "corner1")
+    assert guessed.reason == ""
+    assert guessed.warnings == ('"Ahem" was skipped: no verb that this could belong to',)
+    plain = table.ground("Polish the zebra.", "corner1", model="paper")
+    assert plain.warnings[0].startswith("no demonstration has the verb 'polish' (say ")
+    assert "nothing here is called 'zebra'" in plain.warnings[1]

@@ -17,6 +17,7 @@ LAYERS = (
     ("veil", "datasets", "robot"),
     ("goals",),
     ("inference",),
+    ("grounded",),
     ("ground", "export"),
     ("api", "view", "evaluation"),
     ("check", "robot_trials", "studio"),

@@ -47,7 +47,7 @@ def kit(domain: str) -> DomainKit:
 
 def result(test: SentenceTest) -> SentenceResult:
     own = kit(test.domain)
-    return judge(test, own.ground(test.text, test.environment), own.problem(test.environment), ())
+    return judge(test, own.ground(test.text, test.environment), own.problem(test.environment))
 
 
 def test_every_domain_of_the_ladder_has_some() -> None:

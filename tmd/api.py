@@ -16,8 +16,8 @@ from tmd.export.from_unified import from_unified_planning
 from tmd.export.planned_problem import planned
 from tmd.export.strips import restored
 from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
-from tmd.ground import Grounded
 from tmd.ground import ground as ground_text
+from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, preset
 from tmd.inference.learned.store import Knowledge, known
 from tmd.language.parser import ClauseParser, parse

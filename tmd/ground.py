@@ -11,13 +11,12 @@ Read this first; each call goes to the package of that name (the boxes of Figure
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from weakref import WeakKeyDictionary
 
-from tmd.goals.clause_goal import Refused
 from tmd.goals.sources.all_sources import goal_reader
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.text_following import Follower
+from tmd.grounded import Grounded
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, named_weights
@@ -25,44 +24,16 @@ from tmd.inference.goal_directed import GoalInference
 from tmd.inference.learning.statistics import count
 from tmd.inference.policy.policy import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
-from tmd.inference.ranking import Inferred, RankedPlan, Refusal
+from tmd.inference.ranking import Inferred
 from tmd.language.clause import Clause, Parsed
 from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.task import Task
-from tmd.pddl.validator import Verdict, validate
+from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, last_resort, make
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Planner
 from tmd.veil.library import Library
 from tmd.veil.world import World
-
-
-@dataclass(frozen=True, slots=True)
-class Grounded:
-    """A grounded text.
-
-    Attributes:
-        parsed: The clauses, and what of the text no clause accounts for.
-        plans: The plans, cheapest first; empty where nothing could be grounded.
-        verdicts: For each plan what the validator says of it.
-        refusals: Candidates that cannot be executed here, and why.
-        unseen: The verbs that no demonstration has, in order of mention.
-        world: The environment.
-        refused: Why there is no plan for what was said, after the number of the clause where that showed.
-    """
-
-    parsed: Parsed
-    plans: tuple[RankedPlan, ...]
-    verdicts: tuple[Verdict, ...]
-    refusals: tuple[Refusal, ...]
-    unseen: tuple[str, ...]
-    world: World
-    refused: tuple[int, Refused] | None = None
-
-    @property
-    def goal_directed(self) -> bool:
-        """Whether it was grounded by a model with goals."""
-        return self.refused is not None or any(plan.goals for plan in self.plans)
 
 
 def ground(
@@ -106,7 +77,7 @@ def ground(
     asked = known and (parsed.clauses or forbids)  # to be told only what not to do asks for nothing
     plans = tuple(plan for plan in inferred.plans if plan.instructions or asked)
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
-    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, inferred.refused)
+    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, library, config, inferred.refused)
 
 
 _FILLERS: WeakKeyDictionary[World, dict[int, GapFiller]] = WeakKeyDictionary()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import tmd
 from tmd.api import DomainKit
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.pddl.model import Formula
 from tmd.pddl.writer import format_formula
 from tmd.veil.corpus import Corpus

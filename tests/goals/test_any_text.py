@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from tests.goals.conftest import said
 from tmd.diagnostics import TmdError
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import validate
 

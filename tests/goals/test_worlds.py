@@ -30,7 +30,7 @@ def test_requests_in_a_world_without_rows_and_demonstrations(world: str) -> None
         problem = kit.problem(test.environment)
         if test.goal is not None:
             assert with_goal(problem, test.goal, test.id).goal is not None
-        found[judge(test, kit.ground(test.text, test.environment), problem, ()).outcome] += 1
+        found[judge(test, kit.ground(test.text, test.environment), problem).outcome] += 1
     right, wrong, refused = FLOORS[world]
     assert found[Outcome.RIGHT] >= right
     assert found[Outcome.WRONG] <= wrong

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tmd.ground import Grounded, ground
+from tmd.ground import ground
+from tmd.grounded import Grounded
 from tmd.inference.learned.store import known
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World

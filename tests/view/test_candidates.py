@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from tests.view.reading import Reader
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.view.candidates import candidates, factors_of, grouped

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from tests.view.conftest import TEXT, corpus
 from tests.view.reading import Reader
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.language import parse
 from tmd.language.clause import Clause, Parsed, Span
 from tmd.pddl.plan_file import parse_instruction

@@ -12,7 +12,8 @@ from pydantic import ValidationError
 from tests.view.conftest import corpus
 from tests.view.reading import Reader
 from tmd.cli.show.plans import grounded_json
-from tmd.ground import Grounded, ground
+from tmd.ground import ground
+from tmd.grounded import Grounded
 from tmd.inference.learned.store import known
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula
@@ -107,7 +108,7 @@ def test_executable_is_not_reached(study: World) -> None:
 
 
 def test_what_was_printed_is_read_back(told: Grounded, study: World) -> None:
-    value = json.loads(json.dumps(grounded_json(told, "03_drawer", "study1", (), ())))
+    value = json.loads(json.dumps(grounded_json(told, "03_drawer")))
     record = read_grounding(value)
     assert record.plans[0].goals == told.plans[0].goals
     assert [choice.steps for choice in record.plans[0].choices] == [choice.steps for choice in told.plans[0].choices]
@@ -120,7 +121,7 @@ def test_what_was_printed_is_read_back(told: Grounded, study: World) -> None:
     ids=str,
 )
 def test_goals_that_cannot_be_are_refused(told: Grounded, change: dict[str, object]) -> None:
-    value = json.loads(json.dumps(grounded_json(told, "03_drawer", "study1", (), ())))
+    value = json.loads(json.dumps(grounded_json(told, "03_drawer")))
     value["plans"][0]["goals"][0].update(change)
     with pytest.raises(ValidationError):
         read_grounding(value)
@@ -132,7 +133,7 @@ def test_steps_need_not_follow_the_clauses(study: World) -> None:
     knowledge = known(corpus("03_drawer"))
     found = ground(text, study, knowledge.library, reward=knowledge.reward, goals=knowledge.goals)
     assert [goal.clause for goal in found.plans[0].goals] == [0, 0, 2]
-    record = read_grounding(json.loads(json.dumps(grounded_json(found, "03_drawer", "study1", (), ()))))
+    record = read_grounding(json.loads(json.dumps(grounded_json(found, "03_drawer"))))
     assert [len(c.steps) for c in record.plans[0].choices] == [len(c.steps) for c in found.plans[0].choices]
     meant = meanings(found.parsed, found.plans[0], study)
     assert meant[0]["key"] == ("key1",) and meant[2]["table"] == ("table1",)

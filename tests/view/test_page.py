@@ -14,7 +14,7 @@ import pytest
 
 from tests.view.conftest import TEXT, corpus
 from tests.view.reading import Reader
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.language import parse
 from tmd.language.clause import Parsed

@@ -11,13 +11,13 @@ A file of them is JSON Lines, ``*.sentences.jsonl`` beside the problems of a dom
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 
 from tmd.diagnostics import Location, TmdError
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text, split_lines
@@ -119,7 +119,7 @@ def _read_line(line: str, place: Location) -> SentenceTest:
     return SentenceTest(name, domain, environment, text, goal, listed, place)
 
 
-def judge(test: SentenceTest, grounded: Grounded, problem: Problem, warnings: Sequence[str]) -> SentenceResult:
+def judge(test: SentenceTest, grounded: Grounded, problem: Problem) -> SentenceResult:
     """What became of a test whose text was grounded in ``problem``.
 
     Raises:
@@ -136,22 +136,16 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem, warnings: Se
     valid = [(plan, verdict) for plan, verdict in zip(grounded.plans, grounded.verdicts, strict=True) if verdict.valid]
     if not valid:
         outcome = Outcome.REFUSED if wanted is not None else Outcome.IMPOSSIBLE_REFUSED
-        return SentenceResult(test, outcome, warnings=tuple(warnings), reason=_why(grounded))
+        return SentenceResult(test, outcome, warnings=grounded.warnings, reason=grounded.reason)
     plan = valid[0][0]
     steps = tuple(i.pddl() for i in plan.instructions)
     goals = tuple(" ".join(format_formula(g.formula).split()) for g in plan.goals if g.formula is not None)
     if wanted is None:
-        return SentenceResult(test, Outcome.IMPOSSIBLE_PLANNED, steps, goals, tuple(warnings), "it must be refused")
+        return SentenceResult(test, Outcome.IMPOSSIBLE_PLANNED, steps, goals, grounded.warnings, "it must be refused")
     end = grounded.world.task.decode(plan.state)
     right = holds(wanted, end, problem)
     reason = "" if right else f"{test.goal} does not hold at the end"
-    return SentenceResult(test, Outcome.RIGHT if right else Outcome.WRONG, steps, goals, tuple(warnings), reason)
-
-
-def _why(grounded: Grounded) -> str:
-    if grounded.refused is not None:
-        return grounded.refused[1].message
-    return "no plan was found" if grounded.parsed.clauses else "the text has no instruction"
+    return SentenceResult(test, Outcome.RIGHT if right else Outcome.WRONG, steps, goals, grounded.warnings, reason)
 
 
 def summary(results: Iterable[SentenceResult]) -> dict[str, int]:

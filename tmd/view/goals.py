@@ -106,8 +106,3 @@ def _placed(shown: ShownGoal, states: Sequence[State], problem: Problem) -> Show
 def all_reached(goals: Iterable[ShownGoal]) -> bool:
     """Whether every goal was reached, and nothing was guessed."""
     return all(shown.reached if shown.asked else not shown.goal.note.startswith(GUESS) for shown in goals)
-
-
-def why_refused(clause: int, message: str, hint: str | None) -> str:
-    """Why there is no plan for what was said: *clause 1: nothing here is called 'zebra' (name a thing …)*."""
-    return f"clause {clause + 1}: {message}" + (f" ({hint})" if hint else "")

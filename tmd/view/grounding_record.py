@@ -9,12 +9,12 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
+from tmd.grounded import why_refused
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Clause, Parsed, Relation, Skipped, Span
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import parse
-from tmd.view.goals import why_refused
 
 
 class _Record(BaseModel):

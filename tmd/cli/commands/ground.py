@@ -40,8 +40,7 @@ def command(
     the time. Ends with 12 where no plan was found.
     """
     from tmd.cli.show.goals import whole_goal_json, whole_goal_text
-    from tmd.cli.show.plans import grounded_json, grounded_text
-    from tmd.cli.show.warnings import remarks
+    from tmd.cli.show.plans import grounded_json, grounded_text, remarks
     from tmd.language.parser import short_enough
 
     if goal_only and not options.config().goals:
@@ -49,11 +48,11 @@ def command(
     found = answer(roots, short_enough(said(text, text_file)), environment, domain_name, options)
     grounded = found.grounded
     if as_json:
-        told = grounded_json(grounded, found.corpus.folder.name, found.world.name, found.unknown, found.warnings)
+        told = grounded_json(grounded, found.corpus.folder.name)
         told |= {"environment_file": environment_file(environment), "made_with": found.made_with}
         emit_json(whole_goal_json(told) if goal_only else told)
     else:
         emit(whole_goal_text(grounded) if goal_only else grounded_text(grounded))
-    for line in remarks(grounded, found.warnings):
+    for line in remarks(grounded):
         emit(line, error=True)
-    return ExitCode.OK if any(verdict.valid for verdict in grounded.verdicts) else ExitCode.NOT_GROUNDED
+    return ExitCode.NOT_GROUNDED if grounded.reason else ExitCode.OK

@@ -77,7 +77,6 @@ def _run(
     roots: Roots, tests: Sequence[SentenceTest], model: str, guess: bool, learned: Path | None
 ) -> Iterator[SentenceResult]:
     from tmd.api import DomainKit
-    from tmd.cli.show.warnings import warnings_of
     from tmd.evaluation.sentence_tests import judge
 
     kits: dict[str, DomainKit] = {}
@@ -90,7 +89,7 @@ def _run(
         except TmdError as error:
             raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
         grounded = kit.ground(test.text, test.environment, model=model, guess=guess)
-        yield judge(test, grounded, problem, warnings_of(grounded))
+        yield judge(test, grounded, problem)
 
 
 def _text(results: Sequence[SentenceResult]) -> str:

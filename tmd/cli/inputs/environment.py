@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from pathlib import Path
 
 from tmd.cli.inputs.paths import Roots
 from tmd.diagnostics import TmdError
-from tmd.language.clause import Clause
-from tmd.language.lexicon.nouns import WORDNET
 from tmd.pddl.reading.reader import read_problem
 from tmd.veil.corpus import Corpus
-from tmd.veil.library import Library
 from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
@@ -44,30 +40,3 @@ def _pddl(roots: Roots, path: Path, domain: str | None) -> tuple[Corpus, World]:
     corpus = roots.corpus(roots.folder(domain or path.parent.parent.name))
     problem = read_problem(path, corpus.folder.domain)
     return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
-
-
-def unknown_nouns(clauses: Iterable[Clause], world: World) -> list[str]:
-    """The nouns of ``clauses`` that name neither an object of ``world`` nor a substance of its domain."""
-    mentions, substances = world.mentions, world.profiles.constants
-    unknown: dict[str, None] = {}
-    for clause in clauses:
-        for noun in clause.resolved():
-            readings = {noun, noun.rpartition("_")[2], *mentions.lexicon.nouns.get(noun, ())}
-            if not mentions.of(noun, world.task.init) and not readings & set(substances):
-                unknown[noun] = None
-    return list(unknown)
-
-
-def likened_nouns(clauses: Iterable[Clause], world: World) -> dict[str, tuple[str, ...]]:
-    """The nouns of ``clauses`` that only WordNet leads to something here, each with what it may lead to."""
-    likened: dict[str, tuple[str, ...]] = {}
-    for noun in (noun for clause in clauses for noun in clause.resolved()):
-        matches = world.mentions.of(noun, world.task.init)
-        if matches and all(match.how == WORDNET for match in matches):
-            likened[noun] = tuple(match.name for match in matches)
-    return likened
-
-
-def frequent_verbs(library: Library) -> list[str]:
-    """The verbs that there are templates for, the most frequent first."""
-    return sorted(library.verbs(), key=lambda verb: (-len(library.propose(Clause(verb))), verb))

@@ -17,7 +17,7 @@ from tmd.diagnostics import TmdError
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig, preset
 
 if TYPE_CHECKING:
-    from tmd.ground import Grounded
+    from tmd.grounded import Grounded
     from tmd.inference.energy import Weights
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World
@@ -60,16 +60,12 @@ class Answer:
         grounded: The plans.
         corpus: The domain.
         world: The environment.
-        unknown: Nouns that name nothing there.
-        warnings: What was said and could not be used, or only by a guess.
         made_with: What decides the outcome beside text and environment.
     """
 
     grounded: Grounded
     corpus: Corpus
     world: World
-    unknown: tuple[str, ...]
-    warnings: tuple[str, ...]
     made_with: dict[str, object]
 
 
@@ -120,8 +116,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     Raises:
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
-    from tmd.cli.inputs.environment import frequent_verbs, likened_nouns, load_scene, unknown_nouns
-    from tmd.cli.show.warnings import warnings
+    from tmd.cli.inputs.environment import load_scene
     from tmd.ground import ground
     from tmd.inference.learned.store import known
     from tmd.planning.backends import IN_PROCESS
@@ -144,10 +139,7 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
         top=options.top,
     )
     made = made_with(options.planner, options.model_name, config, options.weights, options.top)
-    unknown = tuple(unknown_nouns(grounded.parsed.clauses, world))
-    likened = likened_nouns(grounded.parsed.clauses, world) if config.guess or not config.goals else {}
-    warned = tuple(warnings(grounded, unknown, frequent_verbs(knowledge.library), likened))
-    return Answer(grounded, corpus, world, unknown, warned, made)
+    return Answer(grounded, corpus, world, made)
 
 
 def environment_file(name: str) -> str | None:

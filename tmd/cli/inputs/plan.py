@@ -40,21 +40,17 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     Raises:
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
     """
-    from tmd.cli.inputs.environment import frequent_verbs, unknown_nouns
     from tmd.cli.inputs.grounding import made_with
-    from tmd.cli.show.plans import grounded_json
-    from tmd.cli.show.warnings import remarks, warnings
+    from tmd.cli.show.plans import grounded_json, remarks
     from tmd.ground import ground
     from tmd.inference.learned.store import known
 
     knowledge = known(corpus, learned)
     grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
-    unknown = unknown_nouns(grounded.parsed.clauses, world)
-    warned = warnings(grounded, unknown, frequent_verbs(knowledge.library), {})
-    told = tuple(remarks(grounded, warned))
-    record = grounded_json(grounded, corpus.folder.name, world.name, unknown, warned)
+    told = tuple(remarks(grounded))
+    record = grounded_json(grounded, corpus.folder.name)
     record["made_with"] = made_with(planner)
-    if not any(verdict.valid for verdict in grounded.verdicts):
+    if grounded.reason:
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
     clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
     steps = grounded.plans[0].steps

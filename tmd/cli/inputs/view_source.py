@@ -15,7 +15,7 @@ from tmd.cli.inputs.grounding import GroundingOptions, answer
 from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
-from tmd.cli.show.warnings import refusal, remarks
+from tmd.cli.show.plans import remarks
 from tmd.diagnostics import Location, TmdError
 from tmd.export.record import FORMAT, parse_record
 from tmd.export.strips import restored
@@ -47,11 +47,11 @@ def subject_of_text(
         grounded.plans,
         grounded.refusals,
         unseen=grounded.unseen,
-        unknown=found.unknown,
+        unknown=grounded.unknown,
         made=rows,
-        refused=refusal(grounded),
+        refused=grounded.refusal,
     )
-    told = tuple(remarks(grounded, found.warnings))
+    told = tuple(remarks(grounded))
     return FoundSubject(subject, Path(f"{found.world.name}.html"), told, of_text=True)
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from tmd.export.end_goal import end_goal
 from tmd.goals.clause_goal import Refused
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.pddl.model import Problem

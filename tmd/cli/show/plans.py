@@ -2,39 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 from tmd.cli.output import rounded
 from tmd.cli.show.clauses import parsed_json, parsed_text
 from tmd.cli.show.goals import goals_json, goals_text, refused_json
 from tmd.export.end_goal import end_goal
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula
 
 
-def grounded_json(
-    grounded: Grounded, domain: str, environment: str, unknown: Sequence[str], warnings: Sequence[str]
-) -> dict[str, object]:
+def grounded_json(grounded: Grounded, domain: str) -> dict[str, object]:
     """Everything that is known of the plans; clauses are counted from 0."""
     parsed, task = grounded.parsed, grounded.world.task
     pairs = zip(grounded.plans, grounded.verdicts, strict=True)
     return {
         "text": parsed.text,
         "domain": domain,
-        "environment": environment,
+        "environment": grounded.world.name,
         **parsed_json(parsed),
         "unseen_verbs": list(grounded.unseen),
-        "unknown_nouns": list(unknown),
+        "unknown_nouns": list(grounded.unknown),
         "plans": [_plan_json(plan, verdict, task) for plan, verdict in pairs],
         "refusals": [
             {"clause": refusal.clause, "source": refusal.source, "reason": refusal.reason}
             for refusal in grounded.refusals
         ],
         "refused": refused_json(grounded.refused),
-        "warnings": list(warnings),
+        "warnings": list(grounded.warnings),
     }
 
 
@@ -66,6 +64,12 @@ def _plan_json(plan: RankedPlan, verdict: Verdict, task: Task) -> dict[str, obje
 
 def _rounded(factors: Mapping[str, float]) -> dict[str, float]:
     return {name: rounded(value) for name, value in factors.items()}
+
+
+def remarks(grounded: Grounded) -> list[str]:
+    """Lines for standard error: its warnings, and why there is no plan if there is none."""
+    lines = [f"warning: {warning}\n" for warning in grounded.warnings]
+    return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
 
 
 def grounded_text(grounded: Grounded) -> str:

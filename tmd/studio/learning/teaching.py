@@ -12,7 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
-from tmd.ground import Grounded, ground
+from tmd.ground import ground
+from tmd.grounded import Grounded
 from tmd.inference.learned.store import Knowledge, known
 from tmd.studio.demonstrations.alignment import Habits
 from tmd.studio.learning.training import Trained, Training

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.goals.clause_goal import Why
-from tmd.ground import Grounded
+from tmd.grounded import Grounded
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.energies import energies

@@ -1,0 +1,150 @@
+"""A grounded text: its plans, and what whoever gets them is to be told of words that could not be used."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from tmd.goals.clause_goal import Refused
+from tmd.inference.config import InferenceConfig
+from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.language.clause import Parsed
+from tmd.language.lexicon.nouns import WORDNET
+from tmd.pddl.validator import Verdict
+from tmd.veil.library import Library
+from tmd.veil.world import World
+
+_VERBS = 8
+"""How many verbs are named instead of an unknown one."""
+_SHOWN = 3
+"""How many different reasons are told."""
+
+
+@dataclass(frozen=True, slots=True)
+class Grounded:
+    """A grounded text.
+
+    Attributes:
+        parsed: The clauses, and what of the text no clause accounts for.
+        plans: The plans, cheapest first; empty where nothing could be grounded.
+        verdicts: For each plan what the validator says of it.
+        refusals: Candidates that cannot be executed here, and why.
+        unseen: The verbs that no demonstration has, in order of mention.
+        world: The environment.
+        library: The templates.
+        config: The model.
+        refused: Why there is no plan for what was said, after the number of the clause where that showed.
+    """
+
+    parsed: Parsed
+    plans: tuple[RankedPlan, ...]
+    verdicts: tuple[Verdict, ...]
+    refusals: tuple[Refusal, ...]
+    unseen: tuple[str, ...]
+    world: World
+    library: Library
+    config: InferenceConfig
+    refused: tuple[int, Refused] | None = None
+
+    @property
+    def unknown(self) -> tuple[str, ...]:
+        """The nouns that name neither an object of the environment nor a substance of its domain."""
+        mentions, substances = self.world.mentions, set(self.world.profiles.constants)
+        unknown: dict[str, None] = {}
+        for noun in self._nouns():
+            readings = {noun, noun.rpartition("_")[2], *mentions.lexicon.nouns.get(noun, ())}
+            if not mentions.of(noun, self.world.task.init) and not readings & substances:
+                unknown[noun] = None
+        return tuple(unknown)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What was said and could not be used, or only by a guess: each once, in a line."""
+        guessed = [*self._likened()] if self.config.guess or not self.config.goals else []
+        if self.refused is not None or any(plan.goals for plan in self.plans):
+            told = [*self._left_out(), *(guessed if self.plans else ())]
+        else:
+            told = [
+                *(f"no demonstration has the verb '{_plain(verb)}' ({self._other(verb)})" for verb in self.unseen),
+                *(
+                    f"nothing here is called '{_plain(noun)}'; what a plan does instead is a guess, so read it first"
+                    for noun in self.unknown
+                ),
+                *guessed,
+            ]
+        return tuple(dict.fromkeys(told))
+
+    @property
+    def reason(self) -> str:
+        """Why there is no plan, in a line; empty where there is one that works."""
+        if any(verdict.valid for verdict in self.verdicts):
+            return ""
+        parsed = self.parsed
+        if self.refused is not None:
+            return self.refusal
+        if not parsed.clauses:
+            reasons = dict.fromkeys(piece.reason for piece in parsed.skipped)
+            said = f" ({'; '.join(list(reasons)[:_SHOWN])})" if reasons else ""
+            return f"the text has no instruction{said}; say what is to be done: take the cup"
+        if {clause.verb for clause in parsed.clauses} <= set(self.unseen):
+            return "no demonstration has any of its verbs; use other words, or add demonstrations"
+        clause = max((refusal.clause for refusal in self.refusals), default=0)
+        text = " ".join(parsed.clauses[clause].text.split())
+        return f'clause {clause + 1}, "{text}", cannot be done here: {self._reasons(clause)}'
+
+    @property
+    def refusal(self) -> str:
+        """Why what was said was refused; empty where it was not."""
+        if self.refused is None:
+            return ""
+        clause, refused = self.refused
+        return why_refused(clause, refused.message, refused.hint)
+
+    def _nouns(self) -> Iterator[str]:
+        return (noun for clause in self.parsed.clauses for noun in clause.resolved())
+
+    def _likened(self) -> Iterator[str]:
+        """What nouns were taken for that only WordNet leads to something here."""
+        for noun in dict.fromkeys(self._nouns()):
+            matches = self.world.mentions.of(noun, self.world.task.init)
+            if matches and all(match.how == WORDNET for match in matches):
+                names = [match.name for match in matches]
+                taken = ", ".join(names[:_SHOWN]) + (" or others" if len(names) > _SHOWN else "")
+                yield f"nothing here is called '{_plain(noun)}'; by likeness of meaning it was taken for {taken}"
+
+    def _left_out(self) -> Iterator[str]:
+        """What the best plan does not take into account, or only guesses at."""
+        for plan in self.plans[:1]:
+            for goal in plan.goals:
+                if goal.note and (goal.formula is None or not goal.already):
+                    yield f'clause {goal.clause + 1}, "{goal.text}": {goal.note}'
+            for piece in self.parsed.skipped:
+                yield f'"{" ".join(piece.text.split())}" was skipped: {piece.reason}'
+
+    def _reasons(self, clause: int) -> str:
+        """Why the templates for a clause were refused: the most frequent reasons first."""
+        counts: dict[str, int] = {}
+        for refusal in self.refusals:
+            if refusal.clause == clause:
+                counts[refusal.reason] = counts.get(refusal.reason, 0) + 1
+        told = sorted(counts, key=lambda reason: (-counts[reason], reason))
+        more = f"; and {len(told) - _SHOWN} other reasons" if len(told) > _SHOWN else ""
+        return "; ".join(told[:_SHOWN]) + more
+
+    def _other(self, verb: str) -> str:
+        """A verb to use instead: one that is written alike, or else the most frequent ones."""
+        verbs = sorted(self.library.verbs(), key=lambda known: (-len(self.library.templates(known)), known))
+        if not verbs:
+            return "the domain has no demonstrations"
+        close = get_close_matches(verb, verbs, n=1)
+        return f"did you mean '{_plain(close[0])}'?" if close else f"say {', '.join(map(_plain, verbs[:_VERBS]))} …"
+
+
+def why_refused(clause: int, message: str, hint: str | None) -> str:
+    """Why there is no plan for what was said: *clause 1: nothing here is called 'zebra' (name a thing …)*."""
+    return f"clause {clause + 1}: {message}" + (f" ({hint})" if hint else "")
+
+
+def _plain(name: str) -> str:
+    return name.replace("_", " ")
