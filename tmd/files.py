@@ -69,6 +69,24 @@ def make_directory(path: str | Path) -> Path:
     return target
 
 
+def check_writable(path: str | Path) -> None:
+    """Refuse a file that cannot be written, before minutes are spent on what goes there.
+
+    Raises:
+        OutputError: Its directory is not there, it is a directory itself, or nobody may write there.
+    """
+    target = Path(path)
+    reason = ""
+    if not target.parent.is_dir():
+        reason = "No such directory"
+    elif target.is_dir():
+        reason = "Is a directory"
+    elif not os.access(target if target.exists() else target.parent, os.W_OK):
+        reason = "Permission denied"
+    if reason:
+        raise OutputError(f"{target} cannot be written: {reason}", hint="name a file that you may write")
+
+
 def _draft(name: str) -> str:
     """A name for the new file that no other writer uses: two machines that share a directory may share process ids.
 

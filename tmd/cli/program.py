@@ -13,9 +13,9 @@ import click
 
 from tmd import __version__
 from tmd.cli.errors import Fault, fault_of
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 COMMANDS = (
     "ground",

@@ -96,6 +96,20 @@ def read_sentences(path: Path) -> list[SentenceTest]:
     return list(found.values())
 
 
+def domain_sentences(directory: Path) -> list[SentenceTest]:
+    """The sentence tests beside the problems of a domain.
+
+    Raises:
+        TmdError: There are none, or a file of them is wrong.
+    """
+    paths = sorted(directory.glob(f"*{SUFFIX}"))
+    if not paths:
+        raise TmdError(
+            f"there are no sentence tests in {directory}", hint=f"write one, such as my{SUFFIX}; see docs/goals.md"
+        )
+    return [test for path in paths for test in read_sentences(path)]
+
+
 def _read_line(line: str, place: Location) -> SentenceTest:
     try:
         data = json.loads(line)

@@ -13,6 +13,7 @@ module              holds
 ``mentions``        nouns of a clause to the objects of an environment
 ``world``           an environment, ground, with its objects' states, kinds and nouns
 ``instantiate``     a template in a new environment: the three rules of section V-A
+``roots``           where domains, problems and environments are looked for
 ``corpus``          the bundled environments and demonstrations of a domain
 ``replay``          playing a demonstration step by step
 ==================  ==============================================================================

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from tmd.diagnostics import Location, TmdError
+from tmd.files import write_text
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -36,6 +37,27 @@ AT = "at"
 """What ``at: on counter1`` compiles to: ``(at object counter1 on)``."""
 _HEADER = "; Compiled from instructions.pddl and objects.yaml; change those and run `tmd compile`.\n;\n"
 _DERIVE = "derive"
+
+
+def update_domain(folder: DomainFolder, *, write: bool = True) -> bool:
+    """Compile a folder with object graphs to its ``domain.pddl``.
+
+    Args:
+        folder: The domain.
+        write: Whether to write the file.
+
+    Returns:
+        Whether the file was not there, or was another.
+
+    Raises:
+        TmdError: A source is wrong, with its place; or the file cannot be read or written.
+    """
+    target, compiled = folder.path / "domain.pddl", compile_domain(folder)
+    if target.is_file() and read_text(target) == compiled:
+        return False
+    if write:
+        write_text(target, compiled)
+    return True
 
 
 def compile_domain(folder: DomainFolder) -> str:

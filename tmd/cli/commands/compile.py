@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 
 @click.command("compile", short_help="Compile object graphs to PDDL.")
@@ -32,20 +32,14 @@ def command(roots: Roots, what: str, check: bool, output: Path | None, goal: str
 
 
 def _domain(roots: Roots, name: str, check: bool) -> ExitCode:
-    from tmd.files import write_text
-    from tmd.pddl.reading.syntax import read_text
-    from tmd.world.compile import compile_domain
+    from tmd.world.compile import update_domain
 
     folder = roots.sources(name)
-    target = folder.path / "domain.pddl"
-    compiled = compile_domain(folder)
-    same = target.is_file() and read_text(target) == compiled
+    target, changed = folder.path / "domain.pddl", update_domain(folder, write=not check)
     if check:
-        emit(f"{target} {'is up to date' if same else 'has drifted: run `tmd compile`'}\n")
-        return ExitCode.OK if same else ExitCode.FAULTS_FOUND
-    if not same:
-        write_text(target, compiled)
-    emit(f"{target} {'was up to date' if same else 'written'}\n")
+        emit(f"{target} {'has drifted: run `tmd compile`' if changed else 'is up to date'}\n")
+        return ExitCode.FAULTS_FOUND if changed else ExitCode.OK
+    emit(f"{target} {'written' if changed else 'was up to date'}\n")
     return ExitCode.OK
 
 

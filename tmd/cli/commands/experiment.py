@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.ranges import numbers
 from tmd.cli.output import emit
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.runs.config import ExperimentConfig, Shard

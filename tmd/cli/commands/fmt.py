@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit
-from tmd.diagnostics import ExitCode, TmdError
+from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.veil.roots import Roots
 
 
 @click.command("fmt", short_help="Format PDDL and YAML files.")
@@ -21,24 +19,21 @@ def command(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
     A file with a fault that makes laying it out impossible is left as it is, and told; then this ends with 31.
     """
     from tmd.check.checker import files_of
-    from tmd.files import write_text
-    from tmd.pddl.reading.syntax import read_text
+    from tmd.format.files import SUFFIXES, format_file
 
     changed = 0
     failed: list[TmdError] = []
-    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix in _SUFFIXES]
+    files = [file for name in paths for file in files_of(roots.path(name)) if file.suffix in SUFFIXES]
     for file in files:
         try:
-            raw = read_text(file)
-            text = _laid_out(raw, file)
+            if not format_file(file, write=not only_check):
+                continue
+        except OutputError:
+            raise
         except TmdError as error:
             failed.append(error)
             continue
-        if text == raw and not _has_marks(file):
-            continue
         changed += 1
-        if not only_check:
-            write_text(file, text)
         emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
     for fault in failed:
         emit(f"error: {fault}\n", error=True)
@@ -46,22 +41,3 @@ def command(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
     if failed:
         return ExitCode.BAD_INPUT
     return ExitCode.FAULTS_FOUND if only_check and changed else ExitCode.OK
-
-
-_SUFFIXES = (".pddl", ".yaml", ".yml")
-
-
-def _laid_out(text: str, file: Path) -> str:
-    if file.suffix == ".pddl":
-        from tmd.format.pddl_layout import format_pddl
-
-        return format_pddl(text, str(file))
-    from tmd.format.yaml_layout import format_yaml
-
-    return format_yaml(text, str(file))
-
-
-def _has_marks(file: Path) -> bool:
-    """Whether the file begins with a byte order mark or has Windows line ends, which reading hides."""
-    data = file.read_bytes()
-    return data.startswith(b"\xef\xbb\xbf") or b"\r" in data

@@ -5,10 +5,10 @@ from __future__ import annotations
 import click
 
 from tmd.cli.inputs.grounding import GroundingOptions, answer, environment_file, grounding_options
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.text import said, text_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 
 @click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")

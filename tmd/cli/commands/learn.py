@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json, rounded
-from tmd.diagnostics import ExitCode, TmdError
+from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.inference.learned.store import Knowledge
-    from tmd.inference.learning.weight_learning import Learned
+    from tmd.evaluation.learn import LearnedDomain
     from tmd.veil.corpus import Corpus
 
 
@@ -40,14 +40,12 @@ def command(
     what it was learned from; otherwise it learns anew each time. The weights are used when asked for:
     `tmd ground --weights learned`.
     """
-    from tmd.inference.learned.store import digest, place, save
+    from tmd.evaluation.learn import learn_domain
 
+    if not no_weights and sys.stderr.isatty():
+        emit("the weights take a while to learn; --no-weights leaves them out\n", error=True)
     corpus = roots.corpus(roots.folder(domain))
-    directory = place(corpus, out or learned)
-    made_from = digest(corpus)
-    knowledge, tuned = _learn(corpus, seed, weigh=not no_weights)
-    save(knowledge, corpus, directory, made_from)
-    report = _report(corpus, knowledge, tuned, directory)
+    report = _report(corpus, learn_domain(corpus, out or learned, weights=not no_weights, seed=seed))
     if as_json:
         emit_json(report)
     else:
@@ -55,58 +53,10 @@ def command(
     return ExitCode.OK
 
 
-def _learn(corpus: Corpus, seed: int, *, weigh: bool) -> tuple[Knowledge, Learned | None]:
-    """Both parts; progress goes to standard error where somebody is looking."""
-    from dataclasses import replace
-
-    import numpy as np
-
-    from tmd.inference.learned.store import Progress, study
-
-    demonstrations = corpus.demonstrations()
-    if not demonstrations:
-        raise TmdError(
-            f"there are no demonstrations of '{corpus.folder.name}' in {corpus.directory}",
-            hint="they are in TASK/demonstrations.jsonl",
-        )
-    _check_goals(corpus)
-    with Progress(f"learning from {len(demonstrations)} demonstrations") as progress:
-        knowledge = study(corpus, progress.tell)
-    if not weigh:
-        return knowledge, None
-    _tell("learning weights; this takes a while …")
-    from tmd.evaluation.models.paper_models import weights_of
-
-    tuned = weights_of(corpus, np.random.default_rng(seed))
-    return replace(knowledge, weights=tuned.weights), tuned
-
-
-def _check_goals(corpus: Corpus) -> None:
-    """Who shows something else than the text asks for teaches something wrong.
-
-    Raises:
-        TmdError: A goal cannot be read or does not hold at the end; with its place.
-    """
-    from tmd.veil.corpus import final_state
-    from tmd.veil.demonstration import check_goal
-
-    for demonstration in corpus.demonstrations():
-        if demonstration.goal is not None:
-            world = corpus.world(demonstration.environment)
-            check_goal(demonstration, world.task.problem, final_state(demonstration, world))
-
-
-def _tell(line: str) -> None:
-    import sys
-
-    if sys.stderr.isatty():
-        emit(f"{line}\n", error=True)
-
-
-def _report(corpus: Corpus, knowledge: Knowledge, tuned: Learned | None, directory: Path) -> dict[str, object]:
-    library, reward = knowledge.library, knowledge.reward
+def _report(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
+    library, reward = found.knowledge.library, found.knowledge.reward
     verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
-    curve = tuned.curve if tuned else ()
+    curve = found.tuned.curve if found.tuned else ()
     return {
         "domain": corpus.folder.name,
         "demonstrations": len(corpus.demonstrations()),
@@ -118,7 +68,7 @@ def _report(corpus: Corpus, knowledge: Knowledge, tuned: Learned | None, directo
         "weights": {"before": rounded(curve[0]["loss"]), "after": rounded(min(p["loss"] for p in curve))}
         if curve
         else None,
-        "saved": str(directory),
+        "saved": str(found.directory),
     }
 
 

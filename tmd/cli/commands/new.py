@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.world.scaffold import Scaffold

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.text import said, text_options
 from tmd.cli.output import emit, emit_json
+from tmd.veil.roots import Roots
 
 
 @click.command("parse", short_help="Split a text into verb clauses.")

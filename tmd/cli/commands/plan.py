@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 
 @click.command("plan", short_help="Find a plan for a PDDL problem.")

@@ -11,9 +11,9 @@ import click
 from tmd import __version__
 from tmd.cli.inputs.grounding import environment_file
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
-from tmd.diagnostics import ExitCode, OutputError, TmdError
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.veil.roots import Roots
 
 
 class _File(click.Path):
@@ -87,11 +87,11 @@ def command(
     if plan_file is not None and (text, text_file) != (None, None):
         raise click.UsageError("give one of --text, --text-file and --plan")
 
-    from tmd.cli.inputs.environment import load_scene
     from tmd.cli.inputs.plan import orders_of_file, orders_of_text
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling, plan_json, refusal_json
     from tmd.cli.signals import stoppable
+    from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.robot.monitor.faults import InjectedFault
@@ -99,23 +99,18 @@ def command(
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
     from tmd.robot.video.film import open_movie
-    from tmd.world.environment import load_environment
 
     spoken = None if plan_file is not None else short_enough(said(text, text_file))
     path = roots.environment(environment, domain_name)
-    if path.suffix == ".pddl":
-        raise TmdError(
-            f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
-            hint="give an environment (YAML)",
-        )
     if path.suffix == ".xml":
         raise TmdError(
             f"{path}: the robot does not act in rooms of VEIL-500: their instructions have no skills",
             hint="tmd scene shows the room",
         )
-    for output in (video, strip, log):
-        _check_writable(output)
-    corpus, world = load_scene(roots, environment, domain_name)
+    room, folder = roots.room(environment, domain_name)
+    for output in filter(None, (video, strip, log)):
+        check_writable(output)
+    corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
     orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
@@ -148,7 +143,7 @@ def command(
         journal = stack.enter_context(RunLog(log)) if log else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)
         run = run_plan(
-            load_environment(path), corpus.folder, world.task.problem, orders.orders,
+            room, folder, world.task.problem, orders.orders,
             prepare=told.prepare, filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
             planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
             kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
@@ -156,18 +151,3 @@ def command(
         told.log_ending(run.execution, run.sim_steps)
     told.print_ending(run.execution, run.sim_steps)
     return ExitCode.NOT_EXECUTED if run.execution.status is SkillStatus.STOPPED else ExitCode.OK
-
-
-def _check_writable(path: Path | None) -> None:
-    """Refuse what cannot be written before minutes have been spent."""
-    if path is None:
-        return
-    reason = ""
-    if not path.parent.is_dir():
-        reason = "No such directory"
-    elif path.is_dir():
-        reason = "Is a directory"
-    elif not os.access(path if path.exists() else path.parent, os.W_OK):
-        reason = "Permission denied"
-    if reason:
-        raise OutputError(f"{path} cannot be written: {reason}", hint="name a file that you may write")

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
-from tmd.diagnostics import TmdError
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.robot.skills.reachability_report import ReachabilityEntry, Stance
@@ -83,15 +82,7 @@ def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, Dom
 
         veil = scene_of(read_room(path))
         return veil.environment, veil.folder, veil.remarks
-    if path.suffix == ".pddl":
-        raise TmdError(
-            f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
-            hint="give an environment (YAML)",
-        )
-    from tmd.world.environment import load_environment
-
-    read = load_environment(path)
-    return read, roots.folder(domain or read.domain), ()
+    return *roots.room(name, domain), ()
 
 
 def _draw(path: Path, pixels: Pixels) -> None:

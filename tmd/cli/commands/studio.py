@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.studio.studio import Studio

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.inference.config import DEFAULT
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest

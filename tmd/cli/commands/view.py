@@ -8,10 +8,10 @@ import click
 from click.core import ParameterSource
 
 from tmd.cli.inputs.grounding import GroundingOptions, grounding_options
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.text import text_options
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
+from tmd.veil.roots import Roots
 
 _OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim")
 

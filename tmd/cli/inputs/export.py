@@ -11,13 +11,13 @@ from typing import Any
 
 import click
 
-from tmd.cli.inputs.paths import Roots
 from tmd.diagnostics import ExitCode, Location, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text
+from tmd.veil.roots import Roots
 
 ASKED, CHANGED = "asked", "changed"
 """Goals by name, for a text: what it asks for, and everything that its plan changes."""
@@ -121,13 +121,12 @@ def _domain_name(text: str, path: Path) -> str:
 
 
 def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
-    from tmd.cli.inputs.environment import load_scene
     from tmd.cli.inputs.plan import orders_of_text
     from tmd.planning.backends import IN_PROCESS
 
     if not (asked.text or asked.plan or asked.goal) or (asked.text and asked.plan):
         raise click.UsageError(f"for the environment {asked.source} give one of --text, --text-file, --plan and --goal")
-    corpus, world = load_scene(roots, asked.source, asked.domain)
+    corpus, world = roots.world(asked.source, asked.domain)
     problem = world.task.problem
     if asked.text is not None:
         orders = orders_of_text(asked.text, corpus, world, asked.planner or IN_PROCESS)
@@ -146,7 +145,6 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
 
 def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
-    from tmd.cli.inputs.environment import load_scene
     from tmd.export.record import FORMAT, parse_record
 
     text = read_text(path)
@@ -158,7 +156,7 @@ def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan
         raise TmdError(f"{path} is no plan", hint="give what tmd ground --json or tmd export --format json wrote")
     if not plans:
         return NoPlan(f"{path} has no plan", ExitCode.NOT_GROUNDED)
-    _, world = load_scene(roots, environment, asked.domain or value.get("domain"))
+    _, world = roots.world(environment, asked.domain or value.get("domain"))
     try:
         steps = tuple(Instruction(step["action"], tuple(step["args"])) for step in plans[0]["steps"])
     except (KeyError, TypeError) as error:

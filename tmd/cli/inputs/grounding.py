@@ -12,9 +12,9 @@ import click
 
 from tmd import __version__
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.inputs.paths import Roots
 from tmd.diagnostics import TmdError
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig, preset
+from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.grounded import Grounded
@@ -116,14 +116,13 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     Raises:
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
-    from tmd.cli.inputs.environment import load_scene
     from tmd.ground import ground
     from tmd.inference.learned.store import known
     from tmd.planning.backends import IN_PROCESS
 
     config = options.config()
     factors = _weights(options.weights) if options.weights and options.weights != LEARNED else None
-    corpus, world = load_scene(roots, environment, domain)
+    corpus, world = roots.world(environment, domain)
     knowledge = known(corpus, options.learned)
     if options.weights == LEARNED:
         factors = knowledge.weights or _no_weights(corpus.folder.name)

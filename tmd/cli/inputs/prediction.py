@@ -7,11 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, TypeAlias
 
-from tmd.cli.inputs.paths import Roots
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.syntax import nearest, read_text
+from tmd.veil.roots import Roots
 
 _Row: TypeAlias = dict[str, Any]
 
@@ -30,14 +30,12 @@ def prediction(
     Raises:
         TmdError: This is not a run, its data are not the bundled ones, or there is no such prediction.
     """
-    from tmd.cli.inputs.environment import load_scene
-
     config = _config(run)
     rows = _chosen(_predictions(run / "predictions.jsonl"), example, model)
     row = rows[0]
     file = str(run / "predictions.jsonl")
     plan = tuple(parse_instruction(text, file=file, line=row["line"]) for text in row["predicted"])
-    _, world = load_scene(roots, row["environment"], config.get("domain"))
+    _, world = roots.world(row["environment"], config.get("domain"))
     return world.task.problem, plan
 
 

@@ -10,8 +10,6 @@ from typing import Any
 from pydantic import ValidationError
 
 from tmd import __version__
-from tmd.cli.inputs.environment import load_scene
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
 from tmd.diagnostics import Location, TmdError
 from tmd.language import parse
@@ -19,6 +17,7 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, read_demonstration
+from tmd.veil.roots import Roots
 from tmd.veil.world import World
 from tmd.view.demonstrated import demonstrated_subject
 from tmd.view.grounding_record import GroundingRecord, read_grounding
@@ -197,14 +196,14 @@ def _scene(
 ) -> tuple[Corpus, World]:
     """The environment: the one that was named now, else the file that was named then, else the bundled one."""
     if asked.environment is not None:
-        return load_scene(roots, asked.environment, asked.domain or _domain_of(asked.environment, domain))
+        return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
     if isinstance(file, str):
         paths = [Path(file), asked.path.with_name(Path(file).name)]
         path = next((path for path in paths if path.is_file()), None)
         if path is None:
             raise TmdError(f"the environment {file} is not there any more", hint="give it with --environment FILE")
-        return load_scene(roots, str(path), asked.domain or _domain_of(str(path), domain))
-    return load_scene(roots, environment, asked.domain or domain)
+        return roots.world(str(path), asked.domain or _domain_of(str(path), domain))
+    return roots.world(environment, asked.domain or domain)
 
 
 def _domain_of(environment: str, recorded: str | None) -> str | None:

@@ -9,10 +9,8 @@ from typing import Any
 
 import click
 
-from tmd.cli.inputs.environment import load_scene
 from tmd.cli.inputs.export import load_problem
 from tmd.cli.inputs.grounding import GroundingOptions, answer
-from tmd.cli.inputs.paths import Roots
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
 from tmd.cli.show.plans import remarks
@@ -22,6 +20,7 @@ from tmd.export.strips import restored
 from tmd.pddl.model import Problem
 from tmd.pddl.plan_file import Plan, parse_plan
 from tmd.pddl.reading.syntax import read_text
+from tmd.veil.roots import Roots
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
 
 MAX_STEPS = 10_000
@@ -153,7 +152,7 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     if asked.problem is not None:
         problem = load_problem(roots, asked.problem, asked.domain)
     else:
-        problem = load_scene(roots, asked.environment or "", asked.domain)[1].task.problem
+        problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
     return _plan_of(asked, problem, plan)
 
 

@@ -1,4 +1,4 @@
-"""Where the command line looks for domains, problems and environments, and what a name on it means."""
+"""Where domains, problems and environments are looked for, and what a name for one of them means."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
     from tmd.pddl.model import Domain
     from tmd.veil.corpus import Corpus
+    from tmd.veil.world import World
+    from tmd.world.environment import Environment
     from tmd.world.folder import DomainFolder
 
 
 @dataclass(frozen=True, slots=True)
 class Roots:
-    """The global options ``--domains`` and ``--problems``; ``None`` is the usual place."""
+    """The directories of all domains and of all problems; ``None`` is the usual place."""
 
     domains: Path | None = None
     problems: Path | None = None
@@ -145,6 +147,56 @@ class Roots:
             f"there is no environment '{name}'",
             hint=nearest(name, known, what="environments") or "give the file of one",
         )
+
+    def world(self, environment: str, domain: str | None = None) -> tuple[Corpus, World]:
+        """An environment, ready for grounding, and the corpus of its domain.
+
+        Args:
+            environment: A file (YAML, or a PDDL problem), or the name of a bundled environment.
+            domain: The domain, where the environment's own ``domain:`` is not to be asked.
+
+        Raises:
+            TmdError: One of them is missing or wrong.
+        """
+        from tmd.veil.world import make_world
+        from tmd.world.compile import compile_problem
+        from tmd.world.environment import load_environment
+
+        path = self.environment(environment, domain)
+        if path.suffix == ".pddl":
+            return self._pddl_world(path, domain)
+        read = load_environment(path)
+        corpus = self.corpus(self.folder(domain or read.domain))
+        if path == corpus.directory / "environments" / f"{read.name}.yaml":
+            return corpus, corpus.world(read.name)
+        return corpus, make_world(read.name, compile_problem(read, corpus.folder), corpus.lexicon)
+
+    def _pddl_world(self, path: Path, domain: str | None) -> tuple[Corpus, World]:
+        from tmd.pddl.reading.reader import read_problem
+        from tmd.veil.world import make_world
+
+        if domain is None and path.parent.name != "environments":
+            raise TmdError(f"{path}: a PDDL problem does not say where its domain is", hint="give --domain NAME")
+        corpus = self.corpus(self.folder(domain or path.parent.parent.name))
+        problem = read_problem(path, corpus.folder.domain)
+        return corpus, make_world(path.stem if domain is None else problem.name, problem, corpus.lexicon)
+
+    def room(self, environment: str, domain: str | None = None) -> tuple[Environment, DomainFolder]:
+        """An environment of which the robot's scene can be built, and its domain.
+
+        Raises:
+            TmdError: It is missing or wrong, or does not say where things stand.
+        """
+        from tmd.world.environment import load_environment
+
+        path = self.environment(environment, domain)
+        if path.suffix == ".pddl":
+            raise TmdError(
+                f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
+                hint="give an environment (YAML)",
+            )
+        read = load_environment(path)
+        return read, self.folder(domain or read.domain)
 
 
 def _is_path(name: str) -> bool:

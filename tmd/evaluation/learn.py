@@ -1,0 +1,63 @@
+"""Learning a domain and keeping it: what ``tmd learn`` does."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+from tmd.diagnostics import TmdError
+from tmd.evaluation.models.paper_models import weights_of
+from tmd.inference.learned.store import Knowledge, Progress, digest, place, save, study
+from tmd.inference.learning.weight_learning import Learned
+from tmd.veil.corpus import Corpus, final_state
+from tmd.veil.demonstration import check_goal
+
+
+@dataclass(frozen=True, slots=True)
+class LearnedDomain:
+    """What was learned of a domain.
+
+    Attributes:
+        knowledge: Library, policy, goals of verbs, and weights if they were learned.
+        tuned: How the weights were learned; ``None`` where they were not.
+        directory: Where it was saved.
+    """
+
+    knowledge: Knowledge
+    tuned: Learned | None
+    directory: Path
+
+
+def learn_domain(corpus: Corpus, root: Path | None = None, *, weights: bool = True, seed: int = 0) -> LearnedDomain:
+    """Learn from the demonstrations of a domain, and save it.
+
+    Args:
+        corpus: The domain.
+        root: Save in its directory of the domain's name; beside the demonstrations where none is given.
+        weights: Learn weights of the factors as well, which takes by far the longest.
+        seed: Random seed of the weights.
+
+    Raises:
+        TmdError: There are no demonstrations, one is wrong, or it cannot be saved.
+    """
+    directory, made_from = place(corpus, root), digest(corpus)
+    demonstrations = corpus.demonstrations()
+    if not demonstrations:
+        raise TmdError(
+            f"there are no demonstrations of '{corpus.folder.name}' in {corpus.directory}",
+            hint="they are in TASK/demonstrations.jsonl",
+        )
+    for demonstration in demonstrations:  # who shows something else than the text asks for teaches something wrong
+        if demonstration.goal is not None:
+            world = corpus.world(demonstration.environment)
+            check_goal(demonstration, world.task.problem, final_state(demonstration, world))
+    with Progress(f"learning from {len(demonstrations)} demonstrations") as progress:
+        knowledge = study(corpus, progress.tell)
+    tuned = None
+    if weights:
+        tuned = weights_of(corpus, np.random.default_rng(seed))
+        knowledge = replace(knowledge, weights=tuned.weights)
+    save(knowledge, corpus, directory, made_from)
+    return LearnedDomain(knowledge, tuned, directory)
