@@ -138,9 +138,8 @@ def command(
     if step == "robot" and robot == "off":
         raise click.UsageError("--step robot and --robot off do not go together")
 
-    from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig, Shard, usual_models
+    from tmd.evaluation.runs.config import ExperimentConfig, Shard
 
-    usual = DEFAULT_MODELS if data == "veil500" else usual_models(roots.folder(domain).path)
     config = ExperimentConfig(
         task=task,
         out=out,
@@ -150,7 +149,7 @@ def command(
         train_environments=train_environments,
         test_environments=test_environments,
         drop_sentences=drop_sentences,
-        models=models or usual,
+        models=models or (),
         seed=seed,
         domain=domain,
         domains=roots.domains,
@@ -177,32 +176,24 @@ def _share(config: ExperimentConfig, shard: Shard) -> None:
 
 def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.cli.progress import progress_bar
-    from tmd.evaluation.report.report import print_table, write_report
-    from tmd.evaluation.runs.experiment import collect, run
-    from tmd.robot_trials.pages import write_pages
+    from tmd.evaluation.report.report import REPORT, print_table
+    from tmd.robot_trials.experiment import run_experiment
 
-    if step == "all":
-        with progress_bar(f"{config.task}, {config.data} data") as progress:
-            metrics = run(config, progress)
-    else:
-        metrics = collect(config)
-    write_pages(config)
-    report = write_report(config.out)  # now: what the robot does may take minutes, and adds to it
+    with progress_bar(f"{config.task}, {config.data} data") as progress:
+        metrics = run_experiment(config, collect_only=step != "all", progress=progress)
     print_table(metrics)
     if robot != "off" and step != "report":
         _trials(config, robot)
-        write_pages(config, carried_out=True)
-        report = write_report(config.out)
-    emit(f"report: {report}\n")
+    emit(f"report: {config.out / REPORT}\n")
 
 
 def _trials(config: ExperimentConfig, mode: str) -> None:
     from tmd.cli.progress import progress_bar
     from tmd.cli.signals import stoppable
-    from tmd.robot_trials.run import run_trials
+    from tmd.robot_trials.experiment import carry_out_predictions
 
     with stoppable(), progress_bar(f"the robot, {mode}") as progress:
-        trials = run_trials(config, "physics" if mode == "physics" else "kinematic", progress)
+        trials = carry_out_predictions(config, "physics" if mode == "physics" else "kinematic", progress=progress)
     if trials.skipped:
         emit(f"the robot did nothing: {trials.skipped}\n", error=True)
     for trial in trials.found:

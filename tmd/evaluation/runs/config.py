@@ -19,12 +19,6 @@ DEFAULT_MODELS = (
 """Table II, and what is measured beside it."""
 
 
-def usual_models(folder: Path) -> tuple[str, ...]:
-    """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
-    written = (folder / "templates.yaml").is_file()
-    return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
-
-
 @dataclass(frozen=True, slots=True)
 class Shard:
     """A share of the units of a run: those whose number leaves the same remainder as ``number`` when divided by ``of``.
@@ -55,7 +49,7 @@ class ExperimentConfig:
         train_environments: Environment numbers to train in; ``None`` leaves it to the folds.
         test_environments: Environment numbers to test in; likewise.
         drop_sentences: With what probability each sentence of a test text is left out, in [0, 1).
-        models: The rows.
+        models: The rows; the usual ones where none is named.
         seed: Random seed.
         domain: The domain of the bundled data.
         domains: The directory of all domains, if not the usual one.
@@ -74,7 +68,7 @@ class ExperimentConfig:
     train_environments: tuple[int, ...] | None = None
     test_environments: tuple[int, ...] | None = None
     drop_sentences: float = 0.0
-    models: tuple[str, ...] = DEFAULT_MODELS
+    models: tuple[str, ...] = ()
     seed: int = 0
     domain: str = "kitchen"
     domains: Path | None = None

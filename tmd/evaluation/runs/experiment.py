@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.backends import outcomes
-from tmd.evaluation.runs.config import DEFAULT_MODELS, ExperimentConfig
+from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.models.model import make_model
 from tmd.evaluation.runs.run_directory import RunDirectory
 from tmd.evaluation.runs.summary import summarise
 from tmd.evaluation.runs.jobs import jsonl, units_of
+from tmd.world.folder import find_domain
 
 __all__ = ["DEFAULT_MODELS", "ExperimentConfig", "Progress", "collect", "run", "work"]
 
@@ -72,11 +73,19 @@ def collect(config: ExperimentConfig) -> dict[str, Any]:
 
 
 def _plan(config: ExperimentConfig) -> _Plan:
+    config = replace(config, models=config.models or _usual_models(config))
     for model in config.models:
         make_model(model)
     data = open_dataset(config)
     directory = RunDirectory(config.out, config.identity(data.fingerprint()))
     return _Plan(config, data, folds_of(config, data), directory)
+
+
+def _usual_models(config: ExperimentConfig) -> tuple[str, ...]:
+    """:data:`DEFAULT_MODELS`, but for *Predefined Templates* where nobody has written any for the domain."""
+    bundled = config.data == BUNDLED
+    written = not bundled or (find_domain(config.domain, config.domains).path / "templates.yaml").is_file()
+    return tuple(model for model in DEFAULT_MODELS if written or model != "templates")
 
 
 def _work(plan: _Plan, progress: Progress | None) -> int:
