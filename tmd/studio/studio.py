@@ -154,3 +154,20 @@ def _figure() -> Figure | None:
         return Figure()
     except MissingToolError:
         return None
+
+
+def open_studio(corpus: Corpus, environment: Path | None = None, learned: Path | None = None) -> Studio:
+    """The studio of a domain, with what its demonstrations teach.
+
+    Args:
+        corpus: The domain.
+        environment: The file of the environment that visitors come to first; the first one by default.
+        learned: Where ``tmd learn --out`` saved.
+
+    Raises:
+        TmdError: The environment or a demonstration is wrong.
+    """
+    teacher = Teacher(corpus, learned)
+    if environment is not None and environment.parent == corpus.directory / "environments":
+        return Studio(corpus, teacher, environment.stem)
+    return Studio(corpus, teacher, extra=environment)

@@ -11,12 +11,11 @@ from tmd.cli.output import emit, emit_json
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
     from tmd.robot.skills.reachability_report import ReachabilityEntry, Stance
-    from tmd.robot.video.captions import Pixels
     from tmd.world.environment import Environment
     from tmd.world.folder import DomainFolder
-
-PICTURE = (960, 640)
 
 
 @click.command("scene", short_help="Show an environment as the robot's room.")
@@ -49,30 +48,17 @@ def command(
     if picture is not None and picture.suffix != ".png":
         raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 
-    import numpy as np
+    from tmd.robot.skills.reachability_report import survey_scene
 
-    from tmd.robot.scene.scene import Scene
-    from tmd.robot.setup import make_cell
-    from tmd.robot.sim.simulator import Simulator
-    from tmd.robot.skills.reachability_report import stance, survey
-    from tmd.robot.video.captions import pillow
-
-    if picture is not None:
-        pillow()
     room, folder, remarks = _read(roots, environment, domain_name)
     for remark in remarks:
         emit(f"note: {remark}\n", error=True)
-    with Simulator(pictures=picture is not None) as sim:
-        scene = Scene(sim, room, folder, rng=np.random.default_rng(seed) if seed else None)
-        cell = make_cell(sim, scene, seed=seed, kinematic=True, urdf=urdf)
-        entries = survey(cell)
-        stances = {entry.name: stance(cell, entry.name) for entry in entries} if reach else None
-        if picture is not None:
-            _draw(picture, sim.picture(*scene.viewpoint(), *PICTURE))
+    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
+    stances = found.stances if reach else None
     if as_json:
-        emit_json({"environment": room.name, "objects": [_json(entry, stances) for entry in entries]})
+        emit_json({"environment": found.name, "objects": [_json(entry, stances) for entry in found.entries]})
     else:
-        emit(_text(room.name, entries, stances))
+        emit(_text(found.name, found.entries, stances))
 
 
 def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:
@@ -85,19 +71,7 @@ def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, Dom
     return *roots.room(name, domain), ()
 
 
-def _draw(path: Path, pixels: Pixels) -> None:
-    import io
-
-    from PIL import Image
-
-    from tmd.files import write_bytes
-
-    data = io.BytesIO()
-    Image.fromarray(pixels).save(data, "PNG")
-    write_bytes(path, data.getvalue())
-
-
-def _text(name: str, entries: list[ReachabilityEntry], stances: dict[str, Stance | None] | None) -> str:
+def _text(name: str, entries: Sequence[ReachabilityEntry], stances: Mapping[str, Stance | None] | None) -> str:
     items = sum(entry.item for entry in entries)
     lines = [f"{name}: {len(entries) - items} pieces of furniture, {items} things to carry"]
     width = max((len(entry.name) for entry in entries), default=0)
@@ -113,7 +87,7 @@ def _text(name: str, entries: list[ReachabilityEntry], stances: dict[str, Stance
     return "\n".join(lines) + "\n"
 
 
-def _json(entry: ReachabilityEntry, stances: dict[str, Stance | None] | None) -> dict[str, object]:
+def _json(entry: ReachabilityEntry, stances: Mapping[str, Stance | None] | None) -> dict[str, object]:
     found: dict[str, object] = {
         "name": entry.name,
         "kind": entry.kind,

@@ -13,7 +13,7 @@ from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.studio.studio import Studio
+    from tmd.veil.corpus import Corpus
 
 LOCAL = "127.0.0.1"
 USUAL = "kitchen"
@@ -38,10 +38,13 @@ def command(
     """
     from tmd.cli.signals import stoppable
     from tmd.studio.server import Server, free_port, need_viser
+    from tmd.studio.studio import open_studio
 
     need_viser()
     free_port(host, port)  # before anything that takes time
-    studio = open_studio(roots, domain_name, environment, learned)
+    corpus, path = _opened(roots, domain_name, environment)
+    emit(f"Looking at what the demonstrations of {corpus.folder.name} teach …\n", error=True)
+    studio = open_studio(corpus, path, learned)
     server = Server(studio, host, port)
     try:
         emit(f"The studio of {studio.corpus.folder.name} is open: {server.url}\n")
@@ -60,28 +63,12 @@ def command(
     return ExitCode.OK
 
 
-def open_studio(roots: Roots, domain: str | None, environment: str | None, learned: Path | None) -> Studio:
-    """The studio of a domain.
-
-    Args:
-        roots: Where domains and problems are.
-        domain: Its name.
-        environment: Where visitors come to first: a name, or a file.
-        learned: Where ``tmd learn --out`` saved.
-
-    Raises:
-        TmdError: There is no such domain or environment, or it is wrong.
-    """
-    from tmd.studio.learning.teaching import Teacher
-    from tmd.studio.studio import Studio
+def _opened(roots: Roots, domain: str | None, environment: str | None) -> tuple[Corpus, Path | None]:
+    """The domain: that of the environment, unless one is named; and the environment's file."""
     from tmd.world.environment import load_environment
 
     path = roots.environment(environment, domain) if environment else None
     if path is not None and domain is None:
         bundled = path.suffix == ".pddl" and path.parent.name == "environments"
         domain = path.parent.parent.name if bundled else load_environment(path).domain
-    corpus = roots.corpus(roots.folder(domain or USUAL))
-    inside = path is not None and path.parent == corpus.directory / "environments"
-    emit(f"Looking at what the demonstrations of {corpus.folder.name} teach …\n", error=True)
-    teacher = Teacher(corpus, learned)
-    return Studio(corpus, teacher, path.stem if path and inside else None, None if inside else path)
+    return roots.corpus(roots.folder(domain or USUAL)), path

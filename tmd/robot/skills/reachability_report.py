@@ -2,13 +2,28 @@
 
 from __future__ import annotations
 
+import io
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import degrees
+from pathlib import Path
 
+import numpy as np
+
+from tmd.files import write_bytes
+from tmd.robot.scene.scene import Scene
+from tmd.robot.setup import make_cell
 from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.simulator import Simulator
 from tmd.robot.skills.pick_and_place import pick_options
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Base, candidates, stances, with_room
+from tmd.robot.video.captions import Pixels, pillow
+from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
+
+PICTURE = (960, 640)
+"""Width and height of a picture of the room, in pixels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +61,65 @@ class Stance:
         x, y, heading = self.base
         hand = f", {self.side} hand" if self.side else ""
         return f"from {x:.2f} {y:.2f}, facing {degrees(heading):.0f}°{hand}"
+
+
+@dataclass(frozen=True, slots=True)
+class SceneSurvey:
+    """An environment as the robot's room.
+
+    Attributes:
+        name: The environment's name.
+        entries: All objects, in file order.
+        stances: From where the robot takes or reaches each, ``None`` where it cannot; without entries if not asked for.
+    """
+
+    name: str
+    entries: tuple[ReachabilityEntry, ...]
+    stances: Mapping[str, Stance | None]
+
+
+def survey_scene(
+    environment: Environment,
+    folder: DomainFolder,
+    *,
+    reach: bool = False,
+    seed: int = 0,
+    urdf: Path | None = None,
+    picture: Path | None = None,
+) -> SceneSurvey:
+    """Build the room of an environment, put a PR2 into it, and say what stands where.
+
+    Args:
+        environment: What there is and where.
+        folder: Its domain, with shapes.
+        reach: Look for a base pose for every object, which takes seconds.
+        seed: Seed for placement jitter; 0 disables it.
+        urdf: Another PR2 than the packaged one.
+        picture: Where a picture of the room goes, a PNG file.
+
+    Raises:
+        MissingToolError: What simulates or draws is not installed.
+        OutputError: The picture cannot be written.
+        TmdError: The domain has no shapes, the scene cannot be built, or ``urdf`` is not a PR2.
+    """
+    if picture is not None:
+        pillow()
+    with Simulator(pictures=picture is not None) as sim:
+        scene = Scene(sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
+        cell = make_cell(sim, scene, seed=seed, kinematic=True, urdf=urdf)
+        entries = survey(cell)
+        stances = {entry.name: stance(cell, entry.name) for entry in entries} if reach else {}
+        if picture is not None:
+            _draw(picture, sim.picture(*scene.viewpoint(), *PICTURE))
+    return SceneSurvey(environment.name, tuple(entries), stances)
+
+
+def _draw(path: Path, pixels: Pixels) -> None:
+    from PIL import Image
+
+    data = io.BytesIO()
+    Image.fromarray(pixels).save(data, "PNG")
+    write_bytes(path, data.getvalue())
 
 
 def survey(cell: Cell) -> list[ReachabilityEntry]:
