@@ -19,8 +19,10 @@ LAYERS = (
     ("inference",),
     ("grounded",),
     ("ground", "export"),
-    ("api", "view", "evaluation"),
+    ("view", "evaluation"),
     ("check", "robot_trials", "studio"),
+    ("domain_kit",),
+    ("api",),
     ("cli",),
 )
 """From the lowest to the highest; nothing imports from its own layer but its own package."""
@@ -95,7 +97,8 @@ def module_of(path: Path) -> str:
 
 
 def test_no_modules_import_one_another() -> None:
-    waiting = {module_of(path): imported(path) for path in MODULES}
+    own = PACKAGE / "__init__.py"  # has names of the highest layers, and imports them when they are asked for
+    waiting = {module_of(path): imported(path) for path in MODULES if path != own}
     while ready := [module for module, needs in waiting.items() if not needs & waiting.keys()]:
         for module in ready:
             del waiting[module]

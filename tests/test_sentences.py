@@ -10,8 +10,8 @@ import pytest
 
 import tmd
 from tests.cli.conftest import run_tmd
-from tmd.api import DomainKit
 from tmd.diagnostics import ExitCode, TmdError
+from tmd.domain_kit import DomainKit
 from tmd.evaluation.sentence_tests import (
     Outcome,
     SentenceResult,

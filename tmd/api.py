@@ -1,4 +1,4 @@
-"""What ``import tmd`` offers to programs: domains, texts, plans, and the way to other tools and back.
+"""What ``import tmd`` offers to programs: all that the commands do, and the way to other tools and back.
 
 Names are found on the package itself (``tmd.load_domain``) and imported when they are first used.
 """
@@ -7,52 +7,99 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
-from functools import cached_property
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
+from tmd.domain_kit import DomainKit
+from tmd.export.end_goal import asked_problem
 from tmd.export.from_unified import from_unified_planning
+from tmd.export.pddl_package import from_pddl, to_pddl
 from tmd.export.planned_problem import planned
 from tmd.export.strips import restored
 from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
-from tmd.ground import ground as ground_text
 from tmd.grounded import Grounded
-from tmd.inference.config import DEFAULT, preset
-from tmd.inference.learned.store import Knowledge, known
-from tmd.language.parser import ClauseParser, parse
+from tmd.language.parser import parse
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import read_plan as read_plan_file
 from tmd.pddl.reading.reader import read_domain, read_problem, with_goal
 from tmd.pddl.validator import Verdict, validate
-from tmd.planning.backends import AUTO, IN_PROCESS, solve
+from tmd.pddl.writer import format_domain, format_problem
+from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import Filled, Unreachable
-from tmd.veil.corpus import Corpus
-from tmd.veil.world import World, make_world
-from tmd.world.compile import compile_problem
-from tmd.world.environment import load_environment
-from tmd.world.folder import find_domain, find_root
+from tmd.veil.roots import Roots
+from tmd.world.folder import find_domain
+
+if TYPE_CHECKING:
+    from tmd.check.report import CheckReport as CheckReport
+    from tmd.datasets.veil500.report import check_veil500 as check_veil500
+    from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
+    from tmd.evaluation.sentence_tests import read_sentences as read_sentences
+    from tmd.format.files import format_file as format_file
+    from tmd.robot.run_plan import PlanRun as PlanRun
+    from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
+    from tmd.robot_trials.experiment import run_experiment as run_experiment
+    from tmd.world.scaffold import Scaffold
+
+_LATER = {
+    "CheckReport": "tmd.check.report",
+    "ExperimentConfig": "tmd.evaluation.runs.config",
+    "PlanRun": "tmd.robot.run_plan",
+    "carry_out_predictions": "tmd.robot_trials.experiment",
+    "check_veil500": "tmd.datasets.veil500.report",
+    "format_file": "tmd.format.files",
+    "read_sentences": "tmd.evaluation.sentence_tests",
+    "run_experiment": "tmd.robot_trials.experiment",
+}
+"""What takes long to import, or belongs to few, with the modules that are imported when it is first used."""
 
 __all__ = [
+    "CheckReport",
     "DomainKit",
+    "ExperimentConfig",
     "Grounded",
     "Instruction",
     "NoPlanError",
+    "PlanRun",
     "Problem",
     "TmdError",
     "Verdict",
+    "asked_problem",
+    "carry_out_predictions",
+    "check_files",
+    "check_veil500",
+    "compile_domain",
     "export_plan",
     "find_plan",
+    "format_domain",
+    "format_file",
+    "format_problem",
+    "from_pddl",
     "from_unified_planning",
+    "grounded_page",
     "load_domain",
     "load_problem",
+    "new_domain",
+    "parse",
     "plan_from_unified_planning",
+    "plan_page",
     "plan_to_unified_planning",
     "read_plan",
+    "read_sentences",
+    "run_experiment",
+    "to_pddl",
     "to_unified_planning",
     "validate",
     "with_goal",
 ]
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever stands in the module
+    """A name of :data:`_LATER`, imported now."""
+    if name in _LATER:
+        return getattr(import_module(_LATER[name]), name)
+    raise AttributeError(f"module 'tmd.api' has no attribute '{name}'")
 
 
 class NoPlanError(TmdError):
@@ -65,91 +112,6 @@ class NoPlanError(TmdError):
     def __init__(self, message: str, *, proven: bool) -> None:
         super().__init__(message)
         self.proven = proven
-
-
-class DomainKit:
-    """A domain folder with its environments, and with what its demonstrations teach.
-
-    Make it with :func:`load_domain`.
-    """
-
-    def __init__(self, corpus: Corpus, learned: Path | None = None) -> None:
-        self._corpus = corpus
-        self._learned = learned
-
-    @property
-    def name(self) -> str:
-        """The name of the domain."""
-        return self._corpus.folder.name
-
-    def environments(self) -> list[str]:
-        """The names of its bundled environments, sorted."""
-        return self._corpus.environments()
-
-    def problem(self, environment: str | Path, goal: str | None = None) -> Problem:
-        """An environment as a PDDL problem.
-
-        Args:
-            environment: The name of a bundled environment, or an environment file (YAML).
-            goal: A condition, such as ``(contains cup1 water)``; without it the goal is empty.
-
-        Raises:
-            TmdError: There is no such environment, or it or the goal is wrong.
-        """
-        problem = self._world(environment).task.problem
-        return problem if goal is None else with_goal(problem, goal, "goal")
-
-    def ground(
-        self,
-        text: str,
-        environment: str | Path,
-        *,
-        top: int = 1,
-        planner: str = IN_PROCESS,
-        model: str = DEFAULT,
-        guess: bool = False,
-        parser: ClauseParser | None = None,
-    ) -> Grounded:
-        """Ground a text in an environment, as ``tmd ground`` does.
-
-        Args:
-            text: What the person said.
-            environment: The name of a bundled environment, or an environment file (YAML).
-            top: How many distinct plans are wanted.
-            planner: Which planner fills in what was left unsaid.
-            model: What is minimised; the models are those of ``tmd ground --model``.
-            guess: Whether a plan may be made where what was said is not understood or cannot be done.
-            parser: What reads the text in place of the built-in parser.
-
-        Returns:
-            The clauses that were understood, the plans (cheapest first) and what the validator says of each.
-
-        Raises:
-            TmdError: There is no such environment, planner or model, or a file of the domain is wrong.
-        """
-        return ground_text(
-            text,
-            self._world(environment),
-            self._knowledge.library,
-            reward=self._knowledge.reward,
-            goals=self._knowledge.goals,
-            config=replace(preset(model), guess=guess),
-            planner=planner,
-            top=top,
-            parser=parser or parse,
-        )
-
-    @cached_property
-    def _knowledge(self) -> Knowledge:
-        """What the demonstrations teach, asked for once."""
-        return known(self._corpus, self._learned)
-
-    def _world(self, environment: str | Path) -> World:
-        path = Path(environment)
-        if path.suffix not in (".yaml", ".yml"):
-            return self._corpus.world(str(environment))
-        read = load_environment(path)
-        return make_world(read.name, compile_problem(read, self._corpus.folder), self._corpus.lexicon)
 
 
 def load_domain(
@@ -171,10 +133,84 @@ def load_domain(
     Raises:
         TmdError: There is none.
     """
-    folder = find_domain(name, None if domains is None else Path(domains))
-    root = find_root("problems", None if problems is None else Path(problems))
+    roots = _roots(domains, problems)
     saved = learned if learned is not None else os.environ.get("TMD_LEARNED")
-    return DomainKit(Corpus(folder, root / folder.name), Path(saved) if saved else None)
+    return DomainKit(roots.corpus(roots.folder(name)), Path(saved) if saved else None)
+
+
+def new_domain(
+    name: str, start: str = "graph", *, domains: str | Path = "domains", problems: str | Path = "problems"
+) -> Scaffold:
+    """Begin a domain of your own, a small one that works, as ``tmd new`` does.
+
+    Args:
+        name: The domain.
+        start: Begin with ``plain`` PDDL, or with a ``graph``: classes of things that have parts.
+        domains: Its folder is made in this directory.
+        problems: The folder of its environments, problems and demonstrations is made in this directory.
+
+    Returns:
+        What was made.
+
+    Raises:
+        TmdError: The name cannot be one, something is there already, or it cannot be written.
+    """
+    from tmd.world.scaffold import scaffold
+
+    return scaffold(name, start, Path(domains), Path(problems))
+
+
+def compile_domain(name: str, *, domains: str | Path | None = None, write: bool = True) -> bool:
+    """Compile a domain with object graphs to its ``domain.pddl``, as ``tmd compile`` does.
+
+    Args:
+        name: The domain, or its folder.
+        domains: The directory of all domains; ``./domains`` or the packaged one by default.
+        write: Whether to write the file.
+
+    Returns:
+        Whether the file was not there, or was another.
+
+    Raises:
+        TmdError: A source is missing or wrong, with its place.
+    """
+    from tmd.world.compile import update_domain
+
+    return update_domain(_roots(domains, None).sources(name), write=write)
+
+
+def check_files(
+    *paths: str | Path,
+    domain: str | None = None,
+    domains: str | Path | None = None,
+    problems: str | Path | None = None,
+    fix: bool = False,
+) -> CheckReport:
+    """Find everything that is wrong with domains, problems and their files, as ``tmd check`` does.
+
+    Args:
+        paths: Files, folders, or names of bundled domains.
+        domain: The domain of the problems; otherwise it is looked for.
+        domains: The directory of all domains; ``./domains`` or the packaged one by default.
+        problems: The directory of all problems; ``./problems`` or the packaged one by default.
+        fix: Whether to mend what can be mended without knowing what the author meant.
+
+    Returns:
+        ``.diagnostics``, each with ``.location``, ``.severity``, ``.code``, ``.message`` and ``.hint``; ``.counts``.
+
+    Raises:
+        TmdError: There is nothing at a path, or a file cannot be mended.
+    """
+    from tmd.check.report import check_paths
+
+    roots = _roots(domains, problems)
+    given = roots.pddl_file(domain) if domain else None
+    chosen = [roots.path(str(path)) for path in paths]
+    return check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
+
+
+def _roots(domains: str | Path | None, problems: str | Path | None) -> Roots:
+    return Roots(None if domains is None else Path(domains), None if problems is None else Path(problems))
 
 
 def load_problem(problem: str | Path, domain: str | Path) -> Problem:
@@ -251,3 +287,19 @@ def export_plan(
     flat = {path: data for written in files.values() for path, data in written.items()}
     write_directory(target, flat, overwrite=overwrite)
     return [target / path for path in flat]
+
+
+def plan_page(problem: Problem, plan: Iterable[Instruction]) -> str:
+    """A self-contained HTML page of a plan: every step with what it changes, as ``tmd view PLAN`` writes it."""
+    from tmd.view.page import render
+    from tmd.view.subject import PlannedStep, Subject
+
+    return render(Subject(f"A plan in {problem.name}", problem, tuple(map(PlannedStep, plan)))).html
+
+
+def grounded_page(grounded: Grounded) -> str:
+    """A self-contained HTML page of a text: clauses, goals, plan and candidates, as ``tmd view --text`` writes it."""
+    from tmd.view.page import render
+    from tmd.view.subject import text_subject
+
+    return render(text_subject(grounded)).html

@@ -3,11 +3,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tmd.datasets.veil500 import VeilData, check
+from tmd.datasets.veil500 import VeilData, check_veil500
 
 
 def test_small_report(small_directory: Path) -> None:
-    report = check(small_directory)
+    report = check_veil500(small_directory)
     counts = report.counts
     assert counts["demonstrations"] == {"points": 2, "kitchen": 1, "living_room": 1}
     assert counts["texts"]["texts with repeated runs removed"] == 1
@@ -27,16 +27,16 @@ def test_small_report(small_directory: Path) -> None:
 
 
 def test_forms_of_the_report(small_directory: Path) -> None:
-    report = check(small_directory)
+    report = check_veil500(small_directory)
     assert json.loads(report.json())["counts"] == report.counts
     text = report.text()
     assert "mentions of unknown objects" in text
     assert text.count("\n") == sum(len(v) + 2 for v in report.counts.values()) + 1 + 2 + len(report.remarks)
-    assert check(small_directory).text() == text
+    assert check_veil500(small_directory).text() == text
 
 
 def test_report_of_the_release(released: VeilData) -> None:
-    report = check(released.directory)
+    report = check_veil500(released.directory)
     counts = report.counts
     assert counts["demonstrations"] == {"points": 360, "kitchen": 209, "living_room": 151}
     assert counts["by objective"]["Making Ramen"] == 45

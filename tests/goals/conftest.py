@@ -6,7 +6,7 @@ from functools import cache
 from pathlib import Path
 
 import tmd
-from tmd.api import DomainKit
+from tmd.domain_kit import DomainKit
 from tmd.grounded import Grounded
 from tmd.pddl.model import Formula
 from tmd.pddl.writer import format_formula

@@ -137,7 +137,7 @@ def test_a_kit_asks_once_what_its_domain_teaches(
         asked.append(corpus.folder.name)
         return known(corpus, root)
 
-    monkeypatch.setattr("tmd.api.known", counted)
+    monkeypatch.setattr("tmd.domain_kit.known", counted)
     table()
     kit = tmd.load_domain(NAME, domains=tmp_path / "domains", problems=tmp_path / "problems")
     plans = [kit.ground(SAID, "corner1").plans[0].instructions for _ in range(3)]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
-from tmd.pddl.model import And, Atom, Formula, Not, Or, conjuncts, universe
+from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem, conjuncts, universe
+from tmd.pddl.reading.reader import aimed_at
 from tmd.pddl.semantics import holds
 from tmd.pddl.task import Task
 
@@ -33,6 +35,13 @@ def end_goal(plan: RankedPlan, task: Task) -> Formula | None:
                 standing = [inner for inner in _alternatives(part) if holds(inner, end, objects)]
                 found[_narrowed(part, standing, later)] = None
     return next(iter(found)) if len(found) == 1 else And(tuple(found))
+
+
+def asked_problem(grounded: Grounded) -> Problem | None:
+    """The environment as a problem whose goal is what a text asks for; ``None`` where it has no plan with goals."""
+    task = grounded.world.task
+    whole = end_goal(grounded.plans[0], task) if grounded.plans else None
+    return None if whole is None else aimed_at(task.problem, whole)
 
 
 def _narrowed(part: Formula, standing: list[Formula], later: Collection[str]) -> Formula:

@@ -51,7 +51,7 @@ class Corpus:
             TmdError: There is none, or it is wrong.
         """
         if name not in self._worlds:
-            self._worlds[name] = make_world(name, self._problem(self.file(name)), self.lexicon)
+            self._worlds[name] = make_world(name, self.read(self.file(name)), self.lexicon)
         return self._worlds[name]
 
     def file(self, name: str) -> Path:
@@ -73,7 +73,12 @@ class Corpus:
         directory = self.directory / "environments"
         return {path.stem: path for suffix in ("pddl", "yaml") for path in sorted(directory.glob(f"*.{suffix}"))}
 
-    def _problem(self, path: Path) -> Problem:
+    def read(self, path: Path) -> Problem:
+        """The environment in a file, which need not be one of the bundled ones.
+
+        Raises:
+            TmdError: It is missing or wrong.
+        """
         if path.suffix == ".pddl":
             return read_problem(path, self.folder.domain)
         return compile_problem(load_environment(path), self.folder)

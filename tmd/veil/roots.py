@@ -187,15 +187,9 @@ class Roots:
         Raises:
             TmdError: It is missing or wrong, or does not say where things stand.
         """
-        from tmd.world.environment import load_environment
+        from tmd.world.environment import load_room
 
-        path = self.environment(environment, domain)
-        if path.suffix == ".pddl":
-            raise TmdError(
-                f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
-                hint="give an environment (YAML)",
-            )
-        read = load_environment(path)
+        read = load_room(self.environment(environment, domain))
         return read, self.folder(domain or read.domain)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
@@ -12,6 +13,9 @@ from tmd.veil.world import World
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
 from tmd.view.text.meaning import Meaning, meanings, meanings_in
+
+_TITLE = 90
+"""Characters of a text that a title shows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +84,28 @@ class Subject:
     def goals(self) -> tuple[StepGoal, ...]:
         """What the steps of the text ask for, of the plan that is shown."""
         return self.plans[0].goals if self.plans else ()
+
+
+def title_of(text: str, environment: str) -> str:
+    """What a page about a text is called."""
+    flat = " ".join(text.split())
+    short = flat if len(flat) <= _TITLE else f"{flat[: _TITLE - 1].rstrip()}…"
+    return f"{short} ({environment})"
+
+
+def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Subject:
+    """What came of a text: its best plan beside the others, or why there is none."""
+    return grounded_subject(
+        title_of(grounded.parsed.text, grounded.world.name),
+        grounded.world,
+        grounded.parsed,
+        grounded.plans,
+        grounded.refusals,
+        unseen=grounded.unseen,
+        unknown=grounded.unknown,
+        made=made,
+        refused=grounded.refusal,
+    )
 
 
 def grounded_subject(

@@ -27,6 +27,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import Report
 from tmd.world.classes import NAME, StateValue
 from tmd.world.yaml_positions import YamlSource
@@ -70,6 +71,20 @@ class Environment:
     facts: tuple[str, ...]
     source: YamlSource
     called: Mapping[str, str] = field(default_factory=dict)
+
+
+def load_room(path: Path) -> Environment:
+    """Read an environment of which the robot's scene can be built.
+
+    Raises:
+        TmdError: As :func:`load_environment`, or it is a PDDL problem.
+    """
+    if path.suffix == ".pddl":
+        raise TmdError(
+            f"{path}: a PDDL problem does not say where things stand, so there is no scene of it",
+            hint="give an environment (YAML)",
+        )
+    return load_environment(path)
 
 
 def load_environment(path: Path, report: Report | None = None) -> Environment:

@@ -22,7 +22,7 @@ def check(directory: Path, as_json: bool) -> None:
 
     Ends with 33 where the copy is missing or damaged.
     """
-    from tmd.datasets.veil500.report import check as check_copy
+    from tmd.datasets.veil500.report import check_veil500
 
-    report = check_copy(directory)
+    report = check_veil500(directory)
     emit(report.json() if as_json else report.text())

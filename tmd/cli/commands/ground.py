@@ -41,9 +41,10 @@ def command(
     """
     from tmd.cli.show.goals import whole_goal_json, whole_goal_text
     from tmd.cli.show.plans import grounded_json, grounded_text, remarks
+    from tmd.inference.config import preset
     from tmd.language.parser import short_enough
 
-    if goal_only and not options.config().goals:
+    if goal_only and not preset(options.model_name).goals:
         raise click.UsageError(f"the model {options.model_name} knows no goals: leave --model out")
     found = answer(roots, short_enough(said(text, text_file)), environment, domain_name, options)
     grounded = found.grounded

@@ -57,39 +57,25 @@ def command(
 
 
 def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[SentenceTest]:
-    from tmd.evaluation.sentence_tests import SUFFIX, read_sentences
+    from tmd.evaluation.sentence_tests import domain_sentences, read_sentences
 
     if bool(domain) == bool(cases):
         raise TmdError("name a domain, or files with --cases", hint="tmd test kitchen")
-    paths = list(cases)
     if domain:
-        corpus = roots.corpus(roots.folder(domain))
-        paths = sorted(corpus.directory.glob(f"*{SUFFIX}"))
-        if not paths:
-            raise TmdError(
-                f"there are no sentence tests in {corpus.directory}",
-                hint=f"write one, such as my{SUFFIX}; see docs/goals.md",
-            )
-    return [test for path in paths for test in read_sentences(path)]
+        return domain_sentences(roots.corpus(roots.folder(domain)).directory)
+    return [test for path in cases for test in read_sentences(path)]
 
 
 def _run(
     roots: Roots, tests: Sequence[SentenceTest], model: str, guess: bool, learned: Path | None
 ) -> Iterator[SentenceResult]:
-    from tmd.api import DomainKit
-    from tmd.evaluation.sentence_tests import judge
+    from tmd.domain_kit import DomainKit
 
     kits: dict[str, DomainKit] = {}
     for test in tests:
         if test.domain not in kits:
             kits[test.domain] = DomainKit(roots.corpus(roots.folder(test.domain)), learned)
-        kit = kits[test.domain]
-        try:
-            problem = kit.problem(test.environment)
-        except TmdError as error:
-            raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
-        grounded = kit.ground(test.text, test.environment, model=model, guess=guess)
-        yield judge(test, grounded, problem)
+        yield from kits[test.domain].run_sentence_tests([test], model=model, guess=guess)
 
 
 def _text(results: Sequence[SentenceResult]) -> str:

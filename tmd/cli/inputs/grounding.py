@@ -3,27 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from tmd import __version__
 from tmd.cli.inputs.learned import learned_option
-from tmd.diagnostics import TmdError
-from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig, preset
+from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.grounded import Grounded
-    from tmd.inference.energy import Weights
     from tmd.veil.corpus import Corpus
-    from tmd.veil.world import World
 
-LEARNED = "learned"
-"""The weights that `tmd learn` saved."""
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
 
@@ -40,17 +35,6 @@ class GroundingOptions:
     beam: int | None
     trim: int | None
 
-    def config(self) -> InferenceConfig:
-        """The model, with what is to be otherwise.
-
-        Raises:
-            TmdError: There is none of that name.
-        """
-        model = preset(self.model_name)
-        beam = model.beam if self.beam is None else self.beam or None
-        trim = model.trim if self.trim is None else self.trim
-        return replace(model, beam=beam, trim=trim, guess=self.guess)
-
 
 @dataclass(frozen=True, slots=True)
 class Answer:
@@ -59,13 +43,11 @@ class Answer:
     Attributes:
         grounded: The plans.
         corpus: The domain.
-        world: The environment.
         made_with: What decides the outcome beside text and environment.
     """
 
     grounded: Grounded
     corpus: Corpus
-    world: World
     made_with: dict[str, object]
 
 
@@ -116,29 +98,23 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
     Raises:
         TmdError: The environment, the model, the planner or the weights are missing or wrong.
     """
-    from tmd.ground import ground
-    from tmd.inference.learned.store import known
+    from tmd.domain_kit import DomainKit
     from tmd.planning.backends import IN_PROCESS
 
-    config = options.config()
-    factors = _weights(options.weights) if options.weights and options.weights != LEARNED else None
     corpus, world = roots.world(environment, domain)
-    knowledge = known(corpus, options.learned)
-    if options.weights == LEARNED:
-        factors = knowledge.weights or _no_weights(corpus.folder.name)
-    grounded = ground(
+    grounded = DomainKit(corpus, options.learned).ground(
         text,
         world,
-        knowledge.library,
-        factors,
-        reward=knowledge.reward,
-        goals=knowledge.goals,
-        config=config,
-        planner=options.planner or IN_PROCESS,
         top=options.top,
+        planner=options.planner or IN_PROCESS,
+        model=options.model_name,
+        guess=options.guess,
+        weights=options.weights,
+        beam=options.beam,
+        trim=options.trim,
     )
-    made = made_with(options.planner, options.model_name, config, options.weights, options.top)
-    return Answer(grounded, corpus, world, made)
+    made = made_with(options.planner, options.model_name, grounded.config, options.weights, options.top)
+    return Answer(grounded, corpus, made)
 
 
 def environment_file(name: str) -> str | None:
@@ -166,17 +142,3 @@ def made_with(
         "trim": config.trim,
         "top": top,
     }
-
-
-def _no_weights(domain: str) -> NoReturn:
-    raise TmdError(
-        f"there are no learned weights of '{domain}' that its demonstrations still bear out",
-        hint=f"run tmd learn {domain}",
-    )
-
-
-def _weights(given: str) -> Weights:
-    from tmd.inference.energy import named_weights, read_weights
-
-    path = Path(given)
-    return read_weights(path) if path.suffix or path.is_file() else named_weights(given)

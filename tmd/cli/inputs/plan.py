@@ -42,20 +42,15 @@ def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learne
     """
     from tmd.cli.inputs.grounding import made_with
     from tmd.cli.show.plans import grounded_json, remarks
-    from tmd.ground import ground
-    from tmd.inference.learned.store import known
+    from tmd.domain_kit import DomainKit, orders_of
 
-    knowledge = known(corpus, learned)
-    grounded = ground(text, world, knowledge.library, reward=knowledge.reward, goals=knowledge.goals, planner=planner)
+    grounded = DomainKit(corpus, learned).ground(text, world, planner=planner)
     told = tuple(remarks(grounded))
     record = grounded_json(grounded, corpus.folder.name)
     record["made_with"] = made_with(planner)
     if grounded.reason:
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
-    clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
-    steps = grounded.plans[0].steps
-    orders = tuple(Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in steps)
-    return Orders(orders, remarks=told, grounding=record)
+    return Orders(tuple(orders_of(grounded)), remarks=told, grounding=record)
 
 
 def orders_of_file(path: Path, world: World) -> Orders:

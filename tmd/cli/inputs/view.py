@@ -11,7 +11,6 @@ from tmd.view.subject import Subject
 
 STANDARD = "-"
 """Standard input or output."""
-_TITLE = 90
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,10 +65,3 @@ class FoundSubject:
             return ""
         place = f"{self.locations[verdict.step - 1]}: " if verdict.step and self.locations else ""
         return f"invalid: {place}{verdict.reason}\n"
-
-
-def title_of(text: str, environment: str) -> str:
-    """What a page about a text is called."""
-    flat = " ".join(text.split())
-    short = flat if len(flat) <= _TITLE else f"{flat[: _TITLE - 1].rstrip()}…"
-    return f"{short} ({environment})"

@@ -10,7 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from tmd import __version__
-from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
+from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest
 from tmd.diagnostics import Location, TmdError
 from tmd.language import parse
 from tmd.pddl.model import Instruction
@@ -23,7 +23,7 @@ from tmd.view.demonstrated import demonstrated_subject
 from tmd.view.grounding_record import GroundingRecord, read_grounding
 from tmd.view.pictures import Strip, read_strip
 from tmd.view.run_record import Ran, ran, ran_events
-from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject
+from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject, title_of
 
 Lines = Sequence[tuple[int, str]]
 """The lines of a file that are not blank, with their numbers."""

@@ -11,7 +11,7 @@ import click
 
 from tmd.cli.inputs.export import load_problem
 from tmd.cli.inputs.grounding import GroundingOptions, answer
-from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest, title_of
+from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
 from tmd.cli.show.plans import remarks
 from tmd.diagnostics import Location, TmdError
@@ -21,7 +21,7 @@ from tmd.pddl.model import Problem
 from tmd.pddl.plan_file import Plan, parse_plan
 from tmd.pddl.reading.syntax import read_text
 from tmd.veil.roots import Roots
-from tmd.view.subject import PlannedStep, Subject, grounded_subject
+from tmd.view.subject import PlannedStep, Subject, text_subject
 
 MAX_STEPS = 10_000
 """Plans with more steps are refused: nobody reads such a page."""
@@ -37,21 +37,11 @@ def subject_of_text(
         TmdError: The environment, or how it is to be grounded, is wrong.
     """
     found = answer(roots, text, environment, domain, options)
-    grounded = found.grounded
     rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
-    subject = grounded_subject(
-        title_of(text, found.world.name),
-        found.world,
-        grounded.parsed,
-        grounded.plans,
-        grounded.refusals,
-        unseen=grounded.unseen,
-        unknown=grounded.unknown,
-        made=rows,
-        refused=grounded.refusal,
+    told = tuple(remarks(found.grounded))
+    return FoundSubject(
+        text_subject(found.grounded, rows), Path(f"{found.grounded.world.name}.html"), told, of_text=True
     )
-    told = tuple(remarks(grounded))
-    return FoundSubject(subject, Path(f"{found.world.name}.html"), told, of_text=True)
 
 
 def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from tmd.export.end_goal import end_goal
+from tmd.export.end_goal import asked_problem
 from tmd.goals.clause_goal import Refused
 from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause
 from tmd.pddl.model import Problem
-from tmd.pddl.reading.reader import aimed_at
 from tmd.pddl.writer import format_formula, format_problem
 from tmd.view.goals import ShownGoal, in_words
 
@@ -76,9 +75,8 @@ def _below(shown: ShownGoal) -> list[str]:
 
 def whole_goal_text(grounded: Grounded) -> str:
     """The environment as a PDDL problem whose goal is what the text asks for; empty where there is no plan."""
-    task = grounded.world.task
-    whole = end_goal(grounded.plans[0], task) if grounded.plans else None
-    return "" if whole is None else format_problem(aimed_at(task.problem, whole))
+    problem = asked_problem(grounded)
+    return "" if problem is None else format_problem(problem)
 
 
 def whole_goal_json(told: Mapping[str, Any]) -> dict[str, object]:

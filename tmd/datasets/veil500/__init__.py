@@ -9,7 +9,7 @@ from tmd.datasets.veil500.data import Point, VeilData, VeilGroup, load
 from tmd.datasets.veil500.environment import VeilEnvironment, VeilObject
 from tmd.datasets.veil500.forms import from_veil, mentioned, to_veil
 from tmd.datasets.veil500.repair import executability, repair, repaired
-from tmd.datasets.veil500.report import DataReport, check
+from tmd.datasets.veil500.report import DataReport, check_veil500
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 
 __all__ = [
@@ -22,7 +22,7 @@ __all__ = [
     "VeilGroup",
     "VeilObject",
     "absent_types",
-    "check",
+    "check_veil500",
     "compile_environment",
     "executability",
     "from_veil",

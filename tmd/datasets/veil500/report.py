@@ -48,7 +48,7 @@ class DataReport:
         return json.dumps(asdict(self), indent=2) + "\n"
 
 
-def check(directory: str | Path) -> DataReport:
+def check_veil500(directory: str | Path) -> DataReport:
     """Read a copy of the data set and report everything found, repaired and dropped.
 
     Raises:

@@ -1,0 +1,339 @@
+"""A domain as programs use it: texts grounded, plans carried out, demonstrations learned from, sentences tested."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
+
+from tmd.diagnostics import TmdError
+from tmd.ground import ground as ground_text
+from tmd.grounded import Grounded
+from tmd.inference.config import DEFAULT, preset
+from tmd.inference.energy import Weights, named_weights, read_weights
+from tmd.inference.learned.store import Knowledge, known
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.parser import ClauseParser, parse
+from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.reading.reader import with_goal
+from tmd.pddl.validator import validate
+from tmd.planning.backends import IN_PROCESS
+from tmd.veil.corpus import Corpus
+from tmd.veil.world import World, make_world
+
+if TYPE_CHECKING:
+    from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest
+    from tmd.robot.monitor.listeners import Order
+    from tmd.robot.run_plan import PlanRun
+    from tmd.robot.skills.reachability_report import SceneSurvey
+    from tmd.studio.server import Server
+
+LEARNED = "learned"
+"""The weights that :meth:`DomainKit.learn` saved."""
+_FILES = (".yaml", ".yml", ".pddl")
+Place: TypeAlias = str | Path | World
+"""The name of a bundled environment, an environment file (YAML) or PDDL problem, or what was made of one before."""
+
+
+class DomainKit:
+    """A domain folder with its environments, and with what its demonstrations teach.
+
+    Make it with :func:`load_domain`.
+    """
+
+    def __init__(self, corpus: Corpus, learned: Path | None = None) -> None:
+        self._corpus = corpus
+        self._learned = learned
+
+    @property
+    def name(self) -> str:
+        """The name of the domain."""
+        return self._corpus.folder.name
+
+    def environments(self) -> list[str]:
+        """The names of its bundled environments, sorted."""
+        return self._corpus.environments()
+
+    @property
+    def lexicon(self) -> Lexicon:
+        """The built-in words with those of the domain, for ``tmd.parse(text, kit.lexicon)``."""
+        return self._corpus.lexicon
+
+    def problem(self, environment: Place, goal: str | None = None) -> Problem:
+        """An environment as a PDDL problem.
+
+        Args:
+            environment: Its name or file.
+            goal: A condition, such as ``(contains cup1 water)``; without it the goal is empty.
+
+        Raises:
+            TmdError: There is no such environment, or it or the goal is wrong.
+        """
+        problem = self._world(environment).task.problem
+        return problem if goal is None else with_goal(problem, goal, "goal")
+
+    def ground(
+        self,
+        text: str,
+        environment: Place,
+        *,
+        top: int = 1,
+        planner: str = IN_PROCESS,
+        model: str = DEFAULT,
+        guess: bool = False,
+        weights: str | Path | None = None,
+        beam: int | None = None,
+        trim: int | None = None,
+        parser: ClauseParser = parse,
+    ) -> Grounded:
+        """Ground a text in an environment, as ``tmd ground`` does.
+
+        Args:
+            text: What the person said.
+            environment: Its name or file.
+            top: How many distinct plans are wanted.
+            planner: Which planner fills in what was left unsaid.
+            model: What is minimised; the models are those of ``tmd ground --model``.
+            guess: Whether a plan may be made where what was said is not understood or cannot be done.
+            weights: The factors' weights, by name or file, or ``learned``; the model's own by default.
+            beam: How many states to follow from clause to clause, 0 for all; what the model says by default.
+            trim: How many leading instructions of a template may be dropped; what the model says by default.
+            parser: What reads the text.
+
+        Returns:
+            The clauses that were understood, the plans (cheapest first), what the validator says of each, and what of
+            the text could not be used.
+
+        Raises:
+            TmdError: There is no such environment, planner, model or weights, or a file of the domain is wrong.
+        """
+        config = replace(preset(model), guess=guess)
+        if beam is not None:
+            config = replace(config, beam=beam or None)
+        if trim is not None:
+            config = replace(config, trim=trim)
+        return ground_text(
+            text,
+            self._world(environment),
+            self._knowledge.library,
+            None if weights is None else self._weights(weights),
+            reward=self._knowledge.reward,
+            goals=self._knowledge.goals,
+            config=config,
+            planner=planner,
+            top=top,
+            parser=parser,
+        )
+
+    def run_plan(
+        self,
+        plan: Grounded | Iterable[Instruction],
+        environment: str | Path,
+        *,
+        kinematic: bool = False,
+        seed: int = 0,
+        planner: str = IN_PROCESS,
+        repairs: int = 6,
+        fault: str | None = None,
+        video: str | Path | None = None,
+        strip: str | Path | None = None,
+        urdf: str | Path | None = None,
+        gui: bool = False,
+    ) -> PlanRun:
+        """Let a simulated PR2 carry out a plan, each effect checked, as ``tmd run`` does.
+
+        Args:
+            plan: The instructions, or a text that was grounded, of which the best plan is taken.
+            environment: The name of a bundled environment, or an environment file (YAML).
+            kinematic: Set joints along their paths instead of driving motors: faster, less realistic.
+            seed: Random seed; 0 leaves all things exactly where they are said to be.
+            planner: Replans where the state that was observed is not the predicted one.
+            repairs: Maximum number of replannings.
+            fault: Goes wrong once on the way: ``slip``, ``stuck``, ``moved`` or ``missed``.
+            video: Where a film goes, an MP4 or GIF file.
+            strip: Where a sheet with one picture for each instruction goes, a PNG file.
+            urdf: Another PR2 than the packaged one.
+            gui: Open a window, and go no faster than real time.
+
+        Returns:
+            How it ended, with every step.
+
+        Raises:
+            MissingToolError: What simulates or films is not installed.
+            OutputError: Film or sheet cannot be written.
+            TmdError: The plan does not work, or the domain has no skills or no shapes.
+        """
+        from contextlib import nullcontext
+
+        from tmd.files import check_writable
+        from tmd.robot.monitor.faults import InjectedFault
+        from tmd.robot.monitor.listeners import Order
+        from tmd.robot.run_plan import Filming, run_plan
+        from tmd.robot.video.film import open_movie
+        from tmd.world.environment import load_room
+
+        room, problem = load_room(self._file(environment)), self.problem(environment)
+        if isinstance(plan, Grounded):
+            orders = orders_of(plan)
+            said = plan.parsed.text
+        else:
+            orders, said = [Order(instruction) for instruction in plan], ""
+        verdict = validate(problem, [order.instruction for order in orders])
+        if not verdict.valid:
+            raise TmdError(f"the plan does not work: {verdict.reason}")
+        for output in (video, strip):
+            if output is not None:
+                check_writable(output)
+        with open_movie(Path(video)) if video else nullcontext() as movie:
+            filming = Filming(room.name, said, movie, Path(strip) if strip else None) if video or strip else None
+            return run_plan(
+                room,
+                self._corpus.folder,
+                problem,
+                orders,
+                filming=filming,
+                planner=planner,
+                repairs=repairs,
+                fault=InjectedFault(fault) if fault else None,
+                kinematic=kinematic,
+                seed=seed,
+                urdf=Path(urdf) if urdf else None,
+                gui=gui,
+            )
+
+    def survey_scene(
+        self,
+        environment: str | Path,
+        *,
+        reach: bool = False,
+        seed: int = 0,
+        urdf: str | Path | None = None,
+        picture: str | Path | None = None,
+    ) -> SceneSurvey:
+        """Build the robot's room of an environment and say what stands where, as ``tmd scene`` does.
+
+        See :func:`tmd.robot.skills.reachability_report.survey_scene` for arguments and errors.
+        """
+        from tmd.robot.skills.reachability_report import survey_scene
+        from tmd.world.environment import load_room
+
+        return survey_scene(
+            load_room(self._file(environment)),
+            self._corpus.folder,
+            reach=reach,
+            seed=seed,
+            urdf=Path(urdf) if urdf else None,
+            picture=Path(picture) if picture else None,
+        )
+
+    def learn(self, out: str | Path | None = None, *, weights: bool = True, seed: int = 0) -> Path:
+        """Learn from the demonstrations, and save it where texts are grounded with it, as ``tmd learn`` does.
+
+        Args:
+            out: Save in its directory of the domain's name; where this kit looks by default.
+            weights: Learn weights of the factors as well, which takes by far the longest.
+            seed: Random seed of the weights.
+
+        Returns:
+            Where it was saved.
+
+        Raises:
+            TmdError: There are no demonstrations, one is wrong, or it cannot be saved.
+        """
+        from tmd.evaluation.learn import learn_domain
+
+        found = learn_domain(self._corpus, Path(out) if out else self._learned, weights=weights, seed=seed)
+        self.__dict__["_knowledge"] = found.knowledge
+        return found.directory
+
+    def run_sentence_tests(
+        self, tests: Iterable[SentenceTest] | None = None, *, model: str = DEFAULT, guess: bool = False
+    ) -> list[SentenceResult]:
+        """Run sentence tests, as ``tmd test`` does.
+
+        Args:
+            tests: What :func:`read_sentences` read; those of the domain by default.
+            model: As for :meth:`ground`.
+            guess: As for :meth:`ground`.
+
+        Returns:
+            What became of each; ``.outcome.passed`` says whether that is right.
+
+        Raises:
+            TmdError: There are no tests, or one names what is not there; with its place.
+        """
+        from tmd.evaluation.sentence_tests import domain_sentences, judge
+
+        results = []
+        for test in domain_sentences(self._corpus.directory) if tests is None else tests:
+            try:
+                problem = self.problem(test.environment)
+            except TmdError as error:
+                raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
+            grounded = self.ground(test.text, test.environment, model=model, guess=guess)
+            results.append(judge(test, grounded, problem))
+        return results
+
+    def open_studio(
+        self, environment: str | Path | None = None, *, host: str = "127.0.0.1", port: int = 8080
+    ) -> Server:
+        """Open a studio, as ``tmd studio`` does: ``.url`` is where, ``.serve()`` waits, ``.close()`` ends it.
+
+        Args:
+            environment: Where visitors come to first; the first one by default.
+            host: Where to listen. Whoever reaches it can see the studio, and save demonstrations.
+            port: 0 takes a free one.
+
+        Raises:
+            MissingToolError: viser is not installed.
+            TmdError: The port is in use, or the environment or a demonstration is wrong.
+        """
+        from tmd.studio.server import Server
+        from tmd.studio.studio import open_studio
+
+        path = None if environment is None else self._file(environment)
+        return Server(open_studio(self._corpus, path, self._learned), host, port)
+
+    @cached_property
+    def _knowledge(self) -> Knowledge:
+        """What the demonstrations teach, asked for once."""
+        return known(self._corpus, self._learned)
+
+    def _weights(self, given: str | Path) -> Weights:
+        if given != LEARNED:
+            path = Path(given)
+            return read_weights(path) if path.suffix or path.is_file() else named_weights(str(given))
+        if self._knowledge.weights is None:
+            raise TmdError(
+                f"there are no learned weights of '{self.name}' that its demonstrations still bear out",
+                hint=f"run tmd learn {self.name}",
+            )
+        return self._knowledge.weights
+
+    def _file(self, environment: str | Path) -> Path:
+        path = Path(environment)
+        return path if path.suffix in _FILES else self._corpus.file(str(environment))
+
+    def _world(self, environment: Place) -> World:
+        if isinstance(environment, World):
+            return environment
+        if Path(environment).suffix not in _FILES:
+            return self._corpus.world(str(environment))
+        problem = self._corpus.read(Path(environment))
+        return make_world(problem.name, problem, self._corpus.lexicon)
+
+
+def orders_of(grounded: Grounded) -> list[Order]:
+    """The best plan of a text as what the robot is to do, each instruction with the words that it serves.
+
+    Raises:
+        TmdError: The text has no plan that works.
+    """
+    from tmd.robot.monitor.listeners import Order
+
+    if grounded.reason:
+        raise TmdError(f"there is no plan: {grounded.reason}")
+    clauses = [" ".join(clause.text.split()) for clause in grounded.parsed.clauses]
+    return [Order(s.instruction, s.clause, s.latent, clauses[s.clause]) for s in grounded.plans[0].steps]
