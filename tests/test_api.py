@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -10,6 +12,7 @@ import pytest
 
 import tmd
 import tmd.api
+from tmd.domain_kit import DomainKit, orders_of
 from tmd.export.formats import FORMATS
 from tmd.language import Lexicon, Parsed, parse
 
@@ -94,3 +97,117 @@ def test_what_words_could_not_be_used_is_told() -> None:
     plain = table.ground("Polish the zebra.", "corner1", model="paper")
     assert plain.warnings[0].startswith("no demonstration has the verb 'polish' (say ")
     assert "nothing here is called 'zebra'" in plain.warnings[1]
+
+
+def table(tmp_path: Path) -> DomainKit:
+    """The domain 02_table with a copy of its problems, where tests may write."""
+    shutil.copytree(ROOT / "problems" / "02_table", tmp_path / "problems" / "02_table")
+    return tmd.load_domain("02_table", domains=ROOT / "domains", problems=tmp_path / "problems")
+
+
+def test_what_a_text_asks_for_is_a_problem(tmp_path: Path) -> None:
+    kit = table(tmp_path)
+    grounded = kit.ground("Put the cup on the first table.", "corner2", beam=0, trim=0, weights="paper")
+    problem = tmd.asked_problem(grounded)
+    assert problem is not None
+    assert "(:goal (at cup1 table1 on))" in tmd.format_problem(problem)
+    assert tmd.validate(problem, tmd.find_plan(problem)).valid
+    page = tmd.grounded_page(grounded)
+    assert page.startswith("<!DOCTYPE html>") and "Put the cup on the first table. (corner2)" in page
+    assert "A plan in corner2" in tmd.plan_page(problem, grounded.plans[0].instructions)
+    assert tmd.parse("Put the cup down.", kit.lexicon).clauses[0].verb == "put_down"
+
+
+def test_what_is_learned_is_used(tmp_path: Path) -> None:
+    kit = table(tmp_path)
+    with pytest.raises(tmd.TmdError, match="there are no learned weights of '02_table'"):
+        kit.ground("Take the cup.", "corner2", weights="learned")
+    saved = kit.learn(weights=False)
+    assert saved == tmp_path / "problems" / "02_table" / "learned"
+    assert (saved / "library.json").is_file()
+    assert kit.ground("Take the cup.", "corner2").reason == ""
+
+
+def test_sentence_tests_are_run(tmp_path: Path) -> None:
+    kit = table(tmp_path)
+    assert all(result.outcome.passed for result in kit.run_sentence_tests()[:2])
+    file = tmp_path / "mine.sentences.jsonl"
+    line = '{"id": "a", "domain": "02_table", "environment": "%s", "text": "Take the zebra.", "goal": null}\n'
+    file.write_text(line % "corner1")
+    (result,) = kit.run_sentence_tests(tmd.read_sentences(file))
+    assert result.outcome == "impossible_refused"
+    assert "nothing here is called 'zebra'" in result.reason
+    file.write_text(line % "corner9")
+    with pytest.raises(tmd.TmdError, match=r"mine.sentences.jsonl:1:1: 'a': there is no environment 'corner9'"):
+        kit.run_sentence_tests(tmd.read_sentences(file))
+
+
+def test_a_domain_is_begun_checked_laid_out_and_compiled(tmp_path: Path) -> None:
+    made = tmd.new_domain("mine", domains=tmp_path / "domains", problems=tmp_path / "problems")
+    places = {"domains": tmp_path / "domains", "problems": tmp_path / "problems"}
+    assert not tmd.compile_domain("mine", domains=places["domains"])
+    domain = made.folder / "domain.pddl"
+    text = domain.read_text()
+    domain.write_text(text + "; changed\n")
+    assert tmd.compile_domain("mine", domains=places["domains"], write=False)
+    found = tmd.check_files("mine", **places)
+    assert [(d.code, d.location.file) for d in found.diagnostics] == [("stale-domain", str(domain))]
+    mended = tmd.check_files(made.folder, made.problems, fix=True, **places)
+    assert mended.fixed == (domain,)
+    assert not mended.counts[next(s for s in mended.counts if s == "error")]
+    assert domain.read_text() == text
+    problem = next(made.problems.glob("*.pddl"))
+    laid_out = problem.read_text()
+    problem.write_text(laid_out.replace("\n", "   \n", 1))
+    assert tmd.format_file(problem, write=False)
+    assert tmd.format_file(problem)
+    assert not tmd.format_file(problem)
+
+
+def test_an_experiment_is_run_and_reported(tmp_path: Path) -> None:
+    config = tmd.ExperimentConfig(
+        "set_table", tmp_path / "run", models=("nearest",), domain="02_table",
+        domains=ROOT / "domains", problems=ROOT / "problems",
+    )  # fmt: skip
+    told: list[tuple[int, int]] = []
+    metrics = tmd.run_experiment(config, progress=lambda done, of: told.append((done, of)))
+    assert set(metrics["models"]) == {"nearest"}
+    assert told[-1][0] == told[-1][1]
+    report = config.out / "report.html"
+    assert "nearest" in report.read_text()
+    report.unlink()
+    assert tmd.run_experiment(config, collect_only=True) == metrics
+    assert report.is_file()
+
+
+def test_the_usual_models_are_those_that_the_domain_has(tmp_path: Path) -> None:
+    config = tmd.ExperimentConfig("set_table", tmp_path / "run", domain="02_table")
+    with pytest.raises(tmd.TmdError, match="parts are not done"):
+        tmd.run_experiment(config, collect_only=True)
+    assert "templates" not in json.loads((tmp_path / "run" / "config.json").read_text())["models"]
+
+
+def test_a_plan_is_carried_out(tmp_path: Path) -> None:
+    pytest.importorskip("pybullet", reason="needs the extra robot")
+    kitchen = tmd.load_domain("kitchen", domains=ROOT / "domains", problems=ROOT / "problems")
+    find = tmd.Instruction("find", ("mug1",))
+    run = kitchen.run_plan([find], "kitchen1", kinematic=True)
+    assert run.execution.status == "done"
+    assert [step.instruction for step in run.execution.steps] == [find]
+    with pytest.raises(tmd.TmdError, match="the plan does not work: "):
+        kitchen.run_plan([tmd.Instruction("grasp", ("mug1",))] * 2, "kitchen1")
+    with pytest.raises(tmd.TmdError, match="cannot be written: No such directory"):
+        kitchen.run_plan([find], "kitchen1", strip=tmp_path / "no" / "s.png")
+    scene = kitchen.survey_scene("kitchen1")
+    assert "mug1" in {entry.name for entry in scene.entries}
+
+
+def test_the_best_plan_of_a_text_is_what_the_robot_is_to_do(tmp_path: Path) -> None:
+    kit = table(tmp_path)
+    orders = orders_of(kit.ground("Take the cup.", "corner2"))
+    assert [(str(order.instruction), order.text) for order in orders] == [
+        ("moveto(cup1)", "Take the cup"),
+        ("grasp(cup1)", "Take the cup"),
+    ]
+    with pytest.raises(tmd.TmdError, match="there is no plan: clause 1: nothing here is called 'zebra'"):
+        kit.run_plan(kit.ground("Take the zebra.", "corner2"), "corner2")

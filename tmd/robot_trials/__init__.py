@@ -1,4 +1,4 @@
-"""What an experiment ends with: a robot carries out predictions that were made in it.
+"""Whole experiments (:mod:`tmd.robot_trials.experiment`), and a robot that carries out predictions made in them.
 
 This package stands above experiments and robot, which do not import each other. It reads the predictions of a finished
 run (:mod:`tmd.robot_trials.choice`), lets the robot carry out one for each environment
