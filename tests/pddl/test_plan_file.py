@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.diagnostics import OutputError, TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
-from tmd.pddl.plan_file import format_plan, parse_instruction, parse_plan, read_plan, write_plan
+from tmd.pddl.plan_file import format_plan, parse_instruction, parse_plan
 
 names = st.from_regex(r"[a-z][a-z0-9_-]{0,8}", fullmatch=True)
 instructions = st.builds(Instruction, names, st.lists(names, max_size=4).map(tuple))
@@ -35,19 +33,6 @@ def test_any_text_is_an_instruction_or_a_clear_error(text: str) -> None:
         parse_instruction(text)
     except TmdError as error:
         assert error.location is not None and "\n" not in error.message
-
-
-def test_files(tmp_path: Path) -> None:
-    file = tmp_path / "a.plan"
-    plan = (Instruction("grasp", ("mug1",)), Instruction("wait"))
-    write_plan(file, plan, 5, unit=False)
-    assert file.read_bytes() == b"(grasp mug1)\n(wait)\n; cost = 5 (general cost)\n"
-    assert read_plan(file).instructions == plan
-    assert [f.name for f in tmp_path.iterdir()] == ["a.plan"]
-    with pytest.raises(OutputError, match="cannot be written"):
-        write_plan(tmp_path / "none" / "a.plan", plan)
-    with pytest.raises(OutputError, match="cannot be written"):
-        write_plan(file / "a.plan", plan)
 
 
 @pytest.mark.parametrize(

@@ -7,16 +7,14 @@ notation of an instruction is ``keep(mug1, counter1, on)``.
 
 from __future__ import annotations
 
-import os
 import re
 from collections.abc import Iterable, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, field
 from decimal import Decimal, InvalidOperation
 from itertools import pairwise
 from pathlib import Path
 
-from tmd.diagnostics import Location, OutputError, TmdError
+from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import read_text, split_lines
 
@@ -181,40 +179,20 @@ def format_plan(instructions: Iterable[Instruction], cost: int | None = None, *,
     return "\n".join(lines) + "\n"
 
 
-def write_plan(
-    path: str | Path, instructions: Iterable[Instruction], cost: int | None = None, *, unit: bool = True
-) -> None:
-    """Write a plan file, whole or not at all.
-
-    Raises:
-        OutputError: It cannot be written.
-    """
-    target = Path(path)
-    draft = target.with_name(f".{target.name}.{os.getpid()}")
-    try:
-        draft.write_text(format_plan(instructions, cost, unit=unit), encoding="utf-8")
-        draft.replace(target)
-    except OSError as error:
-        with suppress(OSError):
-            draft.unlink(missing_ok=True)
-        raise OutputError(f"{target} cannot be written: {error.strerror or error}") from error
-
-
-def parse_instruction(text: str, *, file: str = "<text>", line: int = 1, column: int = 1) -> Instruction:
+def parse_instruction(text: str, *, file: str = "<text>", line: int = 1) -> Instruction:
     """The instruction written as ``keep(mug1, counter1, on)``; ``str`` of it gives the text back.
 
     Args:
         text: What to read.
         file: Names the text in errors.
         line: The line on which ``text`` stands, for errors.
-        column: The column at which ``text`` begins, for errors.
 
     Raises:
         TmdError: It is not an instruction.
     """
 
     def error(message: str, offset: int, hint: str = "write name(argument, ...)") -> TmdError:
-        return TmdError(message, location=Location(file, line, column + offset), source=text, hint=hint)
+        return TmdError(message, location=Location(file, line, 1 + offset), source=text, hint=hint)
 
     body = text.rstrip()
     start = len(body) - len(body.lstrip())

@@ -296,11 +296,11 @@ def fast_downward(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
     return UnifiedPlanner(task, spec(task.problem.domain, time_limit))
 
 
-def first_plan(task: Task, *, time_limit: float = 10.0) -> UnifiedPlanner:
-    """Fast Downward for ``task``, content with the first plan it finds; arguments and errors as above."""
+def first_plan(task: Task) -> UnifiedPlanner:
+    """Fast Downward for ``task``, content with the first plan that it finds in ten seconds; errors as above."""
     _installed()
     search = {"fast_downward_search_config": FIRST}
-    return UnifiedPlanner(task, EngineSpec("fast-downward", search, time_limit, skip_checks=True, any_plan=True))
+    return UnifiedPlanner(task, EngineSpec("fast-downward", search, 10.0, skip_checks=True, any_plan=True))
 
 
 def _installed() -> None:

@@ -9,9 +9,9 @@ from tmd.diagnostics import TmdError
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import GroundAtom, Problem, State
-from tmd.pddl.reading.reader import read_problem, with_goal
+from tmd.pddl.reading.reader import read_problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.semantics import apply, first_broken, holds
+from tmd.pddl.semantics import apply, first_broken
 from tmd.veil.demonstration import Demonstration, check_goal, read_demonstrations
 from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
@@ -133,15 +133,6 @@ def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
             raise TmdError(f"the stated end {literal} is not reached")
     check_goal(demonstration, problem, states[-1])
     return states
-
-
-def goal_holds(goal: str, problem: Problem, state: State) -> bool:
-    """Whether a closed PDDL condition, as a text, holds in a state of ``problem``.
-
-    Raises:
-        TmdError: It is not a condition, or speaks of what the problem does not have.
-    """
-    return holds(with_goal(problem, goal, "goal").goal, state, problem)
 
 
 def final_state(demonstration: Demonstration, world: World) -> State:

@@ -73,7 +73,9 @@ class Crf:
         proposals: How many plans are looked at for each training example.
         most_examples: At most so many training examples of each world are learned from, drawn at random.
         rounds: How often plans are proposed anew.
-        journal: Where ``fit`` writes down how far it is, and goes on from; may be set later.
+
+    Attributes:
+        journal: Where ``fit`` writes down how far it is, and goes on from; ``None`` until it is set.
     """
 
     def __init__(
@@ -84,14 +86,13 @@ class Crf:
         proposals: int = 10,
         most_examples: int = 20,
         rounds: int = 2,
-        journal: Path | None = None,
     ) -> None:
         self.config = config
         self.learned = learned
         self.proposals = proposals
         self.most_examples = most_examples
         self.rounds = rounds
-        self.journal = journal
+        self.journal: Path | None = None
 
     @property
     def factors(self) -> tuple[str, ...]:

@@ -76,14 +76,6 @@ def words_of(bits: Bits, words: int) -> Ints:
     return [bits >> (WORD * i) & mask for i in range(words)]
 
 
-def bits_of(words: Sequence[int]) -> Bits:
-    """The inverse of :func:`words_of`."""
-    bits = 0
-    for word in reversed(words):
-        bits = bits << WORD | int(word)
-    return bits
-
-
 def ones(bits: Bits) -> Ints:
     """The numbers of the bits that are set, lowest first."""
     if bits.bit_count() > MANY:

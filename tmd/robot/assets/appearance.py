@@ -62,18 +62,17 @@ class ShapeKind:
 
 
 def rows(
-    front: float, width: float, depths: tuple[float, ...], pitch: float = 0.08, yaw: float = 0.0, middle: float = 0.0
+    front: float, width: float, depths: tuple[float, ...], pitch: float = 0.08, middle: float = 0.0
 ) -> list[tuple[float, float, float]]:
-    """Spots (x, y, yaw) behind a front edge, in rows; every row from the middle outwards.
+    """Spots (x, y, yaw 0) behind a front edge, in rows; every row from the middle outwards.
 
     Args:
         front: x of the front edge.
         width: From the first to the last spot of a row.
         depths: How far the rows are behind the edge.
         pitch: Between neighbours.
-        yaw: Of all.
         middle: y of the middle.
     """
     count = int(width / pitch + 1e-6)
     steps = sorted((index - count / 2 for index in range(count + 1)), key=lambda s: (abs(s), s))
-    return [(front - depth, middle + step * pitch, yaw) for depth in depths for step in steps]
+    return [(front - depth, middle + step * pitch, 0.0) for depth in depths for step in steps]

@@ -86,8 +86,8 @@ def door(
     model.grips.append(Grip(opens, "door", part, tool, BAR + 0.04, 0.0, WIDE_OPEN))
 
 
-def button(model: UrdfModel, part: str, look: Appearance, face: Vector, *, lamp: tuple[str, str] | None = None) -> None:
-    """A button that is pressed towards −x and comes back; ``lamp``: the part and predicate that it shows."""
+def button(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
+    """A button that is pressed towards −x and comes back."""
     depth, width, height = look.size
     model.link(
         part, part=part, kind="prismatic", origin=(face[0] + depth, face[1], face[2]), axis=INTO,
@@ -95,11 +95,6 @@ def button(model: UrdfModel, part: str, look: Appearance, face: Vector, *, lamp:
     )  # fmt: skip
     model.box((-depth / 2, 0.0, 0.0), (depth, width, height), look.colour, link=part)
     model.grips.append(Grip(part, "button", part, Frame((TIP, 0.0, 0.0), INTO, LEFT), 0.0, 0.0, 0.01))
-    if lamp is not None:
-        name = f"{part}_lamp"
-        model.link(name, part=part)
-        model.ball((face[0] + 0.004, face[1], face[2] + height / 2 + 0.02), 0.008, "dark_grey", link=name)
-        model.lamp(lamp[0], lamp[1], name, "lamp", "dark_grey")
 
 
 def knob(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:

@@ -68,7 +68,6 @@ class UrdfModel:
         name: str,
         *,
         part: str = ROOT,
-        parent: str = ROOT,
         kind: str = "fixed",
         origin: Vector = (0.0, 0.0, 0.0),
         axis: Vector = (0.0, 0.0, 1.0),
@@ -77,14 +76,13 @@ class UrdfModel:
         spring: float = 0.0,
         mass: float = 0.0,
     ) -> str:
-        """A new link on a joint of the same name.
+        """A new link, on the root by a joint of the same name.
 
         Args:
             name: Of link and joint.
             part: The part it is (the first link of a part is the part's own).
-            parent: The link it hangs on.
             kind: ``fixed``, ``revolute``, ``prismatic``.
-            origin: Of the joint in the parent's frame; the link's frame lies there.
+            origin: Of the joint in the root's frame; the link's frame lies there.
             axis: Of the joint.
             limits: Of the joint, radians or metres.
             friction: That holds it where it is left, N or N·m.
@@ -94,7 +92,7 @@ class UrdfModel:
         Returns:
             ``name``.
         """
-        self._add(UrdfLink(name, parent, kind, origin, axis, *limits, friction, spring, mass or 0.001))
+        self._add(UrdfLink(name, ROOT, kind, origin, axis, *limits, friction, spring, mass or 0.001))
         self.part_links.setdefault(part, name)
         self.link_parts[name] = part
         return name
@@ -137,15 +135,13 @@ class UrdfModel:
             size = {"x": (length, wide, wide), "y": (wide, length, wide), "z": (wide, wide, length)}[axis]
             self._extend(link, centre, size, 0.0)
 
-    def ball(self, centre: Vector, radius: float, colour: str, *, link: str = ROOT, solid: bool = False) -> None:
-        """A sphere."""
+    def ball(self, centre: Vector, radius: float, colour: str, *, link: str = ROOT) -> None:
+        """A sphere that nothing touches."""
         geometry = f'<sphere radius="{radius:.5f}"/>'
-        self._shape(geometry, centre, (0.0, 0.0, 0.0), colour, link, solid, seen=True)
-        if solid:
-            self._extend(link, centre, (2 * radius, 2 * radius, 2 * radius), 0.0)
+        self._shape(geometry, centre, (0.0, 0.0, 0.0), colour, link, solid=False, seen=True)
 
     def tube(
-        self, radius: float, wall: float, low: float, high: float, colour: str, *, link: str = ROOT,
+        self, radius: float, wall: float, low: float, high: float, colour: str, *,
         centre: tuple[float, float] = (0.0, 0.0),
     ) -> None:  # fmt: skip
         """An upright wall round a hollow: ``radius`` is the outer one."""
@@ -156,7 +152,7 @@ class UrdfModel:
             angle = 2 * math.pi * index / count
             at = apothem - wall / 2
             place = (centre[0] + at * math.cos(angle), centre[1] + at * math.sin(angle), middle)
-            self.box(place, (wall, length, height), colour, link=link, turn=(0.0, 0.0, angle))
+            self.box(place, (wall, length, height), colour, turn=(0.0, 0.0, angle))
 
     def lamp(self, part: str, predicate: str, link: str, on: str, off: str | None) -> None:
         """Let ``link`` show whether ``predicate`` holds of ``part``; off is invisible where it is None."""

@@ -140,13 +140,6 @@ class FaultyPerformer:
                 return _moved(cell, _taken_later(index, self._plan, tasks), self._rng, self.log)
 
 
-def with_fault(
-    performer: RobotPerformer, fault: InjectedFault, rng: Generator, plan: Sequence[Instruction]
-) -> FaultyPerformer:
-    """The same robot in a world where ``fault`` comes about once in ``plan``; its ``log`` says what happened."""
-    return FaultyPerformer(performer, fault, rng, plan)
-
-
 # slip
 
 

@@ -80,13 +80,10 @@ def plan_arm(
     ignore: Ignored = (),
     rng: np.random.Generator,
     budget: int = 300,
-    start: Sequence[float] | None = None,
-    base: Base | None = None,
-    torso: float | None = None,
-    held: Sequence[Held] | None = None,
-    clearance: float = CLEARANCE,
 ) -> list[Arm] | None:
-    """A collision-free path of one arm to joint positions.
+    """A collision-free path of one arm from where it is to joint positions.
+
+    It keeps :data:`CLEARANCE` away; what is nearer at the start or at the goal may stay as near as it is there.
 
     Args:
         robot: The robot; nothing moves.
@@ -95,18 +92,13 @@ def plan_arm(
         ignore: (body, link) that may be touched, link None: all of the body.
         rng: For samples and shortcuts.
         budget: Samples that are drawn before giving up.
-        start: Where the arm would start; None: where it is.
-        base: Where the base would be; None: where it is.
-        torso: How high the torso would be; None: as it is.
-        held: What would be in the hands; None: what is.
-        clearance: Metres to keep away. What is nearer at the start or at the goal may stay as near as it is there.
 
     Returns:
         Joint positions after the start, the last is the goal, to go through in straight lines; None: the goal touches
         something, or no path was found.
     """
     kinematics = robot.arm_kinematics[side]
-    first = np.array(robot.arm(side) if start is None else start, dtype=float)
+    first = np.array(robot.arm(side), dtype=float)
     last = kinematics.near(np.array([goal], dtype=float), first.tolist())[0]
     lower = np.where(np.isinf(kinematics.lower), np.minimum(first, last) - pi, kinematics.lower)
     upper = np.where(np.isinf(kinematics.upper), np.maximum(first, last) + pi, kinematics.upper)
@@ -119,15 +111,7 @@ def plan_arm(
         near: Array = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
         return near
 
-    with CollisionChecker(
-        robot,
-        robot.arm_joints[side],
-        positions=robot.elsewhere(base, torso),
-        arm=side,
-        helds=held,
-        ignore=ignore,
-        margin=clearance,
-    ) as checker:
+    with CollisionChecker(robot, robot.arm_joints[side], arm=side, ignore=ignore, margin=CLEARANCE) as checker:
         # what touches at an end should come off soon; where that is not possible, it may touch all the way
         for near in (_NEAR * STRIDES, None):
             if not checker.allow(((first, DEEPEST), (last, 1e-3)), near):
@@ -138,7 +122,7 @@ def plan_arm(
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng)
-        path = exact(path, robot.arm_groups[side], lambda track: checker.free(track, _ROUNDED * clearance))
+        path = exact(path, robot.arm_groups[side], lambda track: checker.free(track, _ROUNDED * CLEARANCE))
     return [tuple(float(value) for value in row) for row in path[1:]]
 
 
@@ -148,12 +132,8 @@ def plan_line(
     start: Pose,
     end: Pose,
     *,
-    steps: int | None = None,
     ignore: Ignored = (),
     arm: Sequence[float] | None = None,
-    base: Base | None = None,
-    torso: float | None = None,
-    held: Sequence[Held] | None = None,
 ) -> list[Arm] | None:
     """A straight motion of the tool: approach, retreat, push.
 
@@ -162,19 +142,16 @@ def plan_line(
         side: The arm.
         start: The first tool pose in the world.
         end: The last one; the orientation turns evenly.
-        steps: Pieces; None: 1 cm or 0.05 rad each.
-        ignore: As for :func:`plan_poses`, like all that follow.
+        ignore: As for :func:`plan_poses`.
         arm: Where the arm is at ``start``.
-        base: Where the base would be.
-        torso: How high the torso would be.
-        held: What would be in the hands.
 
     Returns:
         As :func:`plan_poses`.
     """
-    pieces = steps or max(1, int(np.ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9)))
+    # pieces of 1 cm or 0.05 rad
+    pieces = max(1, int(np.ceil(max(start.distance(end) / 0.01, start.angle(end) / 0.05) - 1e-9)))
     poses = [between(start, end, index / pieces) for index in range(pieces + 1)]
-    return plan_poses(robot, side, poses, ignore=ignore, arm=arm, base=base, torso=torso, held=held)
+    return plan_poses(robot, side, poses, ignore=ignore, arm=arm)
 
 
 def plan_poses(

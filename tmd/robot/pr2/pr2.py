@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -406,7 +406,6 @@ class Pr2:
         arm: Sequence[float] | None = None,
         base: tuple[float, float, float] | None = None,
         torso: float | None = None,
-        held: Collection[Held] | None = None,
         ignore: Ignored = (),
         margin: float = 0.0,
     ) -> list[Collision]:
@@ -417,7 +416,6 @@ class Pr2:
             arm: Its positions; None: as they are. Needs ``side``.
             base: Where the base would be.
             torso: How high the torso would be.
-            held: What would be in the hands; None: what is.
             ignore: (body, link) that may be touched, link None: all of the body.
             margin: Metres that count as touching.
 
@@ -430,10 +428,7 @@ class Pr2:
         positions = self.elsewhere(base, torso)
         if side is not None and arm is not None:
             positions |= dict(zip(self.arm_joints[side], arm, strict=True))
-        helds = None if held is None else list(held)
-        with CollisionChecker(
-            self, (), positions=positions, arm=side, helds=helds, ignore=ignore, margin=margin
-        ) as checker:
+        with CollisionChecker(self, (), positions=positions, arm=side, ignore=ignore, margin=margin) as checker:
             return checker.collisions(())
 
     @contextmanager
@@ -459,9 +454,7 @@ class Pr2:
         *,
         base: tuple[float, float, float] | None = None,
         torso: float | None = None,
-        held: Collection[Held] | None = None,
         ignore: Ignored = (),
-        margin: float = 0.0,
     ) -> list[bool]:
         """For many positions of one arm, whether they touch nothing: one call is much faster than :meth:`collides`.
 
@@ -469,15 +462,8 @@ class Pr2:
         """
         if not arms:
             return []
-        with CollisionChecker(
-            self,
-            self.arm_joints[side],
-            positions=self.elsewhere(base, torso),
-            arm=side,
-            helds=None if held is None else list(held),
-            ignore=ignore,
-            margin=margin,
-        ) as checker:
+        positions = self.elsewhere(base, torso)
+        with CollisionChecker(self, self.arm_joints[side], positions=positions, arm=side, ignore=ignore) as checker:
             return checker.each_free(np.array(arms, dtype=float))
 
 

@@ -53,7 +53,6 @@ class Bodies(Engine):
         *,
         fixed: bool,
         own_inertia: bool = False,
-        self_collision: bool = False,
         sleeps: bool = True,
     ) -> int:
         """Load a URDF.
@@ -63,7 +62,6 @@ class Bodies(Engine):
             pose: Of the root's frame in the world.
             fixed: The root is fixed to the world.
             own_inertia: Take the inertia tensors of the file; else they are computed from the collision shapes.
-            self_collision: The links of the body collide with each other (parents and children do not).
             sleeps: When it has been at rest for two seconds, leave it out of the computation until something that
                 moves touches it: a room at rest costs next to nothing.
 
@@ -76,7 +74,6 @@ class Bodies(Engine):
         bullet = self._bullet
         flags = bullet.URDF_ENABLE_CACHED_GRAPHICS_SHAPES
         flags |= bullet.URDF_USE_INERTIA_FROM_FILE if own_inertia else 0
-        flags |= bullet.URDF_USE_SELF_COLLISION_EXCLUDE_PARENT if self_collision else 0
         flags |= bullet.URDF_ENABLE_SLEEPING if sleeps else 0
         try:
             with quiet():
@@ -132,10 +129,6 @@ class Bodies(Engine):
                 found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
             self._names[body] = found
         return self._names[body]
-
-    def mass(self, body: int, link: int = -1) -> float:
-        """The mass of one link."""
-        return float(self._bullet.getDynamicsInfo(body, link, physicsClientId=self._client)[0])
 
     def pose(self, body: int, link: int = -1) -> Pose:
         """The frame of a link in the world."""

@@ -160,29 +160,12 @@ class Simulator(Bodies):
             physicsClientId=self._client,
         )
 
-    def set_friction(
-        self, body: int, link: int, lateral: float, *, spinning: float = 0.0, rolling: float = 0.0
-    ) -> None:
-        """Set the friction coefficients of a link's surface."""
-        self._bullet.changeDynamics(
-            body,
-            link,
-            lateralFriction=lateral,
-            spinningFriction=spinning,
-            rollingFriction=rolling,
-            physicsClientId=self._client,
-        )
-
-    def ignore_pair(self, body: int, link: int, other: int, other_link: int) -> None:
-        """Let two links pass through each other from now on."""
-        self._bullet.setCollisionFilterPair(body, other, link, other_link, 0, physicsClientId=self._client)
-
     # constraints
 
-    def weld(self, body: int, link: int, other: int, force: float = WELD_FORCE) -> int:
+    def weld(self, body: int, link: int, other: int) -> int:
         """Fix the root of ``other`` to a link as the two are now; returns a handle for :meth:`unweld`."""
         held = self._mass_frame(body, link).inverse() * self._mass_frame(other, -1)
-        return self._constrain(body, link, other, -1, self._bullet.JOINT_FIXED, held, Pose((0.0, 0.0, 0.0)), force)
+        return self._constrain(body, link, other, -1, self._bullet.JOINT_FIXED, held, Pose((0.0, 0.0, 0.0)), WELD_FORCE)
 
     def pin(self, body: int, link: int, other: int, other_link: int, point: Vector, force: float = WELD_FORCE) -> int:
         """Hold two links together at a point of the world, free to turn: a hand at a handle."""
@@ -217,11 +200,9 @@ class Simulator(Bodies):
 
     # what touches, what is near, what is seen
 
-    def contacts(
-        self, body: int, other: int | None = None, link: int | None = None, other_link: int | None = None
-    ) -> list[Contact]:
+    def contacts(self, body: int, other: int | None = None) -> list[Contact]:
         """What ``body`` touched in the last step."""
-        return self._contacts(self._bullet.getContactPoints, {}, body, other, link, other_link)
+        return self._contacts(self._bullet.getContactPoints, {}, body, other, None, None)
 
     def closest(
         self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None

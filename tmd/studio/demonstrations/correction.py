@@ -51,7 +51,6 @@ class Correction:
         text: What was said.
         proposed: The plan that was proposed for it, each instruction with its clause.
         lexicon: The words of the domain.
-        planner: What puts in missing instructions; the search of this package where none is given.
 
     Attributes:
         proposed: The plan as it was proposed.
@@ -63,14 +62,12 @@ class Correction:
         text: str,
         proposed: Sequence[DemonstratedStep],
         lexicon: Lexicon | None = None,
-        *,
-        planner: Planner | None = None,
     ) -> None:
         self.world = world
         self.text = clean(text)
         self.proposed = tuple(proposed)
         self._lexicon = lexicon
-        self._planner = planner
+        self._planner: Planner | None = None
         self._wording = Wording(world.task.problem)
         self._history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
         self._lock = threading.RLock()
