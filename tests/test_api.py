@@ -211,3 +211,13 @@ def test_the_best_plan_of_a_text_is_what_the_robot_is_to_do(tmp_path: Path) -> N
     ]
     with pytest.raises(tmd.TmdError, match="there is no plan: clause 1: nothing here is called 'zebra'"):
         kit.run_plan(kit.ground("Take the zebra.", "corner2"), "corner2")
+
+
+def test_a_studio_is_opened(tmp_path: Path) -> None:
+    pytest.importorskip("viser", reason="needs the extra studio")
+    server = table(tmp_path).open_studio("corner2", port=0)
+    try:
+        assert server.url == f"http://127.0.0.1:{server.port}"
+        assert server.studio.start == "corner2"
+    finally:
+        server.close()
