@@ -43,6 +43,7 @@ def test_the_api_loads_no_planner_and_no_unified_planning() -> None:
 
 def test_a_plan_is_found_exported_and_read(tmp_path: Path) -> None:
     problem = tmd.load_problem(BLOCKS / "p01.pddl", BLOCKS / "domain.pddl")
+    assert tmd.load_problem(BLOCKS / "p01.pddl") == problem
     plan = tmd.find_plan(problem)
     assert tmd.validate(problem, plan).valid
     for name in ("adl", "strips", "durative", "plansys2"):

@@ -23,13 +23,12 @@ from tmd.grounded import Grounded
 from tmd.language.parser import parse
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import read_plan as read_plan_file
-from tmd.pddl.reading.reader import read_domain, read_problem, with_goal
+from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, solve
 from tmd.planning.result import Filled, Unreachable
 from tmd.veil.roots import Roots
-from tmd.world.folder import find_domain
 
 if TYPE_CHECKING:
     from tmd.check.report import CheckReport as CheckReport
@@ -213,18 +212,18 @@ def _roots(domains: str | Path | None, problems: str | Path | None) -> Roots:
     return Roots(None if domains is None else Path(domains), None if problems is None else Path(problems))
 
 
-def load_problem(problem: str | Path, domain: str | Path) -> Problem:
+def load_problem(problem: str | Path, domain: str | Path | None = None) -> Problem:
     """A PDDL problem.
 
     Args:
         problem: Its file.
-        domain: The PDDL file of its domain, or the name of a bundled domain.
+        domain: The PDDL file of its domain, its folder, or the name of a bundled domain; by default ``domain.pddl``
+            beside the problem, or else the domain that the problem names.
 
     Raises:
         TmdError: A file is missing or wrong.
     """
-    path = Path(domain)
-    return read_problem(problem, read_domain(path) if path.is_file() else find_domain(str(domain)).domain)
+    return Roots().problem(Path(problem), None if domain is None else str(domain))
 
 
 def find_plan(problem: Problem, *, planner: str = AUTO) -> tuple[Instruction, ...]:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import Location, TmdError
 
 if TYPE_CHECKING:
     from tmd.language.lexicon.lexicon import Lexicon
-    from tmd.pddl.model import Domain
+    from tmd.pddl.model import Domain, Problem
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World
     from tmd.world.environment import Environment
@@ -93,6 +94,33 @@ class Roots:
         if not path.is_dir() and (path.suffix or _is_path(name) or path.is_file()):
             return read_domain(path)
         return self.folder(name).domain
+
+    def problem(self, path: Path, domain: str | None = None) -> Problem:
+        """A PDDL problem with its domain.
+
+        That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has
+        the name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem
+        names.
+
+        Raises:
+            TmdError: One of them is missing or wrong.
+        """
+        from tmd.pddl.reading.reader import read_problem
+        from tmd.pddl.reading.syntax import read_text
+
+        if domain is not None:
+            return read_problem(path, self.domain(domain))
+        text = read_text(path)
+        beside = path.parent / "domain.pddl"
+        if beside.is_file():
+            return read_problem(path, self.domain(str(beside)))
+        named = _domain_name(text, path)
+        found = None
+        with suppress(TmdError):
+            found = self.folder(path.resolve().parent.name).domain
+        if found is None or found.name != named:
+            found = self.folder(named).domain
+        return read_problem(path, found)
 
     def path(self, name: str) -> Path:
         """The file or directory of that name; where there is none, the folder of the domain of that name.
@@ -195,3 +223,19 @@ class Roots:
 
 def _is_path(name: str) -> bool:
     return "/" in name or "\\" in name or name in (".", "..")
+
+
+def _domain_name(text: str, path: Path) -> str:
+    from tmd.pddl.reading.syntax import Group, Word, parse
+
+    for group in parse(text, str(path)).groups:
+        for part in group.parts:
+            if isinstance(part, Group) and part.head == ":domain" and len(part.parts) == 2:
+                name = part.parts[1]
+                if isinstance(name, Word):
+                    return name.text
+    raise TmdError(
+        "this problem does not say of which domain it is",
+        location=Location(str(path), 1, 1),
+        hint="give --domain NAME, or write (:domain NAME)",
+    )

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import click
 
-from tmd.diagnostics import ExitCode, Location, TmdError
+from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
@@ -72,52 +71,10 @@ def planned_source(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
 def _of_problem(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     if asked.text is not None:
         raise click.UsageError("a text is for an environment; a PDDL problem has a goal")
-    problem = load_problem(roots, path, asked.domain)
+    problem = roots.problem(path, asked.domain)
     if asked.goal:
         problem = with_goal(problem, asked.goal)
     return _of_file(problem, asked.plan) if asked.plan else _solved(problem, asked.planner)
-
-
-def load_problem(roots: Roots, path: Path, domain: str | None) -> Problem:
-    """A PDDL problem with its domain.
-
-    That is the one that was asked for, else ``domain.pddl`` beside the problem, else the domain whose folder has the
-    name of the directory in which the problem lies (``problems/02_table/``), else the one that the problem names.
-
-    Raises:
-        TmdError: One of them is missing or wrong.
-    """
-    from tmd.pddl.reading.reader import read_domain, read_problem
-
-    if domain is not None:
-        return read_problem(path, roots.domain(domain))
-    text = read_text(path)
-    beside = path.parent / "domain.pddl"
-    if beside.is_file():
-        return read_problem(path, read_domain(beside))
-    named = _domain_name(text, path)
-    domain_read = None
-    with suppress(TmdError):
-        domain_read = roots.folder(path.resolve().parent.name).domain
-    if domain_read is None or domain_read.name != named:
-        domain_read = roots.folder(named).domain
-    return read_problem(path, domain_read)
-
-
-def _domain_name(text: str, path: Path) -> str:
-    from tmd.pddl.reading.syntax import Group, Word, parse
-
-    for group in parse(text, str(path)).groups:
-        for part in group.parts:
-            if isinstance(part, Group) and part.head == ":domain" and len(part.parts) == 2:
-                name = part.parts[1]
-                if isinstance(name, Word):
-                    return name.text
-    raise TmdError(
-        "this problem does not say of which domain it is",
-        location=Location(str(path), 1, 1),
-        hint="give --domain NAME, or write (:domain NAME)",
-    )
 
 
 def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:

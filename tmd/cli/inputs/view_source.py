@@ -9,7 +9,6 @@ from typing import Any
 
 import click
 
-from tmd.cli.inputs.export import load_problem
 from tmd.cli.inputs.grounding import GroundingOptions, answer
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
@@ -140,7 +139,7 @@ def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     if not plan.instructions:
         raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")
     if asked.problem is not None:
-        problem = load_problem(roots, asked.problem, asked.domain)
+        problem = roots.problem(asked.problem, asked.domain)
     else:
         problem = roots.world(asked.environment or "", asked.domain)[1].task.problem
     return _plan_of(asked, problem, plan)
