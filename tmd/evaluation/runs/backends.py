@@ -11,12 +11,14 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from tmd.evaluation.runs.config import DASK, ExperimentConfig
-from tmd.evaluation.runs.jobs import GO_ON, JobOutcome, EvaluationJob, WorkerLostError, do
+from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLostError, do
 
 _Made = TypeVar("_Made")
 
 
-def outcomes(config: ExperimentConfig, units: Sequence[EvaluationJob], fits: Path, fingerprint: str) -> Generator[JobOutcome]:
+def outcomes(
+    config: ExperimentConfig, units: Sequence[EvaluationJob], fits: Path, fingerprint: str
+) -> Generator[JobOutcome]:
     """Do the units, and yield what came out of each as soon as it is there, in any order.
 
     Args:

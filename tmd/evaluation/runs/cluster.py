@@ -27,7 +27,7 @@ from tmd import __version__
 from tmd.diagnostics import DataError, MissingToolError, TmdError
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import forget_datasets, open_dataset
-from tmd.evaluation.runs.jobs import GO_ON, JobOutcome, EvaluationJob, WorkerLostError, do
+from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLostError, do
 
 PACKAGE = Path(__file__).resolve().parents[2]
 CONNECT = 20.0

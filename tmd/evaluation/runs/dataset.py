@@ -11,16 +11,15 @@ from pathlib import Path
 from typing import Protocol
 
 from tmd.diagnostics import DataError, TmdError
-from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
 from tmd.evaluation.metrics import Scorer
+from tmd.evaluation.runs.config import VEIL500, ExperimentConfig
 from tmd.evaluation.runs.protocol import FILE, read_protocol
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Formula, Instruction, Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.veil.corpus import Corpus
-from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.demonstration import read_goal
+from tmd.veil.demonstration import Demonstration, Segment, read_goal
 from tmd.veil.world import World, make_world
 from tmd.world.folder import find_domain, find_problems
 

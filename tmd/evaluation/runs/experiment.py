@@ -12,15 +12,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from tmd.diagnostics import TmdError
+from tmd.evaluation.models.model import make_model
 from tmd.evaluation.runs.backends import outcomes
 from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
-from tmd.evaluation.models.model import make_model
+from tmd.evaluation.runs.jobs import jsonl, units_of
 from tmd.evaluation.runs.run_directory import RunDirectory
 from tmd.evaluation.runs.summary import summarise
-from tmd.evaluation.runs.jobs import jsonl, units_of
-from tmd.world.folder import find_domain
 
 __all__ = ["DEFAULT_MODELS", "ExperimentConfig", "Progress", "collect", "run", "work"]
 

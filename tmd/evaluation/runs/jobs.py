@@ -17,14 +17,14 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.files import make_directory, write_text
-from tmd.inference.energy import Weights
+from tmd.evaluation.models.model import Model, make_model
+from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.evaluation.runs.incomplete import leave_out
-from tmd.evaluation.models.model import Model, make_model
-from tmd.evaluation.models.prediction import Prediction
+from tmd.files import make_directory, write_text
+from tmd.inference.energy import Weights
 from tmd.pddl.model import Instruction
 
 DIGITS = 6
@@ -119,7 +119,9 @@ def units_of(models: Sequence[str], folds: Sequence[Fold]) -> list[EvaluationJob
     sets: dict[str, list[str]] = {}
     for fold in folds:
         sets.setdefault(fold.training_set, []).append(fold.name)
-    return [EvaluationJob(model, training_set, tuple(names)) for model in models for training_set, names in sets.items()]
+    return [
+        EvaluationJob(model, training_set, tuple(names)) for model in models for training_set, names in sets.items()
+    ]
 
 
 def do(config: ExperimentConfig, unit: EvaluationJob, fits: Path | None) -> JobOutcome:

@@ -15,13 +15,13 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tmd.files import make_directory, write_text
 from tmd.diagnostics import OutputError
 from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
+from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
 from tmd.evaluation.runs.summary import METRICS, SUCCESS
-from tmd.evaluation.runs.jobs import JobOutcome, EvaluationJob, journal_files
+from tmd.files import make_directory, write_text
 
 PREDICTIONS = "predictions.jsonl"
 METRICS_FILE = "metrics.json"
