@@ -107,10 +107,10 @@ def main(paths: Sequence[Path]) -> None:
             problem = domain.corpus.world(test.environment).task.problem
             results.append(judge(test, domain.ground(test, config, change), problem))
         counts = summary(results)
-        assert sum(r.outcome is Outcome.RIGHT for r in results) == counts["right"]
+        assert sum(r.outcome is Outcome.RIGHT for r in results) == counts.right
         print(
-            f"{name:16} {counts['right']:5}  {counts['wrong']:5}  {counts['refused']:7}  "
-            f"{counts['impossible_refused']} of {counts['impossible']}",
+            f"{name:16} {counts.right:5}  {counts.wrong:5}  {counts.refused:7}  "
+            f"{counts.impossible_refused} of {counts.impossible}",
             flush=True,
         )
 

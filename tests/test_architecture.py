@@ -18,6 +18,7 @@ LAYERS = (
     ("goals",),
     ("inference",),
     ("grounded",),
+    ("records",),
     ("ground", "export"),
     ("view", "evaluation"),
     ("check", "robot_trials", "studio"),

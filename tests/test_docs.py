@@ -4,11 +4,13 @@ An example is a ``console`` block after a ``<!-- tested -->`` line; its commands
 A block after ``<!-- file: NAME -->`` is a file that the examples of its page find in their working directory.
 Blocks after ``<!-- tested: one after another -->`` are a walk: the commands of the page run in one directory, which is
 empty at first, and a block after ``<!-- write: PATH -->`` (or ``append:``) writes that file when its turn comes.
-``python tests/test_docs.py`` runs the examples and writes their output into the pages anew.
+A ``json`` block after ``<!-- format: NAME -->`` holds values of that format, one a line.
+``python tests/test_docs.py`` runs the examples and writes their output into the pages anew, and the schemas.
 """
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
@@ -18,8 +20,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from pydantic import TypeAdapter
+
+from tmd.records.schemas import FORMATS, schema_text, write_schemas
 
 ROOT = Path(__file__).resolve().parents[1]
+SCHEMAS = ROOT / "docs" / "schemas"
 _BLOCK = re.compile(r"(?<=<!-- tested -->\n```console\n).*?(?=^```$)", re.MULTILINE | re.DOTALL)
 _WALK = re.compile(
     r"<!-- tested: one after another -->\n```console\n(?P<console>.*?)^```$"
@@ -27,6 +33,8 @@ _WALK = re.compile(
     re.MULTILINE | re.DOTALL,
 )
 _FILE = re.compile(r"<!-- file: ([\w.]+) -->\n```\w*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_VALUES = re.compile(r"<!-- format: ([\w-]+) -->\n```json\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+_PRINTED = re.compile(r"tmd (parse|ground|run|test) [^|&>]*--json[^|&>]*")
 _FENCED = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 _LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 _HEADING = re.compile(r"^#+ +(.*?) *$", re.MULTILINE)
@@ -161,8 +169,43 @@ def test_no_page_speaks_of_one_machine(page: Path) -> None:
     assert _OF_ONE_MACHINE.findall(page.read_text(encoding="utf-8")) == []
 
 
+def _json_values() -> Iterator[object]:
+    """The JSON of the pages with the name of its format."""
+    names = {"ground": "grounding"}
+    for page, command, output in examples():
+        if printed := _PRINTED.fullmatch(command):
+            name = "goal-only" if "--goal-only" in command else names.get(printed[1], printed[1])
+            yield pytest.param(name, json.loads(output), id=f"{page.name}-{command[:40]}")
+    for page in pages():
+        for name, block in _VALUES.findall(page.read_text(encoding="utf-8")):
+            for number, line in enumerate(block.splitlines()):
+                yield pytest.param(name, json.loads(line), id=f"{page.name}-{name}-{number}")
+
+
+@pytest.mark.parametrize(("name", "value"), _json_values())
+def test_json_on_the_pages_is_of_its_format(name: str, value: object) -> None:
+    TypeAdapter(FORMATS[name]).validate_python(value)
+
+
+@pytest.mark.parametrize(("name", "value"), _json_values())
+def test_json_on_the_pages_is_of_its_schema(name: str, value: object) -> None:
+    jsonschema = pytest.importorskip("jsonschema", reason="the package jsonschema is not installed")
+    jsonschema.validate(value, json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")))
+
+
+def test_the_schemas_are_those_of_the_classes() -> None:
+    written = {path.name.removesuffix(".schema.json"): path.read_text(encoding="utf-8") for path in SCHEMAS.iterdir()}
+    assert written == {name: schema_text(name) for name in FORMATS}, "write them anew: python -m tmd.records"
+
+
+def test_the_page_on_json_links_to_every_schema() -> None:
+    page = (ROOT / "docs" / "json.md").read_text(encoding="utf-8")
+    assert set(re.findall(r"\(schemas/([\w-]+)\.schema\.json\)", page)) == set(FORMATS)
+
+
 def rewrite() -> None:
-    """Write the output of every example into its page."""
+    """Write the output of every example into its page, and the schemas of the formats."""
+    write_schemas(SCHEMAS)
     for page in pages():
         text = page.read_text(encoding="utf-8")
         page.write_text(_BLOCK.sub(lambda block, page=page: _again(page, block[0]), text), encoding="utf-8")

@@ -18,7 +18,7 @@ from tmd.evaluation.sentence_tests import (
     SentenceTest,
     judge,
     read_sentences,
-    result_json,
+    report,
     summary,
 )
 from tmd.pddl.reading.reader import with_goal
@@ -72,8 +72,8 @@ def test_the_model_that_ships_is_no_worse(domain: str, learned: Path) -> None:
     tests = [test for path in FILES if path.parent.name == domain for test in read_sentences(path)]
     counts = summary(result(test) for test in tests[:: EVERY.get(domain, 1)])
     right, refused = FLOORS[domain]
-    assert counts["right"] >= right, counts
-    assert counts["impossible_refused"] >= refused, counts
+    assert counts.right >= right, counts
+    assert counts.impossible_refused >= refused, counts
 
 
 # ---------------------------------------------------------------- reading
@@ -136,7 +136,7 @@ def test_a_test_is_judged_by_the_state_at_the_end(text: str, goal: str | None, o
     assert found.outcome.passed == (outcome in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED))
     assert bool(found.plan) == (outcome in (Outcome.RIGHT, Outcome.WRONG, Outcome.IMPOSSIBLE_PLANNED))
     assert bool(found.reason) != (outcome is Outcome.RIGHT)
-    assert json.loads(json.dumps(result_json(found)))["outcome"] == outcome.value
+    assert report([found]).to_value()["cases"][0]["outcome"] == outcome.value
 
 
 def test_a_goal_that_is_none_is_told_with_the_id() -> None:
@@ -148,10 +148,10 @@ def test_the_summary_counts() -> None:
     test = SentenceTest("a", "02_table", "corner1", "", None)
     outcomes = [*Outcome, Outcome.WRONG]
     results = [SentenceResult(test, o, warnings=("w",) if n == 1 else ()) for n, o in enumerate(outcomes)]
-    assert summary(results) == {
+    assert summary(results).to_value() == {
         "n": 6, "right": 1, "wrong": 2, "wrong_warned": 1, "refused": 1, "impossible": 2, "impossible_refused": 1,
     }  # fmt: skip
-    assert set(summary([]).values()) == {0}
+    assert set(summary([]).to_value().values()) == {0}
 
 
 # ---------------------------------------------------------------- the command

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
-from tmd.diagnostics import Location, TmdError
-from tmd.robot.monitor.faults import Happening
+from tmd.diagnostics import TmdError
+from tmd.records.json_record import JsonRecord, json_value
+from tmd.records.run import FaultRecord, RanStep
 
 Key: TypeAlias = tuple[str, str, str, int]
 
@@ -53,35 +53,14 @@ class Case:
         return self.name, "physics" if self.physics else "kinematic", self.fault, self.seed
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
-    """One instruction as it went; see :class:`tmd.robot.skills.results.ExecutedStep`.
+class TimedStep(RanStep):
+    """One instruction as it went, with the skill that did it and the seconds of wall-clock time that it took."""
 
-    Attributes:
-        instruction: What was done.
-        skill: Which skill did it.
-        repair: Whether the monitor put it in.
-        failure: Why it failed.
-        mismatches: What was not as predicted.
-        evidence: What showed its event.
-        seconds: Of wall-clock time.
-        ticks: Of the simulation.
-        begin: The tick it began at.
-    """
-
-    instruction: str
     skill: str
-    repair: bool
-    failure: str
-    mismatches: tuple[str, ...]
-    evidence: str
-    seconds: float
-    ticks: int
-    begin: int
+    took: float
 
 
-@dataclass(frozen=True, slots=True)
-class Record:
+class Record(JsonRecord):
     """One run, as it went.
 
     Attributes:
@@ -94,7 +73,7 @@ class Record:
         status: ``done``, ``recovered``, ``stopped``, or ``error``.
         reason: Why it did not get to the end.
         repairs: How often the plan was mended.
-        lines: The instructions.
+        steps: The instructions.
         faults: The faults that came about.
         goal: The literals of the end state that do not hold in what is observed at the end.
         setup: Seconds until the robot could begin.
@@ -103,6 +82,9 @@ class Record:
         trajectory: The digest of the trajectory; empty where it was not asked for.
         repeated: Whether the second run had the same; ``None`` where it was not asked for.
     """
+
+    WHAT = "a run of this version"
+    ANEW = "move the file away to begin anew"
 
     name: str
     task: str
@@ -113,14 +95,14 @@ class Record:
     status: str
     reason: str
     repairs: int
-    lines: tuple[Line, ...]
-    faults: tuple[Happening, ...]
+    steps: tuple[TimedStep, ...]
+    faults: tuple[FaultRecord, ...]
     goal: tuple[str, ...]
     setup: float
     seconds: float
     simulated: float
-    trajectory: str = ""
-    repeated: bool | None = field(default=None)
+    trajectory: str
+    repeated: bool | None
 
     @property
     def key(self) -> Key:
@@ -133,7 +115,7 @@ def append(directory: Path, record: Record) -> None:
     path = directory / FILE
     cut = path.exists() and path.stat().st_size > 0 and not path.read_bytes().endswith(b"\n")
     with path.open("a", encoding="utf-8") as file:
-        file.write("\n" * cut + json.dumps(asdict(record), ensure_ascii=False) + "\n")
+        file.write("\n" * cut + record.to_line())
 
 
 def read(directory: Path) -> list[Record]:
@@ -146,23 +128,11 @@ def read(directory: Path) -> list[Record]:
     if not path.exists():
         return []
     found = {}
-    for number, text in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    for number, text in enumerate(path.read_text(encoding="utf-8").split("\n"), start=1):
         try:
-            record = _record(json.loads(text))
-        except ValueError:
+            value = json_value(text, str(path), number)
+        except TmdError:
             continue
-        except (KeyError, TypeError) as error:
-            raise TmdError(
-                "this line is not a run of this version",
-                location=Location(str(path), number, 1),
-                hint="move the file away to begin anew",
-            ) from error
+        record = Record.from_value(value, str(path), number)
         found[record.key] = record
     return sorted(found.values(), key=lambda record: (record.task, record.environment, record.key))
-
-
-def _record(data: dict[str, Any]) -> Record:
-    data["lines"] = tuple(Line(**{**line, "mismatches": tuple(line["mismatches"])}) for line in data["lines"])
-    data["faults"] = tuple(Happening(**happening) for happening in data["faults"])
-    data["goal"] = tuple(data["goal"])
-    return Record(**data)

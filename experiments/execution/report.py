@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from statistics import median
 
-from experiments.execution.record import FAILED, Line, Record
+from experiments.execution.record import FAILED, Record, TimedStep
 
 Rows = list[list[str]]
 
@@ -103,7 +103,7 @@ def seen(record: Record) -> bool:
     if not record.faults:
         return False
     first = min(happening.tick for happening in record.faults)
-    return any((line.failure or line.mismatches) and line.begin + line.ticks >= first for line in record.lines)
+    return any(step.outcome != "ok" and step.end >= first for step in record.steps)
 
 
 def claimed_falsely(record: Record) -> bool:
@@ -129,12 +129,12 @@ def failed(records: Iterable[Record]) -> Rows:
             failure = found["program", masked(record.reason)]
             failure.times, failure.ended = failure.times + 1, failure.ended + 1
             failure.runs.add(record.name)
-        wrong = [line for line in record.lines if line.failure or line.mismatches]
-        for line in wrong:
-            failure = found[line.skill, trouble(line)]
+        wrong = [step for step in record.steps if step.outcome != "ok"]
+        for step in wrong:
+            failure = found[step.skill, trouble(step)]
             failure.times += 1
             failure.runs.add(record.name)
-            failure.ended += record.status == "stopped" and line is wrong[-1]
+            failure.ended += record.status == "stopped" and step is wrong[-1]
     ordered = sorted(found.items(), key=lambda pair: (-pair[1].ended, -pair[1].times, pair[0]))
     return [
         [skill, text, str(f.times), str(len(f.runs)), str(f.ended), " ".join(sorted(f.runs)[:_EXAMPLES])]
@@ -142,9 +142,9 @@ def failed(records: Iterable[Record]) -> Rows:
     ]
 
 
-def trouble(line: Line) -> str:
+def trouble(step: TimedStep) -> str:
     """What went wrong in a step, with its numbers masked."""
-    return masked(line.failure or "mismatch: " + line.mismatches[0])
+    return masked(step.failure or f"mismatch: {step.mismatches[0]}")
 
 
 def masked(text: str) -> str:
@@ -159,8 +159,8 @@ def slowest(records: Iterable[Record]) -> Rows:
     """Seconds of wall-clock time by skill, the slowest first."""
     found: dict[str, list[tuple[float, str]]] = defaultdict(list)
     for record in records:
-        for line in record.lines:
-            found[line.skill].append((line.seconds, f"{line.instruction} in {record.name}"))
+        for step in record.steps:
+            found[step.skill].append((step.took, f"{step.instruction} in {record.name}"))
     rows = []
     for skill, times in sorted(found.items(), key=lambda pair: -max(pair[1])[0])[:_SLOWEST]:
         worst, name = max(times)

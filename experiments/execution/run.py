@@ -6,14 +6,14 @@ import re
 import time
 import traceback
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 
-from experiments.execution.record import FAILED, Case, Line, Record
+from experiments.execution.record import FAILED, Case, Record, TimedStep
 from experiments.execution.trace import Trace
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
-from tmd.robot.monitor.faults import Happening, InjectedFault
+from tmd.records.run import FaultRecord, RanStep
+from tmd.robot.monitor.faults import InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
@@ -30,7 +30,7 @@ def run(case: Case) -> Record:
     first = _guarded(case)
     if not case.twice or first.status == FAILED:
         return first
-    return replace(first, repeated=_guarded(case).trajectory == first.trajectory)
+    return first.model_copy(update={"repeated": _guarded(case).trajectory == first.trajectory})
 
 
 @cache
@@ -84,8 +84,8 @@ def _run(case: Case) -> Record:
         status=run.execution.status.value,
         reason=run.execution.reason,
         repairs=run.execution.repairs,
-        lines=tuple(notes.lines),
-        faults=run.faults,
+        steps=tuple(notes.steps),
+        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in run.faults),
         goal=tuple(literal for literal in case.end_state if not holds(literal, run.execution.state)),
         setup=round(ready - begin, 3),
         seconds=round(time.perf_counter() - ready, 3),
@@ -99,7 +99,7 @@ class _Notes:
 
     def __init__(self, skills: Skills) -> None:
         self.skills = skills
-        self.lines: list[Line] = []
+        self.steps: list[TimedStep] = []
         self._last = time.perf_counter()
 
     def restart(self) -> None:
@@ -112,41 +112,22 @@ class _Notes:
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         now = time.perf_counter()
-        self.lines.append(
-            Line(
-                str(step.instruction),
-                self.skills.task(step.instruction).skill,
-                step.repair,
-                step.failure,
-                tuple(map(str, step.mismatches)),
-                step.evidence,
-                round(now - self._last, 3),
-                step.end - step.begin,
-                step.begin,
+        self.steps.append(
+            TimedStep(
+                **RanStep.of(title, step).given(),
+                skill=self.skills.task(step.instruction).skill,
+                took=round(now - self._last, 3),
             )
         )
         self._last = now
 
 
-def _record(
-    case: Case,
-    *,
-    status: str,
-    reason: str,
-    seconds: float,
-    repairs: int = 0,
-    lines: tuple[Line, ...] = (),
-    faults: tuple[Happening, ...] = (),
-    goal: tuple[str, ...] = (),
-    setup: float = 0.0,
-    simulated: float = 0.0,
-    trajectory: str = "",
-) -> Record:
+def _record(case: Case, **told: object) -> Record:
+    """The record of a case; what is not told is as where nothing was done."""
     name, mode, fault, seed = case.key
-    return Record(
-        name, case.task, case.environment, mode, fault, seed, status, reason, repairs, lines, faults, goal,
-        setup, seconds, simulated, trajectory,
-    )  # fmt: skip
+    nothing = {"repairs": 0, "steps": (), "faults": (), "goal": (), "setup": 0.0, "simulated": 0.0}
+    asked = {"name": name, "task": case.task, "environment": case.environment, "mode": mode, "fault": fault}
+    return Record.model_validate({**asked, "seed": seed, **nothing, "trajectory": "", "repeated": None, **told})
 
 
 def holds(literal: str, state: State) -> bool:

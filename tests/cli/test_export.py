@@ -75,21 +75,30 @@ def test_an_environment_and_a_goal(tmd: Tmd, tmp_path: Path, environment: Path) 
 
 
 def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
-    steps = [{"action": name, "args": args, "clause": 0, "latent": False} for name, *args in STEPS]
-    value = {"text": "x", "domain": "kitchen", "environment": "kitchen1", "plans": [{"steps": steps}]}
+    value = json.loads(tmd("ground", "--environment", "kitchen1", "--text", "Take the cup.", "--json").out)
     (tmp_path / "g.json").write_text(json.dumps(value))
     assert tmd("export", "g.json", "out", "--format", "ipc").code == ExitCode.OK
     (tmp_path / "g.json").write_text(json.dumps({**value, "plans": []}))
     ended = tmd("export", "g.json", "none")
     assert (ended.code, ended.err) == (ExitCode.NOT_GROUNDED, "no plan: g.json has no plan\n")
+    del value["warnings"]
+    (tmp_path / "g.json").write_text(json.dumps(value))
+    ended = tmd("export", "g.json", "none")
+    assert (ended.code, ended.err) == (
+        ExitCode.BAD_INPUT,
+        "error: g.json is not what tmd ground --json prints: warnings: the key is missing\n"
+        "hint: it was written by an older version of tmd: make it anew with tmd ground --json\n",
+    )
 
 
 def run_directory(path: Path, predictions: int = 2) -> Path:
     path.mkdir()
     (path / "config.json").write_text(json.dumps({"data": "bundled", "domain": "kitchen"}))
     said = [f"{name}({', '.join(args)})" for name, *args in STEPS]
+    scores = dict.fromkeys(("IED", "END", "EED", "EED_trim"), 50.0)
+    rest = {"task": "ramen", "fold": "f", "text": "x", "gold": said, "executable": True, "clauses": [], "segments": []}
     rows = [
-        {"id": f"ramen-kitchen1-0{n}", "model": "full", "environment": "kitchen1", "predicted": said}
+        {"id": f"ramen-kitchen1-0{n}", "model": "full", "environment": "kitchen1", "predicted": said, **rest, **scores}
         for n in range(1, predictions + 1)
     ]
     (path / "predictions.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
@@ -111,9 +120,12 @@ def test_a_prediction_of_a_run(tmd: Tmd, tmp_path: Path) -> None:
 def test_a_run_that_is_none(tmd: Tmd, tmp_path: Path) -> None:
     run = run_directory(tmp_path / "run", 1)
     (run / "predictions.jsonl").write_text('{"id": "a"}\n')
-    assert "run/predictions.jsonl:1:1: this line is not a prediction" in tmd("export", run, "out").err
+    assert (
+        "run/predictions.jsonl:1:1: this is not a prediction of tmd experiment: task: the key"
+        in tmd("export", run, "out").err
+    )
     (run / "predictions.jsonl").write_text("{\n")
-    assert "run/predictions.jsonl:1:1: this is not valid JSON" in tmd("export", run, "out").err
+    assert "run/predictions.jsonl:1:2: this is not valid JSON" in tmd("export", run, "out").err
     (run / "config.json").unlink()
     assert "is no directory of a finished run" in tmd("export", run, "out").err
 

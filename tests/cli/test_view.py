@@ -17,7 +17,7 @@ WHERE = ("--environment", "corner2")
 DEMONSTRATIONS = sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))
 STEPS = [
     {"number": 1, "action": "moveto", "args": ["book1"], "repair": False, "outcome": "ok", "failure": None,
-     "evidence": "it is near", "confirmed": ["(near pr2 table2)"], "mismatches": []},
+     "evidence": "it is near", "confirmed": ["(near pr2 table2)"], "mismatches": [], "begin": 0, "end": 9},
 ]  # fmt: skip
 
 
@@ -60,6 +60,8 @@ def run_of(grounded: Path, **more: object) -> dict[str, object]:
         "planner": "in-process",
         "plan": told["plans"][0]["steps"],
         "version": "0.1.0",
+        "environment_file": None,
+        "strip": None,
         "grounding": told,
     } | more
 
@@ -81,7 +83,11 @@ def test_standard_input_and_output(tmd: Tmd, tmp_path: Path, grounded: Path) -> 
 
 def test_a_log_with_its_filmstrip(here: Tmd, tmp_path: Path, grounded: Path) -> None:
     image = pytest.importorskip("PIL.Image")
-    events = [{"event": "plan", **run_of(grounded)}, {"event": "begin", "number": 1}, {"event": "step", **STEPS[0]}]
+    events = [
+        {"event": "plan", **run_of(grounded)},
+        {"event": "begin", "number": 1, "instruction": "moveto(book1)"},
+        {"event": "step", **STEPS[0]},
+    ]
     events.append({"event": "end", "status": "stopped", "reason": "no hand fits", "repairs": 0, "seconds": 1.5})
     log = tmp_path / "cup.jsonl"
     log.write_text("".join(json.dumps(event) + "\n" for event in events))
@@ -109,7 +115,8 @@ def test_the_log_of_a_run_that_was_killed(here: Tmd, tmp_path: Path, grounded: P
 
 
 def test_a_run_of_a_plan_file_has_no_sentence(here: Tmd, tmp_path: Path, grounded: Path) -> None:
-    record = run_of(grounded, text=None, grounding=None) | {"steps": STEPS, "status": "done"}
+    record = run_of(grounded, text=None, grounding=None) | {"steps": STEPS, "status": "done", "faults": []}
+    record |= {"reason": None, "repairs": 0, "seconds": 0.5}
     (tmp_path / "run.json").write_text(json.dumps(record))
     assert here("view", "run.json").code == ExitCode.OK
     assert not page(tmp_path / "run.html").of_class("tmd-text")
@@ -210,7 +217,9 @@ def test_bad_files_are_refused_in_one_line(here: Tmd, tmp_path: Path, name: str)
 
 
 def test_half_characters_in_a_file_do_not_stop_the_page(here: Tmd, tmp_path: Path) -> None:
-    (tmp_path / "x.json").write_text('{"text": "\\ud800 <b>", "environment": "corner2", "clauses": [], "plans": []}')
+    told = json.loads(here("ground", *WHERE, "--text", "Zzyzx blorf wug.", "--json").out)
+    half = told | {"text": "\ud800 <b>", "clauses": [], "skipped": [], "refused": None}
+    (tmp_path / "x.json").write_text(json.dumps(half))
     assert here("view", "x.json").code == ExitCode.NOT_GROUNDED
     assert "�" in page(tmp_path / "x.html").text
 

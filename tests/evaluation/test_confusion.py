@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, belonging, by_instruction, by_verb
-from tmd.evaluation.runs.records import ClauseRecord, Line, SegmentRecord
+from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 
 TEXT = "Take the cup. Fill it, then put it down."
 SEGMENTS = [
@@ -18,14 +18,16 @@ SEGMENTS = [
 ]
 
 
-def clause(text: str, verb: str, *said: str, latent: tuple[str, ...] = ()) -> ClauseRecord:
-    return ClauseRecord(text=text, verb=verb, latent=list(latent), said=list(said))
+def clause(text: str, verb: str, *said: str, latent: tuple[str, ...] = ()) -> PredictedClause:
+    return PredictedClause(text=text, verb=verb, latent=latent, said=said, source=None, factors={})
 
 
-def line(clauses: list[ClauseRecord], segments: list[tuple[str, list[str]]] | None = None, text: str = TEXT) -> Line:
+def line(
+    clauses: list[PredictedClause], segments: list[tuple[str, list[str]]] | None = None, text: str = TEXT
+) -> PredictionRecord:
     parts = [SegmentRecord(text=t, instructions=i) for t, i in (SEGMENTS if segments is None else segments)]
     scores: dict[str, Any] = dict.fromkeys(("IED", "END", "EED", "EED_trim"), 0.0)
-    return Line(
+    return PredictionRecord(
         id=1, task="t", environment="e", model="m", fold="f", text=text, executable=True, clauses=clauses,
         predicted=[step for c in clauses for step in (*c.latent, *c.said)],
         gold=[step for part in parts for step in part.instructions], segments=parts, **scores,

@@ -41,8 +41,9 @@ def test_a_run_writes_what_it_promises(tmp_path: Path) -> None:
     assert [line["model"] for line in lines] == [m for m in QUICK for _ in range(20)]
     for line in lines:
         assert [str(parse_instruction(step)) for step in line["gold"]] == line["gold"]
-    rows = metrics["models"]
-    assert json.loads((tmp_path / "metrics.json").read_text()) == metrics
+    told = metrics.to_value()
+    assert json.loads((tmp_path / "metrics.json").read_text()) == told
+    rows = told["models"]
     assert list(rows) == list(QUICK)
     assert all(row["n"] == row["tasks"]["ramen"]["n"] == 20 for row in rows.values())
     assert rows["empty"]["IED"] == pytest.approx(0.0, abs=0.01)
@@ -72,7 +73,7 @@ def test_processes_and_interruptions_change_no_byte(tmp_path: Path) -> None:
 
 def test_a_seed_changes_chance_and_nothing_else(tmp_path: Path) -> None:
     quick = ("empty", "chance")
-    rows = [run(config(tmp_path / str(seed), models=quick, seed=seed))["models"] for seed in (0, 1)]
+    rows = [run(config(tmp_path / str(seed), models=quick, seed=seed)).models for seed in (0, 1)]
     assert rows[0]["empty"] == rows[1]["empty"]
     assert rows[0]["chance"] != rows[1]["chance"]
 

@@ -18,8 +18,10 @@ from rich.console import Console
 from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.report.examples import best_and_worst
 from tmd.evaluation.report.report import print_table, write_report
-from tmd.evaluation.runs.records import Line, read_run
+from tmd.evaluation.runs.finished_run import read_run
 from tmd.evaluation.runs.summary import summarise
+from tmd.records.metrics import Metrics
+from tmd.records.prediction import PredictionRecord
 
 EVIL = "<script>alert('é $x$')</script> & <b onclick=\"x\">\u2028[bold]"
 
@@ -64,7 +66,7 @@ def finished(
         for n in range(15)
     ]
     config = {"task": "all", "data": "bundled", "seed": 0, "models": list(models), "note": EVIL}
-    folds = {"one": {"train": 4, "test": 30}}
+    folds = {"one": {"train": 4, "test": 30, "training_set": "one"}}
     metrics = summarise(predictions, models) | {"config": config, "folds": folds}
     directory.mkdir(exist_ok=True)
     (directory / "metrics.json").write_text(json.dumps(metrics))
@@ -176,14 +178,14 @@ def test_a_page_with_texts_of_others_says_so(tmp_path: Path) -> None:
 
 
 def test_the_ten_best_and_the_ten_worst_without_overlap() -> None:
-    lines = [Line.model_validate(line("m", n, "t", float(n))) for n in range(15)]
+    lines = [PredictionRecord.model_validate(line("m", n, "t", float(n))) for n in range(15)]
     best, worst = best_and_worst(lines)
     assert [shown.line.IED for shown in best] == [float(n) for n in range(14, 4, -1)]
     assert [shown.line.IED for shown in worst] == [0.0, 1.0, 2.0, 3.0, 4.0]
 
 
 def test_steps_of_a_sequence_that_was_changed_afterwards_belong_to_no_clause() -> None:
-    changed = Line.model_validate(line("m", 1, "t", 1.0, predicted=["moveto(cup)"]))
+    changed = PredictionRecord.model_validate(line("m", 1, "t", 1.0, predicted=["moveto(cup)"]))
     (shown,), _ = best_and_worst([changed])
     assert not shown.whole
     assert {step.clause for step in shown.steps} == {None}
@@ -239,11 +241,24 @@ def test_the_same_run_has_the_same_bytes_whatever_the_user_likes(
         ("metrics.json", "{", "metrics.json"),
         ("metrics.json", '{"models": {}}', "models"),
         ("predictions.jsonl", None, "predictions.jsonl"),
-        ("predictions.jsonl", '{"id": 1}\n', "predictions.jsonl:1: damaged: task"),
+        (
+            "predictions.jsonl",
+            '{"id": 1}\n',
+            "predictions.jsonl:1:1: this is not a prediction of tmd experiment: task: ",
+        ),
         ("predictions.jsonl", "\n{", "predictions.jsonl:2"),
         ("predictions.jsonl", "", "differ on the row 'empty'"),
         ("fits/full-one.json", "[]", "full-one.json"),
-        ("fits/full-one.json", '{"model": "full", "worlds": {"k": {"weights": {"env": "x"}}}}', "worlds.k.weights.env"),
+        (
+            "fits/full-one.json",
+            '{"model": "full", "worlds": {}}',
+            "trained_in: the key is missing (it was",
+        ),
+        (
+            "fits/full-one.json",
+            '{"model": "full", "trained_in": [], "worlds": {"k": {"weights": {"env": "x"}, "curve": []}}}',
+            "worlds.k.weights.env: should be a valid number",
+        ),
     ],
 )
 def test_a_damaged_run_is_named_in_one_line_and_nothing_is_written(
@@ -278,7 +293,7 @@ def test_a_page_that_cannot_be_written_leaves_the_old_one(tmp_path: Path) -> Non
 
 def test_the_table_on_the_screen_fits_and_is_marked(directory: Path) -> None:
     out = Console(file=io.StringIO(), width=80)
-    print_table(json.loads((directory / "metrics.json").read_text()), out)
+    print_table(Metrics.from_text((directory / "metrics.json").read_text(), "metrics.json"), out)
     assert isinstance(out.file, io.StringIO)
     said = out.file.getvalue()
     assert re.search(r"full +30 +67\.0 ±0\.8 ", said)
@@ -291,7 +306,7 @@ def test_the_table_on_the_screen_fits_and_is_marked(directory: Path) -> None:
 def test_records_have_what_was_written(directory: Path) -> None:
     run = read_run(directory)
     assert len(run.of("full")) == 30
-    assert run.fits[0].name == "full-one"
+    assert list(run.fits) == ["full-one"]
     assert run.lines[0].text.endswith("\u2028[bold] 0")
 
 

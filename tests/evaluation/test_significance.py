@@ -11,8 +11,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy import stats
 
-from tmd.evaluation.runs.summary import METRICS, summarise
+from tmd.evaluation.runs.summary import summarise
 from tmd.evaluation.significance import compare, holm, intervals, sign_flip
+from tmd.records.metrics import METRICS
 
 
 def prediction(model: str, number: int, score: float, text: str | None = None, **changes: object) -> dict[str, Any]:

@@ -20,14 +20,16 @@ from tmd.evaluation.report.report import print_table, write_report
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.dataset import BundledData, forget_datasets
 from tmd.evaluation.runs.experiment import run
-from tmd.evaluation.runs.records import Line, read_run
-from tmd.evaluation.runs.summary import TESTED, summarise
+from tmd.evaluation.runs.finished_run import read_run
+from tmd.evaluation.runs.summary import summarise
 from tmd.evaluation.significance import compare
 from tmd.pddl.forced_execution import rollout
 from tmd.pddl.model import Formula, Problem
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import read_problem, with_goal
 from tmd.pddl.semantics import holds
+from tmd.records.metrics import TESTED, Metrics
+from tmd.records.prediction import PredictionRecord
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]
@@ -104,7 +106,7 @@ def test_a_goal_is_looked_up_where_end_looks(yard: Problem, plan: list[str], goa
 
 
 def test_a_run_tells_success_of_what_has_a_goal(mixed: ExperimentConfig) -> None:
-    metrics = run(mixed)
+    metrics = run(mixed).to_value()
     empty = [line for line in lines_of(mixed.out) if line["model"] == "empty"]
     assert {(line["id"][-1], line["success"]) for line in empty} == {("1", True), ("2", False), ("3", None)}
     row = metrics["models"]["empty"]
@@ -121,7 +123,7 @@ def test_a_run_tells_success_of_what_has_a_goal(mixed: ExperimentConfig) -> None
 
 def test_without_goals_there_is_no_such_column(tmp_path: Path) -> None:
     plain = config(corpus(tmp_path / "problems", None, None), tmp_path / "out")
-    metrics = run(plain)
+    metrics = run(plain).to_value()
     assert {line["success"] for line in lines_of(plain.out)} == {None}
     row = metrics["models"]["empty"]
     assert (row["goals"], row["success"], row["success_se"], row["average"]["success"]) == (0, None, None, None)
@@ -223,10 +225,13 @@ def test_a_task_without_goals_does_not_count_in_the_average() -> None:
 
 
 def test_a_page_on_tasks_with_and_without_goals(tmp_path: Path) -> None:
-    plain = {"fold": "f", "predicted": [], "gold": []}
+    plain = {"fold": "f", "predicted": [], "gold": [], "clauses": [], "segments": []}
     rows = [prediction(m, n, m == "full" if n % 2 else None) | plain for m in ("empty", "full") for n in range(12)]
     config = {"task": "all", "data": "bundled", "seed": 0}
-    metrics = summarise(rows, ["empty", "full"]) | {"config": config, "folds": {"f": {"train": 1, "test": 12}}}
+    metrics = summarise(rows, ["empty", "full"]) | {
+        "config": config,
+        "folds": {"f": {"train": 1, "test": 12, "training_set": "f"}},
+    }
     (tmp_path / "metrics.json").write_text(json.dumps(metrics))
     (tmp_path / "predictions.jsonl").write_text("".join(json.dumps(row) + "\n" for row in rows))
     page = write_report(tmp_path).read_text(encoding="utf-8")
@@ -239,7 +244,7 @@ def test_a_page_on_tasks_with_and_without_goals(tmp_path: Path) -> None:
 
 def shown(metrics: dict[str, Any], width: int = 100) -> str:
     out = io.StringIO()
-    print_table(metrics, Console(file=out, width=width))
+    print_table(Metrics.model_validate(metrics), Console(file=out, width=width))
     return out.getvalue()
 
 
@@ -257,9 +262,11 @@ def test_success_is_the_first_column_of_the_table_on_the_screen(width: int) -> N
 
 
 def test_the_best_predictions_reach_their_goals() -> None:
-    plain = {"fold": "f", "predicted": [], "gold": []}
+    plain = {"fold": "f", "predicted": [], "gold": [], "clauses": [], "segments": []}
     told = [(0, False, 90.0), (1, True, 10.0), (2, None, 50.0), (3, True, 20.0), (4, False, 5.0)]
-    lines = [Line.model_validate(prediction("m", n, s) | plain | {"IED": ied, "task": "t"}) for n, s, ied in told]
+    lines = [
+        PredictionRecord.model_validate(prediction("m", n, s) | plain | {"IED": ied, "task": "t"}) for n, s, ied in told
+    ]
     best, worst = best_and_worst(lines, 3)
     assert [item.line.id for item in best] == [3, 1, 2]
     assert [item.line.id for item in worst] == [4, 0]

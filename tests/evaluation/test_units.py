@@ -49,7 +49,9 @@ class Toy:
                 with self.journal.open("a") as file:
                     file.write(f"{drawn[step]}\n")
         values = [float(line) for line in self.journal.read_text().splitlines()] if self.journal else drawn
-        self.learned_ = {"kitchen": Found(Weights({"env": sum(values)}), ({"round": 0, "loss": values[0]}, 0.5))}
+        self.learned_ = {
+            "kitchen": Found(Weights({"env": sum(values)}), ({"round": 0, "epoch": 0, "loss": values[0]}, 0.5))
+        }
         return self
 
     def restore(self, examples: Sequence[Example], data: Dataset, saved: dict[str, Any]) -> Self:

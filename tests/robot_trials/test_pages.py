@@ -34,10 +34,20 @@ def finished(out: Path, lines: Sequence[dict[str, Any]], data: str = "bundled") 
     config = ExperimentConfig(
         "ramen", out, models=models, domains=ROOT / "domains", problems=ROOT / "problems", data=data
     )
-    metrics = summarise(lines, models) | {"config": config.identity(""), "folds": {"f": {"train": 1, "test": 1}}}
+    metrics = summarise(lines, models) | {
+        "config": config.identity(""),
+        "folds": {"f": {"train": 1, "test": 1, "training_set": "f"}},
+    }
     (out / "metrics.json").write_text(json.dumps(metrics))
     (out / "predictions.jsonl").write_text("".join(json.dumps(each) + "\n" for each in lines))
     return config
+
+
+def step(number: int, action: str, seen: str, **changes: object) -> dict[str, object]:
+    failed = changes.get("outcome") == "failed"
+    said = {"failure": seen if failed else None, "evidence": None if failed else seen}
+    done = {"number": number, "action": action, "args": ["mug1"], "repair": False, "outcome": "ok", **said}
+    return done | {"confirmed": [], "mismatches": [], "begin": 0, "end": 1} | changes
 
 
 def links(report: Path) -> list[str]:
@@ -82,12 +92,11 @@ def test_what_a_robot_did_stands_on_the_page(tmp_path: Path) -> None:
     config = finished(tmp_path, [line(1), line(2)])
     asked = {"environment": "kitchen1", "model": "full", "id": "ramen-kitchen1-1", "text": "x", "plan": GOOD}
     steps = [
-        {"instruction": "find(mug1)", "repair": False, "outcome": "ok", "said": "in view",
-         "confirmed": ["(found pr2 mug1)"]},
-        {"instruction": "moveto(mug1)", "repair": False, "outcome": "failed", "said": "no way", "confirmed": []},
-        {"instruction": "find(mug1)", "repair": True, "outcome": "ok", "said": "again"},
-        {"instruction": "moveto(mug1)", "repair": False, "outcome": "ok", "said": "near"},
-    ]  # fmt: skip
+        step(1, "find", "in view", confirmed=["(found pr2 mug1)"]),
+        step(2, "moveto", "no way", outcome="failed"),
+        step(2, "find", "again", repair=True),
+        step(2, "moveto", "near"),
+    ]
     trial = {"asked": asked | {"mode": "kinematic", "seed": 0, "version": "0"}, "status": "recovered", "steps": steps}
     (tmp_path / "robot").mkdir()
     (tmp_path / "robot" / "kitchen1.json").write_text(json.dumps(trial))

@@ -7,23 +7,23 @@ import re
 from dataclasses import replace
 
 import pytest
-from pydantic import ValidationError
 
 from tests.view.conftest import corpus
 from tests.view.reading import Reader
-from tmd.cli.show.plans import grounded_json
-from tmd.ground import ground
-from tmd.grounded import Grounded
+from tmd.cli.inputs.grounding import made_with
+from tmd.diagnostics import TmdError
+from tmd.ground import Grounded, ground
 from tmd.inference.learned.store import known
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
+from tmd.records.grounding import GroundingRecord
 from tmd.studio.panels.energies import energies
 from tmd.veil.world import World
 from tmd.view.candidates import candidates
 from tmd.view.goals import ShownGoal, all_reached, followed
-from tmd.view.grounding_record import read_grounding
+from tmd.view.grounding_record import grounding_record
 from tmd.view.page import render
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
 from tmd.view.text.meaning import meanings
@@ -107,12 +107,21 @@ def test_executable_is_not_reached(study: World) -> None:
     assert "✓ reaches its goal:" in Reader(render(Subject("x", aimed, steps)).html).text
 
 
+def again(told: Grounded) -> GroundingRecord:
+    """What was printed of a text, read back."""
+    record = grounding_record(
+        told, domain="03_drawer", environment="study1", environment_file=None, unknown=(), warnings=(),
+        made_with=made_with(None),
+    )  # fmt: skip
+    return GroundingRecord.from_text(json.dumps(record.to_value()), "x.json")
+
+
 def test_what_was_printed_is_read_back(told: Grounded, study: World) -> None:
-    value = json.loads(json.dumps(grounded_json(told, "03_drawer")))
-    record = read_grounding(value)
-    assert record.plans[0].goals == told.plans[0].goals
-    assert [choice.steps for choice in record.plans[0].choices] == [choice.steps for choice in told.plans[0].choices]
-    assert meanings(record.parsed, record.plans[0], study) == meanings(told.parsed, told.plans[0], study)
+    record = again(told)
+    parsed, plan = record.parsed(told.parsed.text), record.ranked()[0]
+    assert plan.goals == told.plans[0].goals
+    assert [choice.steps for choice in plan.choices] == [choice.steps for choice in told.plans[0].choices]
+    assert meanings(parsed, plan, study) == meanings(told.parsed, told.plans[0], study)
 
 
 @pytest.mark.parametrize(
@@ -121,10 +130,12 @@ def test_what_was_printed_is_read_back(told: Grounded, study: World) -> None:
     ids=str,
 )
 def test_goals_that_cannot_be_are_refused(told: Grounded, change: dict[str, object]) -> None:
-    value = json.loads(json.dumps(grounded_json(told, "03_drawer")))
+    value = again(told).to_value()
     value["plans"][0]["goals"][0].update(change)
-    with pytest.raises(ValidationError):
-        read_grounding(value)
+    with pytest.raises(
+        TmdError, match=r"x\.json is not what tmd ground --json prints: plans\.0|a plan is for a clause"
+    ):
+        GroundingRecord.from_value(value, "x.json")
 
 
 def test_steps_need_not_follow_the_clauses(study: World) -> None:
@@ -133,8 +144,7 @@ def test_steps_need_not_follow_the_clauses(study: World) -> None:
     knowledge = known(corpus("03_drawer"))
     found = ground(text, study, knowledge.library, reward=knowledge.reward, goals=knowledge.goals)
     assert [goal.clause for goal in found.plans[0].goals] == [0, 0, 2]
-    record = read_grounding(json.loads(json.dumps(grounded_json(found, "03_drawer"))))
-    assert [len(c.steps) for c in record.plans[0].choices] == [len(c.steps) for c in found.plans[0].choices]
+    assert [len(c.steps) for c in again(found).ranked()[0].choices] == [len(c.steps) for c in found.plans[0].choices]
     meant = meanings(found.parsed, found.plans[0], study)
     assert meant[0]["key"] == ("key1",) and meant[2]["table"] == ("table1",)
     reader = Reader(render(grounded_subject(text, study, found.parsed, found.plans)).html)

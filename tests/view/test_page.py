@@ -22,11 +22,12 @@ from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem, State, Type
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Status
+from tmd.records.run import RanStep
 from tmd.veil.world import World
 from tmd.view.demonstrated import demonstrated_subject
 from tmd.view.page import render
 from tmd.view.pictures import read_strip
-from tmd.view.run_record import Ran, RanStep
+from tmd.view.run_record import Ran
 from tmd.view.steps import shown_steps
 from tmd.view.subject import PlannedStep, Subject, grounded_subject
 
@@ -105,6 +106,12 @@ def test_a_goal_that_is_not_reached_is_told() -> None:
     assert page.verdict.status is Status.GOAL_NOT_REACHED and "the goal (at cup1 table1 on) does not hold" in page.html
 
 
+def ran_step(**told: object) -> RanStep:
+    """A step of a run, with what is not told as it mostly is."""
+    usual = {"number": 1, "repair": False, "failure": None, "evidence": None, "confirmed": [], "mismatches": []}
+    return RanStep.model_validate({**usual, "begin": 0, "end": 1, **told})
+
+
 HOSTILE = '<script>alert(1)</script><img src=x onerror="alert(2)">&amp;"\''
 
 
@@ -114,7 +121,7 @@ def test_names_and_texts_are_only_text() -> None:
     problem = Problem("p", Domain("d"), (TypedName(name, (HOSTILE,)),), frozenset({GroundAtom(HOSTILE, (name,))}))
     step = PlanStep(Instruction(HOSTILE, (name,)), 0, True)
     plan = RankedPlan((Choice(HOSTILE, (step,), {HOSTILE: 1.0}, {}),), 0, HOSTILE)
-    done = RanStep(number=1, action=HOSTILE, args=(name,), outcome="failed", failure=HOSTILE, confirmed=(HOSTILE,))
+    done = ran_step(action=HOSTILE, args=[name], outcome="failed", failure=HOSTILE, confirmed=[HOSTILE])
     page = render(
         Subject(
             HOSTILE,
@@ -216,13 +223,13 @@ def test_what_is_no_strip_has_no_tiles() -> None:
 
 def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:
     steps = tuple(
-        RanStep.model_validate(step)
+        ran_step(**step)
         for step in (
             {"number": 1, "action": "find", "args": ["cup1"], "outcome": "ok", "confirmed": ["(found pr2 cup1)"]},
             {"number": 2, "action": "moveto", "args": ["cup1"], "outcome": "failed", "failure": "the way is barred"},
             {"number": 2, "action": "open", "args": ["x"], "repair": True, "outcome": "mismatch", "mismatches": [
                 {"fact": "(opened x)", "expected": True, "measured": "12 degrees"}]},
-            {"number": 99, "action": "wait", "outcome": "ok"},
+            {"number": 99, "action": "wait", "args": [], "outcome": "ok"},
         )
     )  # fmt: skip
     html = render(replace(subject, ran=Ran("stopped", "it gave up", 1, 2.0, steps))).html

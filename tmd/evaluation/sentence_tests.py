@@ -11,9 +11,8 @@ A file of them is JSON Lines, ``*.sentences.jsonl`` beside the problems of a dom
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from pathlib import Path
 
 from tmd.diagnostics import Location, TmdError
@@ -23,6 +22,7 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text, split_lines
 from tmd.pddl.semantics import holds
 from tmd.pddl.writer import format_formula
+from tmd.records.sentence_test import Outcome, SentenceCase, SentenceReport, SentenceSummary
 
 SUFFIX = ".sentences.jsonl"
 _TEXTS = ("id", "domain", "environment", "text")
@@ -39,23 +39,6 @@ class SentenceTest:
     goal: str | None
     kinds: tuple[str, ...] = ()
     location: Location | None = None
-
-
-class Outcome(StrEnum):
-    """What became of a sentence test."""
-
-    RIGHT = "right"
-    WRONG = "wrong"
-    """A plan was presented, and the condition does not hold at its end."""
-    REFUSED = "refused"
-    """No plan for what can be done."""
-    IMPOSSIBLE_REFUSED = "impossible_refused"
-    IMPOSSIBLE_PLANNED = "impossible_planned"
-
-    @property
-    def passed(self) -> bool:
-        """Whether it is as it should be."""
-        return self in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,29 +145,23 @@ def judge(test: SentenceTest, grounded: Grounded, problem: Problem) -> SentenceR
     return SentenceResult(test, Outcome.RIGHT if right else Outcome.WRONG, steps, goals, grounded.warnings, reason)
 
 
-def summary(results: Iterable[SentenceResult]) -> dict[str, int]:
-    """How many there are of each outcome; ``wrong_warned`` are those of the wrong ones that came with a warning."""
+def summary(results: Iterable[SentenceResult]) -> SentenceSummary:
+    """How many there are of each outcome."""
     listed = list(results)
     counts = {outcome: sum(r.outcome is outcome for r in listed) for outcome in Outcome}
-    impossible = counts[Outcome.IMPOSSIBLE_REFUSED] + counts[Outcome.IMPOSSIBLE_PLANNED]
-    return {
-        "n": len(listed),
-        "right": counts[Outcome.RIGHT],
-        "wrong": counts[Outcome.WRONG],
-        "wrong_warned": sum(r.outcome is Outcome.WRONG and bool(r.warnings) for r in listed),
-        "refused": counts[Outcome.REFUSED],
-        "impossible": impossible,
-        "impossible_refused": counts[Outcome.IMPOSSIBLE_REFUSED],
-    }
+    return SentenceSummary(
+        n=len(listed),
+        right=counts[Outcome.RIGHT],
+        wrong=counts[Outcome.WRONG],
+        wrong_warned=sum(r.outcome is Outcome.WRONG and bool(r.warnings) for r in listed),
+        refused=counts[Outcome.REFUSED],
+        impossible=counts[Outcome.IMPOSSIBLE_REFUSED] + counts[Outcome.IMPOSSIBLE_PLANNED],
+        impossible_refused=counts[Outcome.IMPOSSIBLE_REFUSED],
+    )
 
 
-def result_json(result: SentenceResult) -> dict[str, object]:
-    """A result for programs."""
-    return {
-        "id": result.test.id,
-        "outcome": result.outcome.value,
-        "plan": list(result.plan),
-        "goals": list(result.goals),
-        "warnings": list(result.warnings),
-        "reason": result.reason,
-    }
+def report(results: Sequence[SentenceResult]) -> SentenceReport:
+    """All results, for programs."""
+    keys = ("outcome", "plan", "goals", "warnings", "reason")
+    cases = [SentenceCase(id=r.test.id, **{key: getattr(r, key) for key in keys}) for r in results]
+    return SentenceReport(summary=summary(results), cases=tuple(cases))

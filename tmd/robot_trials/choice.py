@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.evaluation.runs.records import Line, Run
+from tmd.evaluation.runs.finished_run import Run
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.inference.config import DEFAULT
+from tmd.records.prediction import PredictionRecord
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,7 +23,7 @@ class TrialChoice:
 
     environment: str
     model: str
-    line: Line | None
+    line: PredictionRecord | None
 
 
 def choices(run: Run) -> list[TrialChoice]:
@@ -44,10 +45,10 @@ def choices(run: Run) -> list[TrialChoice]:
     ]
 
 
-def _first(lines: Sequence[Line]) -> Line | None:
+def _first(lines: Sequence[PredictionRecord]) -> PredictionRecord | None:
     """The first that reaches its goal, or the first."""
     return next((line for line in lines if line.success), next(iter(lines), None))
 
 
-def _works(line: Line) -> bool:
+def _works(line: PredictionRecord) -> bool:
     return line.executable and bool(line.predicted)

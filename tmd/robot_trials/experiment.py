@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.experiment import Progress, collect, run
 from tmd.evaluation.runs.trial_records import Trials
+from tmd.records.metrics import Metrics
 from tmd.robot_trials.pages import write_pages
 from tmd.robot_trials.run import Mode, run_trials
 
 
 def run_experiment(
     config: ExperimentConfig, *, collect_only: bool = False, progress: Progress | None = None
-) -> dict[str, Any]:
+) -> Metrics:
     """Train, predict and score, or what is left of it, and write the report.
 
     Args:
@@ -23,7 +22,7 @@ def run_experiment(
         progress: Is told the number of parts done and of all parts.
 
     Returns:
-        The metrics, as ``metrics.json`` has them; ``report.html`` is beside it in ``config.out``.
+        What ``metrics.json`` has; ``report.html`` is beside it in ``config.out``.
 
     Raises:
         TmdError: The configuration, the data, the directory or the cluster cannot be used, or parts are missing.

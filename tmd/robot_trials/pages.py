@@ -10,19 +10,21 @@ from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.report.examples import best_and_worst
 from tmd.evaluation.report.linked_pages import FOLDER, linked_pages, page_name
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
-from tmd.evaluation.runs.records import Line, Run, read_run
+from tmd.evaluation.runs.finished_run import Run, read_run
 from tmd.evaluation.runs.summary import EMPTY
-from tmd.evaluation.runs.trial_records import Trial, Trials, read_trials
+from tmd.evaluation.runs.trial_records import Trials, read_trials
 from tmd.files import make_directory, write_text
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan
 from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
+from tmd.records.prediction import PredictionRecord
+from tmd.records.trial import Trial
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 from tmd.view.page import render
 from tmd.view.pictures import Strip, read_strip
-from tmd.view.run_record import Ran, RanStep
+from tmd.view.run_record import Ran
 from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject
 from tmd.world.folder import find_domain, find_root
 
@@ -62,7 +64,7 @@ def write_pages(config: ExperimentConfig, *, carried_out: bool = False) -> int:
     return len(pages)
 
 
-def _shown(run: Run, trials: Trials | None) -> Iterator[Line]:
+def _shown(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
     """The predictions that the report shows, and those that were carried out."""
     for model in run.metrics.models:
         if model != EMPTY:
@@ -71,20 +73,20 @@ def _shown(run: Run, trials: Trials | None) -> Iterator[Line]:
     yield from _tried(run, trials)
 
 
-def _tried(run: Run, trials: Trials | None) -> Iterator[Line]:
+def _tried(run: Run, trials: Trials | None) -> Iterator[PredictionRecord]:
     """The predictions that were carried out."""
     found = trials.found if trials else ()
     yield from (line for line in run.lines if any(_is_of(trial, line) for trial in found))
 
 
-def _subject(line: Line, corpus: Corpus, run: Run, trials: Trials | None) -> Subject:
+def _subject(line: PredictionRecord, corpus: Corpus, run: Run, trials: Trials | None) -> Subject:
     world = corpus.world(line.environment)
     parsed = parse(line.text, corpus.lexicon)
     instructions = [parse_instruction(text) for text in line.predicted]
     title = f"{line.id}, predicted by {line.model}"
     made = _made(line, run)
     trial = next((t for t in (trials.found if trials else ()) if _is_of(t, line)), None)
-    ran = None if trial is None else _ran(trial, instructions)
+    ran = None if trial is None else Ran(trial.status, trial.reason, trial.repairs, trial.seconds, trial.steps)
     strip = None if trial is None or trials is None else _strip(trials.directory, trial)
     plan = _ranked(line)
     if plan is not None and len(plan.choices) == len(parsed.clauses):
@@ -106,9 +108,9 @@ def _plain(
     return Subject(title, world.task.problem, steps, said, ran=ran, strip=strip, made=tuple(made))
 
 
-def _ranked(line: Line) -> RankedPlan | None:
+def _ranked(line: PredictionRecord) -> RankedPlan | None:
     """The prediction by clauses; nothing where its steps are not the clauses'."""
-    if [text for clause in line.clauses for text in (*clause.latent, *clause.said)] != line.predicted:
+    if not line.whole:
         return None
     choices = []
     for number, clause in enumerate(line.clauses):
@@ -118,40 +120,16 @@ def _ranked(line: Line) -> RankedPlan | None:
     return RankedPlan(tuple(choices), 0)
 
 
-def _made(line: Line, run: Run) -> list[tuple[str, str]]:
+def _made(line: PredictionRecord, run: Run) -> list[tuple[str, str]]:
     config = run.metrics.config
     told = [(name, str(config[name])) for name in ("version", "domain", "seed", "fingerprint") if name in config]
     own = ("model", "fold", "task", "environment", "id")
     return told + [(name, str(getattr(line, name))) for name in own]
 
 
-def _is_of(trial: Trial, line: Line) -> bool:
+def _is_of(trial: Trial, line: PredictionRecord) -> bool:
     asked = trial.asked
     return (asked.model, str(asked.id), asked.plan) == (line.model, str(line.id), line.predicted)
-
-
-def _ran(trial: Trial, plan: Sequence[Instruction]) -> Ran:
-    steps, place = [], 0
-    for done in trial.steps:
-        instruction = parse_instruction(done.instruction)
-        if not done.repair and instruction in plan[place : place + 2]:
-            place = plan.index(instruction, place)
-        number = min(place + 1, len(plan))
-        failed = done.said if done.outcome == "failed" else None
-        steps.append(
-            RanStep(
-                number=number,
-                action=instruction.name,
-                args=instruction.args,
-                repair=done.repair,
-                outcome=done.outcome,
-                failure=failed,
-                evidence=None if failed else done.said,
-                confirmed=tuple(done.confirmed),
-            )
-        )
-        place += not done.repair and done.outcome == "ok"
-    return Ran(trial.status, trial.reason, trial.repairs, trial.seconds, tuple(steps))
 
 
 def _strip(directory: Path, trial: Trial) -> Strip | None:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.evaluation.runs.records import Line
-from tmd.evaluation.runs.trial_records import Trial, TrialRequest, TrialStep
 from tmd.files import write_text
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
+from tmd.records.prediction import PredictionRecord
+from tmd.records.run import RanStep
+from tmd.records.trial import Trial, TrialRequest
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.run_plan import Filming, run_plan
 from tmd.robot.sim.engine import STEPS_PER_SECOND
@@ -41,7 +42,7 @@ class Job:
     """
 
     asked: TrialRequest
-    line: Line
+    line: PredictionRecord
     domain: Path
     problems: Path
     out: Path
@@ -90,7 +91,7 @@ def _carried_out(job: Job) -> Trial:
         reason=execution.reason,
         repairs=execution.repairs,
         seconds=0.0 if kinematic else seconds,
-        steps=notes.steps,
+        steps=tuple(notes.steps),
         film=None if movie is None else movie.path.name,
         strip=None if movie is None else strip.name,
     )
@@ -106,31 +107,27 @@ def _movie(job: Job) -> MovieFile | None:
     return None
 
 
-def orders_of(line: Line) -> list[Order]:
+def orders_of(line: PredictionRecord) -> list[Order]:
     """A prediction as orders; where the model worked by clauses, with the words that each instruction is for."""
-    told = [
-        (text, number, latent, " ".join(clause.text.split()))
+    if not line.whole:
+        return [Order(parse_instruction(text)) for text in line.predicted]
+    return [
+        Order(parse_instruction(text), number, latent, " ".join(clause.text.split()))
         for number, clause in enumerate(line.clauses)
         for latent, texts in ((True, clause.latent), (False, clause.said))
         for text in texts
     ]
-    if [text for text, *_ in told] != line.predicted:
-        return [Order(parse_instruction(text)) for text in line.predicted]
-    return [Order(parse_instruction(text), number, latent, said) for text, number, latent, said in told]
 
 
 class _Notes:
     """Writes down each step."""
 
     def __init__(self) -> None:
-        self.steps: list[TrialStep] = []
+        self.steps: list[RanStep] = []
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
-        said = step.failure or "; ".join(map(str, step.mismatches)) or step.evidence
-        outcome = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
-        told = {"instruction": str(step.instruction), "repair": step.repair, "outcome": outcome, "said": said}
-        self.steps.append(TrialStep.model_validate({**told, "confirmed": [str(atom) for atom in step.confirmed]}))
+        self.steps.append(RanStep.of(title, step))

@@ -12,18 +12,10 @@ from tmd import __version__
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
 from tmd.evaluation.runs.backends import in_processes
 from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
-from tmd.evaluation.runs.records import read_run
-from tmd.evaluation.runs.trial_records import (
-    FOLDER,
-    SKIPPED,
-    Skip,
-    Trial,
-    TrialRequest,
-    Trials,
-    read_trial,
-    read_trials,
-)
+from tmd.evaluation.runs.finished_run import read_run
+from tmd.evaluation.runs.trial_records import FOLDER, SKIPPED, Trials, read_trial, read_trials
 from tmd.files import make_directory, write_text
+from tmd.records.trial import Skip, Trial, TrialRequest
 from tmd.robot.skills.skill_file import load_skills
 from tmd.robot_trials.choice import TrialChoice, choices
 from tmd.robot_trials.perform import Job, perform
@@ -114,7 +106,7 @@ def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRe
         model=choice.model,
         id=None if line is None else line.id,
         text="" if line is None else line.text,
-        plan=[] if line is None else line.predicted,
+        plan=() if line is None else line.predicted,
         mode=mode,
         seed=config.seed,
         version=__version__,

@@ -15,8 +15,8 @@ module                holds
 ``goals``             what the steps of a text ask for, in words, and where in a plan it comes to hold
 ``subject``           what a page is about
 ``demonstrated``      a demonstration as that
-``grounding_record``  what `tmd ground --json` printed, read back
-``run_record``        what `tmd run` printed or logged, read back
+``grounding_record``  a grounded text as the record that `tmd ground --json` prints
+``run_record``        what a robot made of a plan, from a record or a log of `tmd run`
 ``pictures``          the filmstrip of a run, picture by picture
 ``steps``             the plan step by step: facts, and objects before and after
 ``page``              the whole page

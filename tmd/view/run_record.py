@@ -1,72 +1,13 @@
-"""What a robot made of a plan: the record that ``tmd run`` prints as JSON, or writes as a log."""
+"""What a robot made of a plan, as the page shows it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
-from pydantic import BaseModel, ConfigDict
+from tmd.records.run import EndEvent, FaultEvent, RanStep, RunEvent, RunRecord, StepEvent
 
-from tmd.pddl.model import Instruction
-
-OUTCOMES = {"ok": "✓", "failed": "✗", "mismatch": "≠"}
 UNFINISHED = "unfinished"
-
-
-class _Record(BaseModel):
-    """Part of a file. What a later version adds is passed over."""
-
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-
-class MismatchRecord(_Record):
-    """A fact that is not as predicted."""
-
-    fact: str
-    expected: bool
-    measured: str
-
-
-class RanStep(_Record):
-    """One instruction as it was carried out.
-
-    Attributes:
-        number: Its place in the plan, from 1; of a repair, the place before which it was put.
-        action: The instruction's name.
-        args: Its arguments.
-        repair: Whether the monitor put it in.
-        outcome: ``ok``, ``failed`` or ``mismatch``.
-        failure: Why it failed.
-        evidence: What showed that it happened.
-        confirmed: The facts that were seen.
-        mismatches: The facts that are not as predicted.
-    """
-
-    number: int
-    action: str
-    args: tuple[str, ...] = ()
-    repair: bool = False
-    outcome: str
-    failure: str | None = None
-    evidence: str | None = None
-    confirmed: tuple[str, ...] = ()
-    mismatches: tuple[MismatchRecord, ...] = ()
-
-    @property
-    def instruction(self) -> Instruction:
-        """What was done."""
-        return Instruction(self.action, self.args)
-
-    @property
-    def sign(self) -> str:
-        """The sign of the outcome."""
-        return OUTCOMES.get(self.outcome, "?")
-
-    @property
-    def seen(self) -> str:
-        """What was seen, in one line."""
-        return self.failure or self.evidence or ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,39 +35,18 @@ class Ran:
         return [(i, s) for i, s in enumerate(self.steps) if min(max(s.number, 1), last) == number]
 
 
-class _Ending(_Record):
-    status: str = UNFINISHED
-    reason: str | None = None
-    repairs: int = 0
-    seconds: float = 0.0
+def ran(record: RunRecord) -> Ran:
+    """A whole run."""
+    faults = tuple(fault.what for fault in record.faults)
+    return Ran(record.status, record.reason or "", record.repairs, record.seconds, record.steps, faults)
 
 
-class _Fault(_Record):
-    what: str
-
-
-class _Whole(_Ending):
-    steps: tuple[RanStep, ...] = ()
-    faults: tuple[_Fault, ...] = ()
-
-
-def ran(value: Mapping[str, Any]) -> Ran:
-    """The record that ``tmd run --json`` printed.
-
-    Raises:
-        pydantic.ValidationError: It is none.
-    """
-    whole = _Whole.model_validate(value)
-    faults = tuple(fault.what for fault in whole.faults)
-    return Ran(whole.status, whole.reason or "", whole.repairs, whole.seconds, whole.steps, faults)
-
-
-def ran_events(events: Sequence[Mapping[str, Any]]) -> Ran:
-    """The lines of a log of ``tmd run``; that of a run that was killed has no end.
-
-    Raises:
-        pydantic.ValidationError: A line is wrong.
-    """
-    end: Mapping[str, Any] = next((event for event in reversed(events) if event.get("event") == "end"), {})
-    steps = [event for event in events if event.get("event") == "step"]
-    return ran({**end, "steps": steps, "faults": [event for event in events if event.get("event") == "fault"]})
+def ran_events(events: Iterable[RunEvent]) -> Ran:
+    """The lines of a log; that of a run that was killed has no end."""
+    told = list(events)
+    steps = tuple(event for event in told if isinstance(event, StepEvent))
+    faults = tuple(event.what for event in told if isinstance(event, FaultEvent))
+    end = next((event for event in reversed(told) if isinstance(event, EndEvent)), None)
+    if end is None:
+        return Ran(UNFINISHED, steps=steps, faults=faults)
+    return Ran(end.status, end.reason or "", end.repairs, end.seconds, steps, faults)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from tmd.cli.inputs.grounding import GroundingOptions, answer, environment_file, grounding_options
+from tmd.cli.inputs.grounding import GroundingOptions, answer, grounding_options
 from tmd.cli.inputs.text import said, text_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
@@ -39,8 +39,8 @@ def command(
     What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
     the time. Ends with 12 where no plan was found.
     """
-    from tmd.cli.show.goals import whole_goal_json, whole_goal_text
-    from tmd.cli.show.plans import grounded_json, grounded_text, remarks
+    from tmd.cli.show.goals import whole_goal_text
+    from tmd.cli.show.plans import grounded_text, remarks
     from tmd.inference.config import preset
     from tmd.language.parser import short_enough
 
@@ -49,9 +49,8 @@ def command(
     found = answer(roots, short_enough(said(text, text_file)), environment, domain_name, options)
     grounded = found.grounded
     if as_json:
-        told = grounded_json(grounded, found.corpus.folder.name)
-        told |= {"environment_file": environment_file(environment), "made_with": found.made_with}
-        emit_json(whole_goal_json(told) if goal_only else told)
+        record = found.record(environment)
+        emit_json((record.goal_only() if goal_only else record).to_value())
     else:
         emit(whole_goal_text(grounded) if goal_only else grounded_text(grounded))
     for line in remarks(grounded):

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from tmd.cli.inputs.learned import learned_option
-from tmd.cli.output import emit, emit_json, rounded
+from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
 
@@ -54,6 +54,8 @@ def command(
 
 
 def _report(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
+    from tmd.records.json_record import rounded
+
     library, reward = found.knowledge.library, found.knowledge.reward
     verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))
     curve = found.tuned.curve if found.tuned else ()

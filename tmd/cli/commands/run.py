@@ -89,11 +89,12 @@ def command(
 
     from tmd.cli.inputs.plan import orders_of_file, orders_of_text
     from tmd.cli.inputs.text import said
-    from tmd.cli.show.run import RunLog, Telling, plan_json, refusal_json
+    from tmd.cli.show.run import RunLog, Telling
     from tmd.cli.signals import stoppable
     from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
+    from tmd.records.run import OrderRecord, RunRecord, RunRequest
     from tmd.robot.monitor.faults import InjectedFault
     from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
@@ -119,26 +120,28 @@ def command(
         if strip:
             pillow()
         if orders is None:
-            orders = orders_of_text(spoken or "", corpus, world, chosen, learned)
+            orders = orders_of_text(spoken or "", corpus, world, environment, chosen, learned)
         for line in orders.remarks:
             emit(line, error=True)
-        asked: dict[str, object] = {
-            "text": spoken,
-            "domain": corpus.folder.name,
-            "environment": world.name,
-            "mode": "kinematic" if kinematic else "physics",
-            "seed": seed,
-            "fault": fault,
-            "planner": chosen,
-            "plan": plan_json(orders.orders),
-            "version": __version__,
-            "environment_file": environment_file(environment),
-            "strip": strip.name if strip else None,
-            "grounding": orders.grounding,
-        }
+        asked = RunRequest(
+            text=spoken,
+            domain=corpus.folder.name,
+            environment=world.name,
+            mode="kinematic" if kinematic else "physics",
+            seed=seed,
+            fault=fault,
+            planner=chosen,
+            plan=tuple(map(OrderRecord.of, orders.orders)),
+            version=__version__,
+            environment_file=environment_file(environment),
+            strip=strip.name if strip else None,
+            grounding=orders.grounding,
+        )
         if orders.status:
             if as_json:
-                emit_json({**asked, "steps": [], "faults": [], **refusal_json(orders.status, orders.remarks[-1])})
+                nothing = {"steps": (), "faults": (), "repairs": 0, "seconds": 0.0}
+                ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
+                emit_json(RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value())
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)

@@ -46,11 +46,11 @@ def command(
     A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must
     hold at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
     """
-    from tmd.evaluation.sentence_tests import result_json, summary
+    from tmd.evaluation.sentence_tests import report
 
     results = list(_run(roots, _tests(roots, domain, cases), model_name, guess, learned))
     if as_json:
-        emit_json({"summary": summary(results), "cases": [result_json(result) for result in results]})
+        emit_json(report(results).to_value())
     else:
         emit(_text(results))
     return ExitCode.OK if all(result.outcome.passed for result in results) else ExitCode.TESTS_FAILED
@@ -98,9 +98,9 @@ def _text(results: Sequence[SentenceResult]) -> str:
         own = [result for result in results if kind in result.test.kinds]
         lines.append(f"{kind}: {sum(r.outcome.passed for r in own)} of {len(own)}")
     counts = summary(results)
-    doable = counts["n"] - counts["impossible"]
+    doable = counts.n - counts.impossible
     lines.append(
-        f"{counts['right']} of {doable} right, {counts['wrong']} wrong ({counts['wrong_warned']} with a warning), "
-        f"{counts['refused']} refused; {counts['impossible_refused']} of {counts['impossible']} impossible ones refused"
+        f"{counts.right} of {doable} right, {counts.wrong} wrong ({counts.wrong_warned} with a warning), "
+        f"{counts.refused} refused; {counts.impossible_refused} of {counts.impossible} impossible ones refused"
     )
     return "\n".join(lines) + "\n"

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import click
 
@@ -86,10 +83,10 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     corpus, world = roots.world(asked.source, asked.domain)
     problem = world.task.problem
     if asked.text is not None:
-        orders = orders_of_text(asked.text, corpus, world, asked.planner or IN_PROCESS)
+        orders = orders_of_text(asked.text, corpus, world, asked.source, asked.planner or IN_PROCESS)
         if orders.status:
             return NoPlan(orders.remarks[-1].strip().removeprefix("no plan: "), orders.code)
-        goal = _goal(asked, orders.grounding or {})
+        goal = _goal(asked, orders.grounding.plans[0].goal if orders.grounding else None)
         return _checked(problem, tuple(order.instruction for order in orders.orders), goal)
     if asked.plan is None:
         return _solved(with_goal(problem, asked.goal or ""), asked.planner)
@@ -102,50 +99,39 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
 
 def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
-    from tmd.export.record import FORMAT, parse_record
+    from tmd.export.record import parse_record
+    from tmd.records.grounding import GroundingRecord
+    from tmd.records.json_record import json_value
+    from tmd.records.plan import FORMAT
 
     text = read_text(path)
-    value = _json(text, path)
-    if value.get("format") == FORMAT:
+    value = json_value(text, str(path))
+    if isinstance(value, dict) and value.get("format") == FORMAT:
         return parse_record(text, str(path))
-    plans, environment = value.get("plans"), value.get("environment")
-    if not isinstance(plans, list) or not isinstance(environment, str):
+    if not isinstance(value, dict) or "plans" not in value:
         raise TmdError(f"{path} is no plan", hint="give what tmd ground --json or tmd export --format json wrote")
-    if not plans:
+    told = GroundingRecord.from_value(value, str(path))
+    if not told.plans:
         return NoPlan(f"{path} has no plan", ExitCode.NOT_GROUNDED)
-    _, world = roots.world(environment, asked.domain or value.get("domain"))
-    try:
-        steps = tuple(Instruction(step["action"], tuple(step["args"])) for step in plans[0]["steps"])
-    except (KeyError, TypeError) as error:
-        raise TmdError(f"{path}: the first plan has no steps with action and args") from error
-    return _checked(world.task.problem, steps, _goal(asked, value))
+    _, world = roots.world(told.environment, asked.domain or told.domain)
+    best = told.plans[0]
+    return _checked(world.task.problem, tuple(step.instruction for step in best.steps), _goal(asked, best.goal))
 
 
-def _goal(asked: ExportRequest, grounding: Mapping[str, Any]) -> str | None:
+def _goal(asked: ExportRequest, stated: str | None) -> str | None:
     """The goal for the plan of a text; ``None`` for everything that the plan changes.
 
     Raises:
         TmdError: What the text asks for is wanted, and not known.
     """
-    stated = grounding["plans"][0].get("goal")
-    if asked.goal == ASKED and not isinstance(stated, str):
+    if asked.goal == ASKED and stated is None:
         raise TmdError(
-            "what the text asks for is not known: it was grounded by a model without goals, or by an older tmd",
+            "what the text asks for is not known: it was grounded by a model without goals",
             hint=f"ground it again, or take --goal {CHANGED}",
         )
     if asked.goal in (None, ASKED):
-        return stated if isinstance(stated, str) else None
+        return stated
     return None if asked.goal == CHANGED else asked.goal
-
-
-def _json(text: str, path: Path) -> Mapping[str, Any]:
-    try:
-        value = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise TmdError(f"{path} is not valid JSON: {error}") from error
-    if not isinstance(value, dict):
-        raise TmdError(f"{path} is no plan: it is not a JSON object")
-    return value
 
 
 def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) -> Planned | NoPlan:

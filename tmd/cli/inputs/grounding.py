@@ -17,6 +17,7 @@ from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.grounded import Grounded
+    from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
@@ -49,6 +50,17 @@ class Answer:
     grounded: Grounded
     corpus: Corpus
     made_with: dict[str, object]
+
+    def record(self, environment: str) -> GroundingRecord:
+        """What ``tmd ground --json`` prints; ``environment`` is as it was given."""
+        from tmd.view.grounding_record import grounding_record
+
+        return grounding_record(
+            self.grounded,
+            domain=self.corpus.folder.name,
+            environment_file=environment_file(environment),
+            made_with=self.made_with,
+        )
 
 
 def grounding_options(command: _Command) -> Callable[..., Any]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ from tmd.diagnostics import ExitCode, TmdError
 from tmd.robot.monitor.listeners import Order
 
 if TYPE_CHECKING:
+    from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World
 
@@ -31,23 +31,24 @@ class Orders:
     code: ExitCode = ExitCode.OK
     status: str = ""
     remarks: tuple[str, ...] = ()
-    grounding: Mapping[str, object] | None = None
+    grounding: GroundingRecord | None = None
 
 
-def orders_of_text(text: str, corpus: Corpus, world: World, planner: str, learned: Path | None = None) -> Orders:
-    """Ground a text, as ``tmd ground`` does with its usual options.
+def orders_of_text(
+    text: str, corpus: Corpus, world: World, environment: str, planner: str, learned: Path | None = None
+) -> Orders:
+    """Ground a text, as ``tmd ground`` does with its usual options; ``environment`` is as it was given.
 
     Raises:
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
     """
-    from tmd.cli.inputs.grounding import made_with
-    from tmd.cli.show.plans import grounded_json, remarks
+    from tmd.cli.inputs.grounding import Answer, made_with
+    from tmd.cli.show.plans import remarks
     from tmd.domain_kit import DomainKit, orders_of
 
     grounded = DomainKit(corpus, learned).ground(text, world, planner=planner)
     told = tuple(remarks(grounded))
-    record = grounded_json(grounded, corpus.folder.name)
-    record["made_with"] = made_with(planner)
+    record = Answer(grounded, corpus, made_with(planner)).record(environment)
     if grounded.reason:
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
     return Orders(tuple(orders_of(grounded)), remarks=told, grounding=record)

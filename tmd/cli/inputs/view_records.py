@@ -2,25 +2,23 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from tmd import __version__
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import TmdError
+from tmd.grounded import why_refused
 from tmd.language import parse
-from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest
+from tmd.records.grounding import GroundingRecord
+from tmd.records.run import RunRecord, RunRequest, read_log
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration, read_demonstration
 from tmd.veil.roots import Roots
 from tmd.veil.world import World
 from tmd.view.demonstrated import demonstrated_subject
-from tmd.view.grounding_record import GroundingRecord, read_grounding
 from tmd.view.pictures import Strip, read_strip
 from tmd.view.run_record import Ran, ran, ran_events
 from tmd.view.subject import PlannedStep, Said, Subject, grounded_subject, title_of
@@ -40,12 +38,9 @@ def grounding_found(roots: Roots, asked: ViewRequest, value: Mapping[str, Any]) 
     Raises:
         TmdError: It is damaged, or its environment is not there.
     """
-    try:
-        record = read_grounding(value)
-    except ValidationError as error:
-        raise _damaged(asked, "tmd ground --json", error) from None
+    record = GroundingRecord.from_value(value, asked.name)
     corpus, world = _scene(roots, asked, record.domain, record.environment, record.environment_file)
-    rows = made_rows({**record.made_with, "domain": corpus.folder.name, "environment": world.name})
+    rows = made_rows({**dict(record.made_with), "domain": corpus.folder.name, "environment": world.name})
     return FoundSubject(_grounding_subject(record, world, rows), _beside(asked), of_text=True)
 
 
@@ -56,18 +51,19 @@ def _grounding_subject(
     done: Ran | None = None,
     strip: Strip | None = None,
 ) -> Subject:
+    refused = record.refused
     return grounded_subject(
-        title_of(record.parsed.text, world.name),
+        title_of(record.text, world.name),
         world,
-        record.parsed,
-        record.plans,
-        record.refusals,
-        unseen=record.unseen,
-        unknown=record.unknown,
+        record.parsed(record.text),
+        record.ranked(),
+        record.refused_templates(),
+        unseen=record.unseen_verbs,
+        unknown=record.unknown_nouns,
         made=rows,
         ran=done,
         strip=strip,
-        refused=record.refused,
+        refused="" if refused is None else why_refused(refused.clause, refused.message, refused.hint),
     )
 
 
@@ -77,60 +73,37 @@ def run_found(roots: Roots, asked: ViewRequest, first: Mapping[str, Any], lines:
     Raises:
         TmdError: It is damaged, or its environment or filmstrip is not there.
     """
-    try:
-        done = ran_events(_events(asked, lines)) if "event" in first else ran(first)
-        record = read_grounding(first["grounding"]) if first.get("grounding") else None
-        environment, domain = str(first["environment"]), str(first["domain"])
-        plan = [Instruction(str(step["action"]), tuple(map(str, step["args"]))) for step in first["plan"]]
-    except (ValidationError, KeyError, TypeError) as error:
-        raise _damaged(asked, "tmd run", error) from None
-    corpus, world = _scene(roots, asked, domain, environment, first.get("environment_file"))
-    strip = _strip(asked, first.get("strip"), len(done.steps))
-    names = ("version", "planner", "mode", "seed", "fault")
-    made = {name: first.get(name) for name in names} | {"domain": corpus.folder.name, "environment": world.name}
-    if record is not None:
-        rows = made_rows({**record.made_with, **made})
-        subject = _grounding_subject(record, world, rows, done, strip)
+    told: RunRequest
+    if "event" in first:
+        told, events = read_log(lines, asked.name)
+        done = ran_events(events)
     else:
-        subject = _run_subject(plan, first.get("text"), corpus, world, made_rows(made), done, strip)
+        told = record = RunRecord.from_value(first, asked.name)
+        done = ran(record)
+    corpus, world = _scene(roots, asked, told.domain, told.environment, told.environment_file)
+    strip = _strip(asked, told.strip, len(done.steps))
+    names = ("version", "planner", "mode", "seed", "fault")
+    made = {name: getattr(told, name) for name in names} | {"domain": corpus.folder.name, "environment": world.name}
+    if told.grounding is not None:
+        rows = made_rows({**dict(told.grounding.made_with), **made})
+        subject = _grounding_subject(told.grounding, world, rows, done, strip)
+    else:
+        subject = _run_subject(told, corpus, world, made_rows(made), done, strip)
     return FoundSubject(subject, _beside(asked), of_text=subject.said is not None)
 
 
 def _run_subject(
-    plan: Sequence[Instruction],
-    text: object,
-    corpus: Corpus,
-    world: World,
-    rows: tuple[tuple[str, str], ...],
-    done: Ran,
-    strip: Strip | None,
+    told: RunRequest, corpus: Corpus, world: World, rows: tuple[tuple[str, str], ...], done: Ran, strip: Strip | None
 ) -> Subject:
-    """A run of a plan file, or of a text of which no more is known than the plan."""
-    said = Said(parse(text, corpus.lexicon)) if isinstance(text, str) else None
-    title = title_of(text, world.name) if isinstance(text, str) else f"A plan that the robot carried out ({world.name})"
-    steps = tuple(map(PlannedStep, plan))
+    """A run of a plan file."""
+    said = None if told.text is None else Said(parse(told.text, corpus.lexicon))
+    what = "A plan that the robot carried out" if told.text is None else told.text
+    steps = tuple(PlannedStep(order.instruction) for order in told.plan)
+    title = title_of(what, world.name)
     return Subject(title, world.task.problem, steps, said, ran=done, strip=strip, made=rows)
 
 
-def _events(asked: ViewRequest, lines: Lines) -> list[Mapping[str, Any]]:
-    """The lines of a log; the last one may be cut off where the run was killed."""
-    found: list[Mapping[str, Any]] = []
-    for number, line in lines:
-        try:
-            event = json.loads(line)
-        except (ValueError, RecursionError):
-            event = None
-        if not isinstance(event, dict):
-            if number == lines[-1][0]:
-                break
-            raise TmdError("this line of the log is not a JSON object", location=Location(asked.name, number, 1))
-        found.append(event)
-    if found[0].get("event") != "plan":
-        raise TmdError(f"{asked.name} does not begin with a plan", hint="give a whole log of tmd run")
-    return found
-
-
-def _strip(asked: ViewRequest, recorded: object, count: int) -> Strip | None:
+def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None:
     """The filmstrip of a run: the one that was named, else what lies beside the log."""
     if asked.strip is not None:
         found = _picture(asked.strip, count)
@@ -139,7 +112,7 @@ def _strip(asked: ViewRequest, recorded: object, count: int) -> Strip | None:
         return found
     if asked.source == STANDARD:
         return None
-    names = [Path(recorded).name] if isinstance(recorded, str) and recorded else []
+    names = [Path(recorded).name] if recorded else []
     paths = [asked.path.with_name(name) for name in names] + [asked.path.with_suffix(".png")]
     path = next((path for path in paths if path.is_file()), None)
     return None if path is None else _picture(path, count)
@@ -192,12 +165,12 @@ def _bundled_beside(asked: ViewRequest, environment: str) -> str | None:
 
 
 def _scene(
-    roots: Roots, asked: ViewRequest, domain: str | None, environment: str, file: object
+    roots: Roots, asked: ViewRequest, domain: str | None, environment: str, file: str | None
 ) -> tuple[Corpus, World]:
     """The environment: the one that was named now, else the file that was named then, else the bundled one."""
     if asked.environment is not None:
         return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
-    if isinstance(file, str):
+    if file is not None:
         paths = [Path(file), asked.path.with_name(Path(file).name)]
         path = next((path for path in paths if path.is_file()), None)
         if path is None:
@@ -213,14 +186,3 @@ def _domain_of(environment: str, recorded: str | None) -> str | None:
 
 def _beside(asked: ViewRequest) -> Path:
     return asked.path.with_suffix(".html")
-
-
-def _damaged(asked: ViewRequest, what: str, error: Exception) -> TmdError:
-    """The first thing that is wrong, in one line."""
-    hint = f"make it anew with {what}"
-    if not isinstance(error, ValidationError):
-        return TmdError(f"{asked.name} is not what {what} prints: {type(error).__name__} {error}", hint=hint)
-    first = error.errors(include_url=False, include_input=False)[0]
-    place = ".".join(map(str, first["loc"]))
-    message = " ".join(str(first["msg"]).removeprefix("Value error, ").split())
-    return TmdError(f"{asked.name} is not what {what} prints: {f'{place}: ' if place else ''}{message}", hint=hint)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,12 +12,14 @@ from tmd.cli.inputs.grounding import GroundingOptions, answer
 from tmd.cli.inputs.view import STANDARD, FoundSubject, ViewRequest
 from tmd.cli.inputs.view_records import demonstration_found, grounding_found, made_rows, run_found
 from tmd.cli.show.plans import remarks
-from tmd.diagnostics import Location, TmdError
-from tmd.export.record import FORMAT, parse_record
+from tmd.diagnostics import TmdError
+from tmd.export.record import parse_record
 from tmd.export.strips import restored
 from tmd.pddl.model import Problem
 from tmd.pddl.plan_file import Plan, parse_plan
 from tmd.pddl.reading.syntax import read_text
+from tmd.records.json_record import json_value
+from tmd.records.plan import FORMAT
 from tmd.veil.roots import Roots
 from tmd.view.subject import PlannedStep, Subject, text_subject
 
@@ -77,9 +78,10 @@ def _of_text(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     if not lines[0][1].lstrip().startswith(("{", "[")):
         _only(asked, "problem", "environment", "domain")
         return _plan_found(roots, asked, text)
-    first = _object(text) or _object(lines[0][1])
-    if first is None:
-        raise _not_json(asked, text)
+    try:
+        first = _object(asked, lines[0][1])  # of JSON Lines, or all on one line
+    except TmdError:
+        first = _object(asked, text)
     return _of_json(roots, asked, first, lines)
 
 
@@ -111,24 +113,12 @@ def _only(asked: ViewRequest, *meant: str) -> None:
             raise click.UsageError(f"{option} has no meaning for {asked.name}")
 
 
-def _object(text: str) -> dict[str, Any] | None:
-    try:
-        value = json.loads(text)
-    except (ValueError, RecursionError):
-        return None
-    return value if isinstance(value, dict) else None
-
-
-def _not_json(asked: ViewRequest, text: str) -> TmdError:
-    """What is wrong with a text that begins as JSON does."""
-    try:
-        json.loads(text)
-    except json.JSONDecodeError as error:
-        place = Location(asked.name, error.lineno, error.colno)
-        return TmdError(f"this is not valid JSON: {error.msg}", location=place, hint=f"give {_KINDS}")
-    except (ValueError, RecursionError) as error:
-        return TmdError(f"{asked.name} is not valid JSON that can be read: {error}")
-    return TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
+def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
+    """The JSON object in a text."""
+    value = json_value(text, asked.name, hint=f"give {_KINDS}")
+    if not isinstance(value, dict):
+        raise TmdError(f"{asked.name} is JSON, but no object", hint=f"give {_KINDS}")
+    return value
 
 
 def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:

@@ -1,32 +1,12 @@
-"""Clauses as JSON and as lines for people."""
+"""Clauses as lines for people."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Skipped, clause_json, print_clause
+from tmd.language.clause import Clause, Condition, Mood, Parsed, print_clause
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
-
-
-def parsed_json(parsed: Parsed) -> dict[str, Any]:
-    """The clauses, what must not be done or must stay, and what no clause accounts for.
-
-    A ``span`` counts characters of the text from 0; its end is the first character after the piece.
-    """
-    result: dict[str, Any] = {"clauses": [_clause_json(clause) for clause in parsed.clauses]}
-    if parsed.constraints:
-        result["constraints"] = [_clause_json(clause) for clause in parsed.constraints]
-    return result | {"skipped": [_skipped_json(piece) for piece in parsed.skipped]}
-
-
-def _clause_json(clause: Clause) -> dict[str, Any]:
-    return clause_json(clause) | {"span": list(clause.span)}
-
-
-def _skipped_json(piece: Skipped) -> dict[str, Any]:
-    return {"text": piece.text, "span": list(piece.span), "reason": piece.reason}
 
 
 def parsed_text(parsed: Parsed) -> str:

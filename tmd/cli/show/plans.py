@@ -1,69 +1,13 @@
-"""A grounded text as JSON and as lines for people."""
+"""A grounded text as lines for people."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-
-from tmd.cli.output import rounded
-from tmd.cli.show.clauses import parsed_json, parsed_text
-from tmd.cli.show.goals import goals_json, goals_text, refused_json
-from tmd.export.end_goal import end_goal
+from tmd.cli.show.clauses import parsed_text
+from tmd.cli.show.goals import goals_text
 from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
-from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict
-from tmd.pddl.writer import format_formula
-
-
-def grounded_json(grounded: Grounded, domain: str) -> dict[str, object]:
-    """Everything that is known of the plans; clauses are counted from 0."""
-    parsed, task = grounded.parsed, grounded.world.task
-    pairs = zip(grounded.plans, grounded.verdicts, strict=True)
-    return {
-        "text": parsed.text,
-        "domain": domain,
-        "environment": grounded.world.name,
-        **parsed_json(parsed),
-        "unseen_verbs": list(grounded.unseen),
-        "unknown_nouns": list(grounded.unknown),
-        "plans": [_plan_json(plan, verdict, task) for plan, verdict in pairs],
-        "refusals": [
-            {"clause": refusal.clause, "source": refusal.source, "reason": refusal.reason}
-            for refusal in grounded.refusals
-        ],
-        "refused": refused_json(grounded.refused),
-        "warnings": list(grounded.warnings),
-    }
-
-
-def _plan_json(plan: RankedPlan, verdict: Verdict, task: Task) -> dict[str, object]:
-    whole = end_goal(plan, task)
-    return {
-        "steps": [
-            {
-                "action": step.instruction.name,
-                "args": list(step.instruction.args),
-                "clause": step.clause,
-                "latent": step.latent,
-            }
-            for step in plan.steps
-        ],
-        "energy": rounded(plan.energy),
-        "factors": _rounded(plan.factors),
-        "valid": verdict.valid,
-        "cost": verdict.cost,
-        "why_not_first": plan.why or None,
-        "choices": [
-            {"source": choice.source, "energy": rounded(choice.energy), "factors": _rounded(choice.factors)}
-            for choice in plan.choices
-        ],
-        "goal": None if whole is None else format_formula(whole),
-        "goals": goals_json(plan, task.problem),
-    }
-
-
-def _rounded(factors: Mapping[str, float]) -> dict[str, float]:
-    return {name: rounded(value) for name, value in factors.items()}
+from tmd.records.json_record import rounded
 
 
 def remarks(grounded: Grounded) -> list[str]:

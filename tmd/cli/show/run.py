@@ -1,16 +1,27 @@
-"""A run as lines for people, as JSON, and as a log that grows."""
+"""A run as it is told: lines for people, one JSON value, and a log that grows."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Self
+from typing import IO, Any, Literal, Self
 
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
 from tmd.pddl.model import GroundAtom
+from tmd.records.json_record import JsonRecord
+from tmd.records.run import (
+    BeginEvent,
+    EndEvent,
+    FaultEvent,
+    FaultRecord,
+    PlanEvent,
+    RanStep,
+    RunRecord,
+    RunRequest,
+    StepEvent,
+)
 from tmd.robot.monitor.faults import Happening
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
@@ -19,54 +30,6 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
 _FACTS = 2
 """So many confirmed facts are told on a line."""
-
-
-def plan_json(orders: Sequence[Order]) -> list[dict[str, object]]:
-    """The plan, one entry for each instruction."""
-    return [_order_json(order) for order in orders]
-
-
-def _order_json(order: Order) -> dict[str, object]:
-    action, args = order.instruction
-    return {"action": action, "args": list(args), "clause": order.clause, "latent": order.latent}
-
-
-def step_json(title: Title, step: ExecutedStep) -> dict[str, object]:
-    """One step: what was done, and what was seen."""
-    action, args = step.instruction
-    return {
-        "number": title.number,
-        "action": action,
-        "args": list(args),
-        "repair": title.repair,
-        "outcome": outcome(step),
-        "failure": step.failure or None,
-        "evidence": step.evidence or None,
-        "confirmed": [str(atom) for atom in step.confirmed],
-        "mismatches": [{"fact": str(m.atom), "expected": m.expected, "measured": m.measured} for m in step.mismatches],
-        "begin": step.begin,
-        "end": step.end,
-    }
-
-
-def outcome(step: ExecutedStep) -> str:
-    """``ok``, ``failed`` or ``mismatch``."""
-    return "failed" if step.failure else "mismatch" if step.mismatches else "ok"
-
-
-def execution_json(execution: Execution, steps: int) -> dict[str, object]:
-    """How a run ended."""
-    return {
-        "status": str(execution.status),
-        "reason": execution.reason or None,
-        "repairs": execution.repairs,
-        "seconds": round(steps / STEPS_PER_SECOND, 2),
-    }
-
-
-def refusal_json(status: str, reason: str) -> dict[str, object]:
-    """How a run ended that did not begin."""
-    return {"status": status, "reason": reason.strip(), "repairs": 0, "seconds": 0.0}
 
 
 class Telling:
@@ -84,7 +47,7 @@ class Telling:
 
     def __init__(
         self,
-        asked: dict[str, object],
+        asked: RunRequest,
         orders: Sequence[Order],
         journal: RunLog | None,
         *,
@@ -95,17 +58,17 @@ class Telling:
         self._session: SimulationSession | None = None
         self._told = 0
         self._as_json = as_json
-        self._steps: list[dict[str, object]] = []
+        self._steps: list[RanStep] = []
         self._width = max((len(str(order.instruction)) for order in orders), default=0)
         self._origin = max((len(_origin(order)) for order in orders), default=0)
-        how = "under physics" if asked["mode"] == "physics" else "without physics"
-        self.heading = f"{_count(len(orders), 'instruction')} in {asked['environment']}, {how}"
+        how = "under physics" if asked.mode == "physics" else "without physics"
+        self.heading = f"{_count(len(orders), 'instruction')} in {asked.environment}, {how}"
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
         """The run begins in this simulation, which knows of its faults; see :data:`tmd.robot.run_plan.Prepare`."""
         self._session = session
         self._print(f"plan: {self.heading}\n")
-        self._log({"event": "plan", **self._asked})
+        self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
 
     def _happenings(self) -> Sequence[Happening]:
@@ -114,30 +77,32 @@ class Telling:
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins: the log of a run that was killed says what it was doing."""
-        self._log({"event": "begin", "number": title.number, "instruction": str(title.instruction)})
+        self._log(BeginEvent(event="begin", number=title.number, instruction=str(title.instruction)))
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
         for happening in self._happenings()[self._told :]:
             self._told += 1
-            self._log({"event": "fault", "what": happening.text, "tick": happening.tick})
+            self._log(FaultEvent(event="fault", what=happening.text, tick=happening.tick))
             self._print(f"    !  fault: {happening.text}\n")
-        told = step_json(title, step)
+        told = RanStep.of(title, step)
         self._steps.append(told)
-        self._log({"event": "step", **told})
+        self._log(StepEvent(event="step", **told.given()))
         origin = "repair" if title.order is None else _origin(title.order)
         number = "+" if title.repair else str(title.number)
         self._print(f"  {number:>3}. {step.instruction!s:<{self._width}}  {origin:<{self._origin}}  {_found(step)}\n")
 
     def log_ending(self, execution: Execution, steps: int) -> None:
         """The last line of the log: how it ended, after so many steps of physics."""
-        self._log({"event": "end", **execution_json(execution, steps)})
+        self._log(EndEvent(event="end", **_how_it_ended(execution, steps)))
 
     def print_ending(self, execution: Execution, steps: int) -> None:
         """What is printed last, when all files are written: how it ended, or the whole record."""
         if self._as_json:
-            faults = [{"what": happening.text, "tick": happening.tick} for happening in self._happenings()]
-            emit_json({**self._asked, "steps": self._steps, "faults": faults, **execution_json(execution, steps)})
+            faults = [FaultRecord(what=happening.text, tick=happening.tick) for happening in self._happenings()]
+            done = _how_it_ended(execution, steps)
+            seen = {"steps": tuple(self._steps), "faults": tuple(faults)}
+            emit_json(RunRecord.model_validate({**self._asked.given(), **seen, **done}).to_value())
         else:
             emit(_ending(execution, steps))
 
@@ -145,9 +110,19 @@ class Telling:
         if not self._as_json:
             emit(text)
 
-    def _log(self, entry: dict[str, object]) -> None:
+    def _log(self, entry: JsonRecord) -> None:
         if self._journal is not None:
             self._journal.write(entry)
+
+
+def _how_it_ended(execution: Execution, steps: int) -> dict[str, Any]:
+    """The keys of a record, or of the last line of a log, that say how a run ended."""
+    return {
+        "status": execution.status.value,
+        "reason": execution.reason or None,
+        "repairs": execution.repairs,
+        "seconds": round(steps / STEPS_PER_SECOND, 2),
+    }
 
 
 def _found(step: ExecutedStep) -> str:
@@ -215,13 +190,12 @@ class RunLog:
         try:
             if kind is not None and not self._ended and not isinstance(error, OutputError):
                 interrupted = issubclass(kind, KeyboardInterrupt)
-                self.write(
-                    {"event": "end", "status": "interrupted" if interrupted else "error", "reason": str(error) or None}
-                )
+                status: Literal["interrupted", "error"] = "interrupted" if interrupted else "error"
+                self.write(EndEvent(event="end", status=status, reason=str(error) or None))
         finally:
             self._file.close()
 
-    def write(self, entry: dict[str, object]) -> None:
+    def write(self, entry: JsonRecord) -> None:
         """Write one line.
 
         Raises:
@@ -230,8 +204,8 @@ class RunLog:
         try:
             if self._file is None:
                 self._file = self._path.open("w", encoding="utf-8", buffering=1)
-            self._file.write(json.dumps(entry, ensure_ascii=False) + "\n")
-            self._ended = entry.get("event") == "end"
+            self._file.write(entry.to_line())
+            self._ended = isinstance(entry, EndEvent)
         except OSError as error:
             raise OutputError(
                 f"{self._path} cannot be written: {error.strerror or error}",

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 from tmd.evaluation.report.alignment import Mark, align, name
-from tmd.evaluation.runs.records import ClauseRecord, Line, SegmentRecord
+from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 
 NO_CLAUSE = "(no clause)"
 """Stands for the verb where people did something for words in which no clause was found."""
@@ -63,7 +63,7 @@ class _Share:
         return 100.0 * (1 - min(1.0, wrong / max(predicted, recorded, 1)))
 
 
-def by_verb(lines: Iterable[Line]) -> list[VerbErrors]:
+def by_verb(lines: Iterable[PredictionRecord]) -> list[VerbErrors]:
     """The verbs, most frequent first.
 
     A clause belongs to the segment of the text that it shares most characters with. What was predicted for the
@@ -87,10 +87,10 @@ def by_verb(lines: Iterable[Line]) -> list[VerbErrors]:
     return sorted(found.values(), key=lambda v: (-v.clauses, v.verb))
 
 
-def _count(found: dict[str, VerbErrors], clauses: Sequence[ClauseRecord], recorded: Sequence[str]) -> None:
+def _count(found: dict[str, VerbErrors], clauses: Sequence[PredictedClause], recorded: Sequence[str]) -> None:
     """Add what became of the clauses of one segment."""
-    predicted = [step for clause in clauses for step in (*clause.latent, *clause.said)]
-    owner = [n for n, clause in enumerate(clauses) for _ in (*clause.latent, *clause.said)]
+    predicted = [step for clause in clauses for step in clause.steps]
+    owner = [n for n, clause in enumerate(clauses) for _ in clause.steps]
     shares = [_Share() for _ in clauses] or [_Share()]
     current = 0
     for step in align(predicted, recorded):
@@ -119,7 +119,7 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[ClauseRecord], record
                 errors.substituted[gold, mine] += 1
 
 
-def belonging(text: str, clauses: Sequence[ClauseRecord], segments: Sequence[SegmentRecord]) -> list[int | None]:
+def belonging(text: str, clauses: Sequence[PredictedClause], segments: Sequence[SegmentRecord]) -> list[int | None]:
     """For each clause the number of the segment it shares most characters with; ``None`` where it meets none.
 
     Both are found by their words, one after the other, since both stand in the order of the text.
@@ -146,7 +146,7 @@ def _places(text: str, pieces: Sequence[str], *, overlap: bool) -> list[range]:
     return found
 
 
-def by_instruction(lines: Iterable[Line]) -> Counter[tuple[str, str]]:
+def by_instruction(lines: Iterable[PredictionRecord]) -> Counter[tuple[str, str]]:
     """How often which recorded instruction stands beside which predicted one, by name.
 
     The whole sequences are aligned, as IED does. A substitution by the same instruction with other arguments has

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmd.evaluation.report.alignment import Mark, align
-from tmd.evaluation.runs.records import ClauseRecord, Line
+from tmd.records.prediction import PredictedClause, PredictionRecord
 
 SHOWN = 10
 """How many of the best, and how many of the worst."""
@@ -78,13 +78,13 @@ class Shown:
         whole: Whether the clauses' instructions are the prediction; if not, the model changed it afterwards.
     """
 
-    line: Line
+    line: PredictionRecord
     steps: tuple[ExampleStep, ...]
     clauses: tuple[ShownClause, ...]
     whole: bool
 
 
-def best_and_worst(lines: Sequence[Line], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
+def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
     """The best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
 
     What has no goal stands between what reached its goal and what did not.
@@ -94,12 +94,12 @@ def best_and_worst(lines: Sequence[Line], count: int = SHOWN) -> tuple[list[Show
     return [shown(line) for line in best], [shown(line) for line in reversed(rest[-count:])]
 
 
-def _rank(line: Line) -> tuple[int, float, float, float, str, str]:
+def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
     success = {True: 0, None: 1, False: 2}[line.success]
     return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
 
 
-def shown(line: Line) -> Shown:
+def shown(line: PredictionRecord) -> Shown:
     """What is shown of a prediction."""
     origins = [
         (number, latent)
@@ -107,7 +107,7 @@ def shown(line: Line) -> Shown:
         for steps, latent in ((clause.latent, True), (clause.said, False))
         for _ in steps
     ]
-    whole = [step for clause in line.clauses for step in (*clause.latent, *clause.said)] == line.predicted
+    whole = line.whole
     steps = []
     for step in align(line.predicted, line.gold):
         origin = origins[step.predicted] if whole and step.predicted is not None else (None, False)
@@ -119,7 +119,7 @@ def shown(line: Line) -> Shown:
     return Shown(line, tuple(steps), clauses, whole)
 
 
-def _clause(number: int, clause: ClauseRecord, longest: float) -> ShownClause:
+def _clause(number: int, clause: PredictedClause, longest: float) -> ShownClause:
     bars = tuple(
         Bar(name, value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
     )

@@ -12,8 +12,8 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
-from tmd.evaluation.runs.records import CurvePoint, Fit, Means, Metrics
-from tmd.evaluation.runs.summary import EXECUTABLE, SUCCESS
+from tmd.records.fit import CurvePoint, Fit
+from tmd.records.metrics import EXECUTABLE, SUCCESS, Means, Metrics
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -90,7 +90,7 @@ def learning_curves(fits: Sequence[Fit], model: str) -> str | None:
     """Loss and objective over the epochs, a line for each training set; ``None`` where no curve was kept."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
-    curves = {world: [fit.worlds[world].curve for fit in own if world in fit.worlds] for world in worlds}
+    curves = {world: [fit.worlds[world].points for fit in own if world in fit.worlds] for world in worlds}
     points = [point for found in curves.values() for curve in found for point in curve]
     sides = [side for side in _SIDES if any(getattr(point, side) is not None for point in points)]
     if not sides:

@@ -16,9 +16,10 @@ from tmd.evaluation.report.figures import LABELS, overall_bars, task_bars, tasks
 from tmd.evaluation.report.linked_pages import FOLDER, page_name
 from tmd.evaluation.report.reference_row import ALPHA, differing, reference
 from tmd.evaluation.report.tables import differences, errors, learned, table_2
-from tmd.evaluation.runs.records import Metrics, Run
-from tmd.evaluation.runs.summary import EMPTY, SUCCESS
+from tmd.evaluation.runs.finished_run import Run
+from tmd.evaluation.runs.summary import EMPTY
 from tmd.evaluation.runs.trial_records import Trials, films
+from tmd.records.metrics import SUCCESS, Metrics
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -38,12 +39,11 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         trials: What a robot did with its predictions; ``None`` where nobody asked for it.
         pages: The pages on single predictions that are there, by file name.
     """
-    metrics = run.metrics
+    metrics, fits = run.metrics, list(run.fits.values())
     paper, others = paper_table.in_order(metrics.models)
     others.sort(key=lambda model: model == EMPTY)
     order = [*paper, *others]
     chief = reference(metrics.models)
-    pairs = [pair.model_dump() for pair in metrics.significance.pairs]
     shown = sorted((m for m in order if m != EMPTY), key=lambda m: m != chief)
     page = _environment().get_template("report.html.j2")
     return page.render(
@@ -54,7 +54,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         others=others,
         order=order,
         reference=chief,
-        marked=differing(pairs, chief) if chief else frozenset(),
+        marked=differing(metrics.significance.pairs, chief) if chief else frozenset(),
         alpha=ALPHA,
         against=differences(metrics, chief, order),
         columns=metrics.columns,
@@ -66,7 +66,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         table_2=table_2(metrics, paper),
         overall=overall_bars(metrics, order, metrics.columns),
         by_task=task_bars(metrics, order, [c for c in (SUCCESS, "IED", "EED", "END") if c in metrics.columns]),
-        learned=[learned(run.fits, model) for model in order if any(fit.model == model for fit in run.fits)],
+        learned=[learned(fits, model) for model in order if any(fit.model == model for fit in fits)],
         errors=[errors(run, model) for model in shown],
         examples=[(model, *best_and_worst(run.of(model))) for model in shown],
         count=SHOWN,

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable
 
-from tmd.evaluation.runs.summary import EMPTY, TESTED
+from tmd.evaluation.runs.summary import EMPTY
+from tmd.records.metrics import TESTED, Pair
 
 FULL = "full"
 """The paper's full model: the others are measured against it."""
@@ -21,12 +21,8 @@ def reference(models: Iterable[str]) -> str | None:
     return rows[-1] if rows else None
 
 
-def differing(pairs: Iterable[Mapping[str, Any]], against: str) -> frozenset[tuple[str, str]]:
+def differing(pairs: Iterable[Pair], against: str) -> frozenset[tuple[str, str]]:
     """The rows that differ from one in a metric, with the metric: corrected p below :data:`ALPHA`."""
-    found = set()
-    for pair in pairs:
-        if against in (pair["a"], pair["b"]):
-            other = pair["b"] if pair["a"] == against else pair["a"]
-            tested = [metric for metric in TESTED if pair.get(metric) is not None]
-            found |= {(other, metric) for metric in tested if pair[metric]["p_holm"] < ALPHA}
-    return frozenset(found)
+    own = [pair.seen_from(against) for pair in pairs if against in (pair.a, pair.b)]
+    tested = [(pair.b, metric, found) for pair in own for metric in TESTED if (found := pair.of(metric)) is not None]
+    return frozenset((other, metric) for other, metric, found in tested if found.p_holm < ALPHA)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from tmd.evaluation.report.reference_row import ALPHA, differing, reference
-from tmd.evaluation.runs.summary import EMPTY, SUCCESS, TESTED
+from tmd.evaluation.runs.summary import EMPTY
 from tmd.files import write_text
+from tmd.records.metrics import EXECUTABLE, SUCCESS, Means, Metrics
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -27,7 +28,7 @@ def write_report(directory: Path) -> Path:
     """
     from tmd.evaluation.report.linked_pages import linked_pages
     from tmd.evaluation.report.page import render
-    from tmd.evaluation.runs.records import read_run
+    from tmd.evaluation.runs.finished_run import read_run
     from tmd.evaluation.runs.trial_records import read_trials
 
     page = render(read_run(directory), read_trials(directory), linked_pages(directory))
@@ -36,7 +37,7 @@ def write_report(directory: Path) -> Path:
     return path
 
 
-def print_table(metrics: dict[str, Any], console: Console | None = None) -> None:
+def print_table(metrics: Metrics, console: Console | None = None) -> None:
     """Print the table: means over examples. All metrics run from 0 to 100, larger is better."""
     from rich.console import Console
     from rich.measure import Measurement
@@ -47,34 +48,34 @@ def print_table(metrics: dict[str, Any], console: Console | None = None) -> None
     shown.print(found)
 
 
-def table(metrics: dict[str, Any], *, narrow: bool = False) -> Table:
+def table(metrics: Metrics, *, narrow: bool = False) -> Table:
     """The models as rows, the metrics as columns, each mean with its standard error; the floor is marked.
 
     Success is the first metric, where any example has a goal. All rows together fit 80 columns in a ``narrow`` table.
     """
     from rich.markup import escape
 
-    against = reference(metrics["models"])
-    marked = differing(metrics["significance"]["pairs"], against) if against else frozenset()
+    against = reference(metrics.models)
+    marked = differing(metrics.significance.pairs, against) if against else frozenset()
     found = _frame(metrics, _caption(metrics, against, marked), narrow=narrow)
-    scored = [metric for metric in TESTED if metric != SUCCESS or _has_goals(metrics)]
+    scored = [column for column in metrics.columns if column != EXECUTABLE]
     for column in ("n", *(metric.replace("_", "-") for metric in scored), "exec." if narrow else "exec. %"):
         found.add_column(column, justify="right", no_wrap=True)
     between = "" if narrow else " "
-    for name, row in metrics["models"].items():
+    for name, row in metrics.models.items():
         cells = [_cell(row, m, between) + _star((name, m) in marked, bool(marked)) for m in scored]
-        found.add_row(escape(name), str(row["n"]), *cells, f"{row['executable']:.1f}")
+        found.add_row(escape(name), str(row.n), *cells, f"{row.executable:.1f}")
     return found
 
 
-def _frame(metrics: dict[str, Any], caption: str, *, narrow: bool) -> Table:
+def _frame(metrics: Metrics, caption: str, *, narrow: bool) -> Table:
     """The table without its numbers."""
     from rich import box
     from rich.markup import escape
     from rich.table import Table
 
-    config = metrics["config"]
-    title = f"{config['task']}, {config['data']} data, {len(metrics['folds'])} folds, seed {config['seed']}"
+    config = metrics.config
+    title = f"{config['task']}, {config['data']} data, {len(metrics.folds)} folds, seed {config['seed']}"
     found = Table(
         title=escape(title),
         caption=escape(caption),
@@ -90,14 +91,10 @@ def _frame(metrics: dict[str, Any], caption: str, *, narrow: bool) -> Table:
     return found
 
 
-def _has_goals(metrics: dict[str, Any]) -> bool:
-    """Whether anything was measured by a goal: VEIL-500 has none, and neither have runs of earlier versions."""
-    return any(row.get(SUCCESS) is not None for row in metrics["models"].values())
-
-
-def _cell(row: dict[str, Any], metric: str, between: str) -> str:
+def _cell(row: Means, metric: str, between: str) -> str:
     """A mean with its standard error; a dash where there is none."""
-    return "–" if row.get(metric) is None else f"{row[metric]:.1f}{between}±{row[f'{metric}_se']:.1f}"
+    mean, error = row.mean(metric), row.se(metric)
+    return "–" if mean is None else f"{mean:.1f}{between}±{error or 0.0:.1f}"
 
 
 def _star(here: bool, anywhere: bool) -> str:
@@ -105,12 +102,12 @@ def _star(here: bool, anywhere: bool) -> str:
     return ("*" if here else " ") if anywhere else ""
 
 
-def _caption(metrics: dict[str, Any], against: str | None, marked: frozenset[tuple[str, str]]) -> str:
+def _caption(metrics: Metrics, against: str | None, marked: frozenset[tuple[str, str]]) -> str:
     said = []
-    rows = metrics["models"].values()
-    if _has_goals(metrics) and any(row["goals"] < row["n"] for row in rows):
-        said.append(f"Success is over the {max(row['goals'] for row in rows)} examples that have a goal.")
-    if metrics["floor"] is not None:
+    rows = metrics.models.values()
+    if SUCCESS in metrics.columns and any(row.goals < row.n for row in rows):
+        said.append(f"Success is over the {max(row.goals for row in rows)} examples that have a goal.")
+    if metrics.floor is not None:
         said.append(f"The row {EMPTY} predicts nothing: it is the floor.")
     if marked:
         said.append(f"* differs from {against}: paired test by text, Holm, p < {ALPHA}.")

@@ -9,8 +9,10 @@ from typing import Any
 from tmd.evaluation.report import paper_table
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, VerbErrors, by_instruction, by_verb
 from tmd.evaluation.report.figures import learning_curves
-from tmd.evaluation.runs.records import Fit, Means, Metrics, Pair, Run
+from tmd.evaluation.runs.finished_run import Run
 from tmd.evaluation.runs.summary import average
+from tmd.records.fit import Fit
+from tmd.records.metrics import Means, Metrics, Pair
 
 _VERBS = 30
 """How many verbs the table of verbs shows."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, replace
-from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.models.model import make_model
@@ -17,9 +16,11 @@ from tmd.evaluation.runs.backends import outcomes
 from tmd.evaluation.runs.config import BUNDLED, DEFAULT_MODELS, ExperimentConfig
 from tmd.evaluation.runs.dataset import Dataset, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
-from tmd.evaluation.runs.jobs import jsonl, units_of
+from tmd.evaluation.runs.jobs import units_of
 from tmd.evaluation.runs.run_directory import RunDirectory
 from tmd.evaluation.runs.summary import summarise
+from tmd.records.metrics import FoldSizes, Metrics
+from tmd.world.folder import find_domain
 
 __all__ = ["DEFAULT_MODELS", "ExperimentConfig", "Progress", "collect", "run", "work"]
 
@@ -37,7 +38,7 @@ class _Plan:
     directory: RunDirectory
 
 
-def run(config: ExperimentConfig, progress: Progress | None = None) -> dict[str, Any]:
+def run(config: ExperimentConfig, progress: Progress | None = None) -> Metrics:
     """Do the run, or what is left of it, and return its metrics.
 
     Raises:
@@ -60,7 +61,7 @@ def work(config: ExperimentConfig, progress: Progress | None = None) -> int:
         return _work(plan, progress)
 
 
-def collect(config: ExperimentConfig) -> dict[str, Any]:
+def collect(config: ExperimentConfig) -> Metrics:
     """Compute the metrics of a run from its parts, train nothing, and return them.
 
     Raises:
@@ -109,7 +110,7 @@ def _work(plan: _Plan, progress: Progress | None) -> int:
     return parts
 
 
-def _collect(plan: _Plan) -> dict[str, Any]:
+def _collect(plan: _Plan) -> Metrics:
     config, folds = plan.config, plan.folds
     found = [plan.directory.part(model, fold) for model in config.models for fold in folds]
     missing = sum(lines is None for lines in found)
@@ -119,9 +120,8 @@ def _collect(plan: _Plan) -> dict[str, Any]:
             hint="give the same command without --step and --shard to do them",
         )
     predictions = [line for lines in found for line in lines or ()]
-    metrics = summarise(predictions, config.models) | {
-        "config": plan.directory.identity,
-        "folds": {f.name: {"train": len(f.train), "test": len(f.test), "training_set": f.training_set} for f in folds},
-    }
-    plan.directory.finish(jsonl(predictions), metrics)
+    sizes = {f.name: FoldSizes(train=len(f.train), test=len(f.test), training_set=f.training_set) for f in folds}
+    means = summarise([dict(prediction) for prediction in predictions], config.models)
+    metrics = Metrics.model_validate({**means, "config": plan.directory.identity, "folds": sizes})
+    plan.directory.finish(predictions, metrics)
     return metrics

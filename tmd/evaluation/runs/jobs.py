@@ -26,9 +26,10 @@ from tmd.evaluation.runs.incomplete import leave_out
 from tmd.files import make_directory, write_text
 from tmd.inference.energy import Weights
 from tmd.pddl.model import Instruction
+from tmd.records.fit import CurvePoint, Fit, WorldFit
+from tmd.records.json_record import DIGITS
+from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 
-DIGITS = 6
-"""Scores are rounded for the files, so that the last bit of a float shows nowhere."""
 GO_ON = "what is done is kept: the same command goes on from there"
 """What is said where a run ends before its time."""
 _PREDICT = zlib.crc32(b"predict")
@@ -194,15 +195,15 @@ def fit_text(model_name: str, fold: Fold, model: Model) -> str | None:
     if not isinstance(model, Learner) or not model.learned_:
         return None
     worlds = {
-        world: {
-            "weights": {name: learned.weights[name] for name in learned.weights},
-            "curve": list(learned.curve),
-        }
+        world: WorldFit(
+            weights={name: learned.weights[name] for name in learned.weights},
+            curve=tuple(p if isinstance(p, float | int) else CurvePoint.model_validate(p) for p in learned.curve),
+        )
         for world, learned in sorted(model.learned_.items())
     }
     places = sorted({(e.world, e.number, e.environment) for e in fold.train})
-    said = {"model": model_name, "trained_in": [name for _, _, name in places], "worlds": worlds}
-    return json.dumps(said, ensure_ascii=False, indent=2) + "\n"
+    said = Fit(model=model_name, trained_in=tuple(name for _, _, name in places), worlds=worlds)
+    return json.dumps(said.to_value(), ensure_ascii=False, indent=2) + "\n"
 
 
 def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: Fold, data: Dataset) -> str:
@@ -215,13 +216,9 @@ def _tested(config: ExperimentConfig, unit: EvaluationJob, model: Model, fold: F
     for environment in sorted({example.environment for example in fold.test}):
         own = [prediction.instructions for example, _, prediction in done if example.environment == environment]
         data.scorer(environment).prepare(own)
-    lines = [_line(data, example, read, prediction, unit.model, fold.name) for example, read, prediction in done]
-    return jsonl(lines)
-
-
-def jsonl(lines: Iterable[dict[str, Any]]) -> str:
-    """JSON Lines."""
-    return "".join(json.dumps(line, ensure_ascii=False) + "\n" for line in lines)
+    return "".join(
+        _record(data, example, read, prediction, unit.model, fold.name).to_line() for example, read, prediction in done
+    )
 
 
 def _key(name: str) -> int:
@@ -229,43 +226,45 @@ def _key(name: str) -> int:
     return zlib.crc32(name.encode())
 
 
-def _line(data: Dataset, example: Example, read: str, prediction: Prediction, model: str, fold: str) -> dict[str, Any]:
-    """What is kept of one prediction: a line of ``predictions.jsonl``. ``text`` is what the model read."""
+def _record(
+    data: Dataset, example: Example, read: str, prediction: Prediction, model: str, fold: str
+) -> PredictionRecord:
+    """What is kept of one prediction; ``read`` is the text that the model read."""
 
-    def written(instructions: Iterable[Instruction]) -> list[str]:
-        return data.written(example.environment, instructions)
+    def written(instructions: Iterable[Instruction]) -> tuple[str, ...]:
+        return tuple(data.written(example.environment, instructions))
 
     scorer = data.scorer(example.environment)
     scores = scorer.score(prediction.instructions, example.gold)
     whole = example.demonstration.text
-    return {
-        "id": example.id,
-        "task": example.task,
-        "environment": example.environment,
-        "model": model,
-        "fold": fold,
-        "text": read,
-        "predicted": written(prediction.instructions),
-        "gold": written(example.gold),
-        "executable": scores.executable == 100.0,
-        "success": None if example.goal is None else scorer.reaches(prediction.instructions, example.goal),
-        "IED": round(scores.ied, DIGITS),
-        "END": round(scores.end, DIGITS),
-        "EED": round(scores.eed, DIGITS),
-        "EED_trim": round(scores.eed_trim, DIGITS),
-        "clauses": [
-            {
-                "text": served.text,
-                "verb": served.verb,
-                "latent": written(served.latent),
-                "said": written(served.said),
-                "source": served.source,
-                "factors": {name: round(value, DIGITS) for name, value in served.factors.items()},
-            }
+    return PredictionRecord(
+        id=example.id,
+        task=example.task,
+        environment=example.environment,
+        model=model,
+        fold=fold,
+        text=read,
+        predicted=written(prediction.instructions),
+        gold=written(example.gold),
+        executable=scores.executable == 100.0,
+        success=None if example.goal is None else scorer.reaches(prediction.instructions, example.goal),
+        IED=round(scores.ied, DIGITS),
+        END=round(scores.end, DIGITS),
+        EED=round(scores.eed, DIGITS),
+        EED_trim=round(scores.eed_trim, DIGITS),
+        clauses=tuple(
+            PredictedClause(
+                text=served.text,
+                verb=served.verb,
+                latent=written(served.latent),
+                said=written(served.said),
+                source=served.source,
+                factors={name: round(value, DIGITS) for name, value in served.factors.items()},
+            )
             for served in prediction.served
-        ],
-        "segments": [
-            {"text": whole[segment.start : segment.end], "instructions": written(segment.instructions)}
-            for segment in example.demonstration.segments
-        ],
-    }
+        ),
+        segments=tuple(
+            SegmentRecord(text=whole[s.start : s.end], instructions=written(s.instructions))
+            for s in example.demonstration.segments
+        ),
+    )

@@ -10,18 +10,21 @@ from __future__ import annotations
 import json
 import logging
 import subprocess
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from tmd.diagnostics import OutputError
+from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.runs.config import Shard
 from tmd.evaluation.runs.dataset import Example
 from tmd.evaluation.runs.folds import Fold
 from tmd.evaluation.runs.jobs import EvaluationJob, JobOutcome, journal_files
-from tmd.evaluation.runs.summary import METRICS, SUCCESS
 from tmd.files import make_directory, write_text
+from tmd.pddl.reading.syntax import read_text
+from tmd.records.fit import Fit
+from tmd.records.metrics import Metrics
+from tmd.records.prediction import PredictionRecord
 
 PREDICTIONS = "predictions.jsonl"
 METRICS_FILE = "metrics.json"
@@ -110,19 +113,18 @@ class RunDirectory:
             return None
         return EvaluationJob(unit.model, unit.training_set, waiting, self._saved(unit))
 
-    def part(self, model: str, fold: Fold) -> list[dict[str, Any]] | None:
-        """The lines on one model and fold; ``None`` if there are none, or they are damaged."""
+    def part(self, model: str, fold: Fold) -> list[PredictionRecord] | None:
+        """The predictions of one model on one fold; ``None`` if there are none, or they are damaged."""
         path = self._part_path(model, fold.name)
         if not path.exists():
             return None
         try:
-            lines = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-            about = [(line["id"], line["model"], line["fold"]) for line in lines]
-            numbers = [float(line[metric]) for line in lines for metric in (*METRICS, "executable")]
-        except (OSError, ValueError, TypeError, KeyError):
-            about, numbers = [], []
+            lines = PredictionRecord.from_lines(read_text(path), str(path))
+        except TmdError:
+            lines = []
+        about = [(line.id, line.model, line.fold) for line in lines]
         wanted = [(example.id, model, fold.name) for example in fold.test]
-        if about != wanted or not numbers or any(map(_lacks_success, lines, fold.test)):
+        if not lines or about != wanted or any(map(_lacks_success, lines, fold.test)):
             self.log.info("damaged, so to be done again: %s", path.name)
             return None
         return lines
@@ -134,12 +136,10 @@ class RunDirectory:
         path = self.fits / f"{unit.name}.json"
         if not path.exists():
             return None
-        try:
-            saved = json.loads(path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            saved = None
-        if isinstance(saved, dict) and saved.get("model") == unit.model and isinstance(saved.get("worlds"), dict):
-            return saved
+        with suppress(TmdError):
+            saved = Fit.from_text(read_text(path), str(path))
+            if saved.model == unit.model:
+                return saved.to_value()
         self.log.info("damaged, so to be learned again: %s", path.name)
         return None
 
@@ -161,20 +161,20 @@ class RunDirectory:
             with suppress(OSError):
                 path.unlink(missing_ok=True)
 
-    def finish(self, predictions: str, metrics: dict[str, Any]) -> None:
+    def finish(self, predictions: Iterable[PredictionRecord], metrics: Metrics) -> None:
         """Write what came out of the run.
 
         Raises:
             OutputError: It cannot be written.
         """
-        write_text(self.path / PREDICTIONS, predictions)
-        write_text(self.path / METRICS_FILE, json.dumps(metrics, indent=2) + "\n")
+        write_text(self.path / PREDICTIONS, "".join(prediction.to_line() for prediction in predictions))
+        write_text(self.path / METRICS_FILE, json.dumps(metrics.to_value(), indent=2) + "\n")
         self.log.info("finished")
 
 
-def _lacks_success(line: dict[str, Any], example: Example) -> bool:
+def _lacks_success(line: PredictionRecord, example: Example) -> bool:
     """Whether a line does not tell what its example's goal asks for; one of an earlier version does not."""
-    return (example.goal is not None) != isinstance(line.get(SUCCESS), bool)
+    return (example.goal is None) != (line.success is None)
 
 
 def _difference(found: str, identity: dict[str, Any]) -> str:

@@ -7,18 +7,10 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from tmd.evaluation.significance import compare, score
+from tmd.records.metrics import COLUMNS, SUCCESS, TESTED
 
-SUCCESS = "success"
-"""The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal."""
-METRICS = ("IED", "EED", "EED_trim", "END")
-"""What every example is scored by."""
-TESTED = (SUCCESS, *METRICS)
-"""What rows are compared in."""
-EXECUTABLE = "executable"
-"""The share of predictions whose every instruction could be executed, in percent."""
 EMPTY = "empty"
 """The model that predicts nothing. Its row is the floor of each metric."""
-COLUMNS = (*TESTED, EXECUTABLE)
 _DIGITS = 4
 
 

@@ -8,88 +8,12 @@ from __future__ import annotations
 from base64 import b64encode
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
-
-from tmd.diagnostics import TmdError
+from tmd.pddl.reading.syntax import read_text
+from tmd.records.trial import Skip, Trial
 
 FOLDER = "robot"
 SKIPPED = "skipped.json"
-_Kind = TypeVar("_Kind", bound=BaseModel)
-
-
-class _Record(BaseModel):
-    """Part of a file. What a later version adds is passed over."""
-
-    model_config = ConfigDict(frozen=True, extra="ignore")
-
-
-class TrialStep(_Record):
-    """One instruction: ``outcome`` is ``ok``, ``failed`` or ``mismatch``; ``said`` what was measured.
-
-    ``confirmed`` are the effects that were seen.
-    """
-
-    instruction: str
-    repair: bool
-    outcome: Literal["ok", "failed", "mismatch"]
-    said: str
-    confirmed: list[str] = []
-
-
-class TrialRequest(_Record):
-    """What decides the outcome of a trial.
-
-    Attributes:
-        environment: Where.
-        model: The row that predicted the plan.
-        id: The example that it was predicted for; ``None`` where no prediction can be executed.
-        text: What was said.
-        plan: The prediction.
-        mode: ``kinematic`` or ``physics``.
-        seed: Random seed.
-        version: Of tmd.
-    """
-
-    environment: str
-    model: str
-    id: str | int | None
-    text: str
-    plan: list[str]
-    mode: Literal["kinematic", "physics"]
-    seed: int
-    version: str
-
-
-class Trial(_Record):
-    """A plan that a robot was given, and what came of it.
-
-    Attributes:
-        asked: What was to be done.
-        status: How it ended; ``no_plan`` and ``no_scene`` did not begin.
-        reason: Why it stopped or did not begin; empty otherwise.
-        repairs: How often the plan was mended.
-        seconds: Simulated; 0 without physics.
-        steps: What was done.
-        film: The file of the film beside the record, if there is one.
-        strip: The file of the filmstrip.
-    """
-
-    asked: TrialRequest
-    status: Literal["done", "recovered", "stopped", "no_plan", "no_scene"]
-    reason: str = ""
-    repairs: int = 0
-    seconds: float = 0.0
-    steps: list[TrialStep] = []
-    film: str | None = None
-    strip: str | None = None
-
-
-class Skip(_Record):
-    """Why there are no trials."""
-
-    reason: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +45,7 @@ def read_trials(run: Path) -> Trials | None:
     skip = folder / SKIPPED
     if not found and not skip.is_file():
         return None
-    return Trials(folder, found, "" if found else _read(Skip, skip).reason)
+    return Trials(folder, found, "" if found else Skip.from_text(read_text(skip), str(skip)).reason)
 
 
 def read_trial(path: Path) -> Trial:
@@ -130,7 +54,7 @@ def read_trial(path: Path) -> Trial:
     Raises:
         TmdError: It is damaged, or cannot be read.
     """
-    return _read(Trial, path)
+    return Trial.from_text(read_text(path), str(path))
 
 
 _MEDIA = {".mp4": "video/mp4", ".gif": "image/gif", ".png": "image/png"}
@@ -145,12 +69,3 @@ def films(trials: Trials | None) -> dict[str, str]:
         if path.suffix in _MEDIA and path.is_file():
             found[name] = f"data:{_MEDIA[path.suffix]};base64,{b64encode(path.read_bytes()).decode()}"
     return found
-
-
-def _read(kind: type[_Kind], path: Path) -> _Kind:
-    try:
-        return kind.model_validate_json(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror}") from None
-    except (ValidationError, UnicodeDecodeError):
-        raise TmdError(f"{path}: damaged", hint="remove that file, and let the robot act again: --step robot") from None

@@ -1,0 +1,21 @@
+"""The JSON formats: one module each, with the classes that write it, read it and describe it.
+
+===================  ==========================================================================
+module               format
+===================  ==========================================================================
+``json_record``      what all have in common: strictness, and faults told in one line
+``clauses``          ``tmd parse --json``, and the clauses within a grounding
+``grounding``        ``tmd ground --json``, with ``--goal-only`` as well
+``run``              ``tmd run --json``, and the lines of ``tmd run --log``
+``sentence_test``    ``tmd test --json``
+``plan``             ``plan.json`` of ``tmd export --format json``
+``prediction``       a line of ``predictions.jsonl`` and of ``parts/`` in a run of ``tmd experiment``
+``metrics``          ``metrics.json`` there
+``fit``              a file of ``fits/`` there
+``trial``            a file of ``robot/`` there
+``schemas``          all of them as JSON Schema: ``python -m tmd.records DIR`` writes the files
+===================  ==========================================================================
+
+What fills them stands beside what it tells of: :mod:`tmd.view.grounding_record`, :mod:`tmd.robot_trials.perform`,
+:mod:`tmd.evaluation.runs.jobs`.
+"""

@@ -1,0 +1,219 @@
+"""``tmd ground --json``: what was said, what it asks for, and the ranked plans."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import Field, field_validator, model_validator
+
+from tmd.diagnostics import TmdError
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal, StepGoal
+from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.syntax import parse
+from tmd.records.clauses import ParsedRecord
+from tmd.records.json_record import JsonRecord
+
+
+class InstructionRecord(JsonRecord):
+    """An instruction."""
+
+    action: str
+    args: tuple[str, ...]
+
+    @property
+    def instruction(self) -> Instruction:
+        """The same as PDDL has it."""
+        return Instruction(self.action, self.args)
+
+
+class GroundedStep(InstructionRecord):
+    """A step of a plan; a latent one was left unsaid and serves the steps of ``clause`` that follow."""
+
+    clause: int = Field(ge=0)
+    latent: bool
+
+
+class ChoiceRecord(JsonRecord):
+    """What was chosen for one goal, or for one clause where the model has no goals."""
+
+    source: str | None = Field(description="The demonstration or proposer; null where nothing could be used.")
+    energy: float
+    factors: dict[str, float] = Field(description="What each factor adds to the energy.")
+
+
+class GoalRecord(JsonRecord):
+    """What one step of the text asks for. Its part of the plan is ``steps[first:last]``."""
+
+    clause: int = Field(ge=0)
+    text: str
+    pddl: str | None = Field(description="Null where nothing is to be done, or where no goal is known.")
+    words: str | None
+    source: str | None = Field(description="Where its meaning comes from: declared, learned or actions.")
+    row: str | None
+    already: bool = Field(description="It held already, so nothing is done for it.")
+    note: str | None
+    first: int = Field(ge=0)
+    last: int = Field(ge=0)
+
+    @field_validator("pddl")
+    @classmethod
+    def _is_a_condition(cls, text: str | None) -> str | None:
+        if text is not None:
+            _condition(text)
+        return text
+
+    def step_goal(self) -> StepGoal:
+        """The goal."""
+        formula = None if self.pddl is None else _condition(self.pddl)
+        told = (self.source or "", self.row or "", self.already, self.note or "", self.first, self.last)
+        return StepGoal(self.clause, self.text, formula, *told)
+
+
+def _condition(text: str) -> Formula:
+    """The condition that a text states.
+
+    Raises:
+        ValueError: It is none.
+    """
+    try:
+        document = parse(text, "pddl")
+        document.check_depth()
+        if len(document.groups) == 1:
+            return read_condition(document.groups[0], document.source)
+    except TmdError as error:
+        raise ValueError(error.message) from None
+    raise ValueError("a goal is one condition")
+
+
+class RankedPlanRecord(JsonRecord):
+    """A plan with its energy, the validator's verdict on it, and what it is for."""
+
+    steps: tuple[GroundedStep, ...]
+    energy: float
+    factors: dict[str, float]
+    valid: bool
+    cost: int
+    why_not_first: str | None = Field(description="Which factor speaks most against it; null for the first.")
+    choices: tuple[ChoiceRecord, ...]
+    goal: str | None = Field(description="What the text asks for, all in all, as PDDL; null without goals.")
+    goals: tuple[GoalRecord, ...] = Field(description="Goals in the order of doing; empty for models without.")
+
+    @model_validator(mode="after")
+    def _steps_are_in_order(self) -> Self:
+        if self.goals:
+            places = [0, *(place for goal in self.goals for place in (goal.first, goal.last)), len(self.steps)]
+            if len(self.goals) != len(self.choices) or places != sorted(places):
+                raise ValueError("the goals do not have the steps one after the other")
+            return self
+        served = [step.clause for step in self.steps]
+        if served != sorted(served) or any(clause >= len(self.choices) for clause in served):
+            raise ValueError("the steps do not serve the clauses one after the other")
+        return self
+
+    def ranked(self) -> RankedPlan:
+        """The plan; in which state it ends is not recorded."""
+        steps = [PlanStep(step.instruction, step.clause, step.latent) for step in self.steps]
+        goals = tuple(goal.step_goal() for goal in self.goals)
+        own = [tuple(steps[g.first : g.last]) for g in goals] or [
+            tuple(step for step in steps if step.clause == number) for number in range(len(self.choices))
+        ]
+        choices = [Choice(c.source, part, c.factors, {}) for c, part in zip(self.choices, own, strict=True)]
+        return RankedPlan(tuple(choices), 0, self.why_not_first or "", goals)
+
+
+class RefusedTemplate(JsonRecord):
+    """A demonstration whose template cannot be used here."""
+
+    clause: int = Field(ge=0)
+    source: str
+    reason: str
+
+
+class RefusedText(JsonRecord):
+    """Why there is no plan for what was said, and what to say or do instead."""
+
+    clause: int = Field(ge=0)
+    why: str
+    message: str
+    hint: str | None
+
+
+class MadeWith(JsonRecord):
+    """What decides the plans beside text and environment."""
+
+    version: str
+    model: str
+    weights: str
+    planner: str
+    beam: int
+    trim: int | None
+    top: int
+
+
+class GroundedText(JsonRecord):
+    """What was said, and where."""
+
+    text: str
+    domain: str
+    environment: str
+
+
+_FILE = "The environment's file as it was given; null for the name of a bundled one."
+
+
+class GroundingRecord(ParsedRecord, GroundedText):
+    """A grounded text. Clauses are counted from 0."""
+
+    WHAT = "what tmd ground --json prints"
+    ANEW = "make it anew with tmd ground --json"
+
+    unseen_verbs: tuple[str, ...]
+    unknown_nouns: tuple[str, ...]
+    plans: tuple[RankedPlanRecord, ...] = Field(description="Least energy first.")
+    refusals: tuple[RefusedTemplate, ...]
+    refused: RefusedText | None
+    warnings: tuple[str, ...]
+    environment_file: str | None = Field(description=_FILE)
+    made_with: MadeWith
+
+    @model_validator(mode="after")
+    def _is_of_one_piece(self) -> Self:
+        spans = [clause.span for clause in (*self.clauses, *self.constraints)]
+        for start, end in [*spans, *(piece.span for piece in self.skipped)]:
+            if not 0 <= start <= end <= len(self.text):
+                raise ValueError(f"the span [{start}, {end}] lies outside of the text")
+        for plan in self.plans:
+            if not plan.goals and len(plan.choices) != len(self.clauses):
+                raise ValueError("a plan has not one choice for each clause")
+            served = {goal.clause for goal in plan.goals} | {step.clause for step in plan.steps}
+            if any(clause >= len(self.clauses) for clause in served):
+                raise ValueError("a plan is for a clause that is not there")
+        return self
+
+    def ranked(self) -> tuple[RankedPlan, ...]:
+        """The plans."""
+        return tuple(plan.ranked() for plan in self.plans)
+
+    def refused_templates(self) -> tuple[Refusal, ...]:
+        """The demonstrations whose templates cannot be used."""
+        return tuple(Refusal(refusal.clause, refusal.source, refusal.reason) for refusal in self.refusals)
+
+    def goal_only(self) -> GoalOnlyRecord:
+        """What ``tmd ground --goal-only --json`` prints of it."""
+        names = ("text", "domain", "environment", "environment_file", "refused", "warnings")
+        goal, goals = (self.plans[0].goal, self.plans[0].goals) if self.plans else (None, ())
+        return GoalOnlyRecord(**{name: getattr(self, name) for name in names}, goal=goal, goals=goals)
+
+
+class GoalOnlyRecord(GroundedText):
+    """What ``tmd ground --goal-only --json`` prints: the goal of the first plan."""
+
+    WHAT = "what tmd ground --goal-only --json prints"
+    ANEW = "make it anew with tmd ground --goal-only --json"
+
+    environment_file: str | None = Field(description=_FILE)
+    goal: str | None
+    goals: tuple[GoalRecord, ...]
+    refused: RefusedText | None
+    warnings: tuple[str, ...]

@@ -1,0 +1,218 @@
+"""``tmd run --json``, and the lines of ``tmd run --log``: a plan that a robot carried out."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from pydantic import Field
+
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.model import Instruction
+from tmd.records.grounding import GroundingRecord, InstructionRecord
+from tmd.records.json_record import JsonRecord, json_value
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from tmd.robot.monitor.listeners import Order, Title
+    from tmd.robot.skills.results import ExecutedStep
+
+StepOutcome: TypeAlias = Literal["ok", "failed", "mismatch"]
+SIGNS: dict[StepOutcome, str] = {"ok": "✓", "failed": "✗", "mismatch": "≠"}
+
+
+class OrderRecord(InstructionRecord):
+    """An instruction of the plan; ``clause`` is what it serves, null where the plan comes from a file."""
+
+    clause: int | None
+    latent: bool
+
+    @classmethod
+    def of(cls, order: Order) -> OrderRecord:
+        """The instruction as a record."""
+        action, args = order.instruction
+        return cls(action=action, args=args, clause=order.clause, latent=order.latent)
+
+
+class MismatchRecord(JsonRecord):
+    """A fact that is not as predicted."""
+
+    fact: str
+    expected: bool
+    measured: str
+
+    def __str__(self) -> str:
+        return f"{'' if self.expected else 'not '}{self.fact} was expected, but {self.measured}"
+
+
+class RanStep(JsonRecord):
+    """One instruction as it was carried out."""
+
+    number: int = Field(description="Its place in the plan, from 1; of a repair, the place before which it was put.")
+    action: str
+    args: tuple[str, ...]
+    repair: bool = Field(description="The monitor put it in.")
+    outcome: StepOutcome
+    failure: str | None = Field(description="Why the skill failed.")
+    evidence: str | None = Field(description="What showed that its event happened.")
+    confirmed: tuple[str, ...] = Field(description="The effects that are observed.")
+    mismatches: tuple[MismatchRecord, ...]
+    begin: int = Field(description="Tick of the simulation.")
+    end: int
+
+    @classmethod
+    def of(cls, title: Title, step: ExecutedStep) -> RanStep:
+        """A step that is over."""
+        action, args = step.instruction
+        return cls(
+            number=title.number,
+            action=action,
+            args=args,
+            repair=title.repair,
+            outcome="failed" if step.failure else "mismatch" if step.mismatches else "ok",
+            failure=step.failure or None,
+            evidence=step.evidence or None,
+            confirmed=tuple(map(str, step.confirmed)),
+            mismatches=tuple(
+                MismatchRecord(fact=str(m.atom), expected=m.expected, measured=m.measured) for m in step.mismatches
+            ),
+            begin=step.begin,
+            end=step.end,
+        )
+
+    @property
+    def instruction(self) -> Instruction:
+        """What was done."""
+        return Instruction(self.action, self.args)
+
+    @property
+    def sign(self) -> str:
+        """The sign of the outcome."""
+        return SIGNS[self.outcome]
+
+    @property
+    def seen(self) -> str:
+        """What was seen, in one line, but for what is not as predicted."""
+        return self.failure or self.evidence or ""
+
+    @property
+    def told(self) -> str:
+        """Why it failed, or what is not as predicted, or what was seen."""
+        return self.failure or "; ".join(map(str, self.mismatches)) or self.seen
+
+
+class FaultRecord(JsonRecord):
+    """What was made to go wrong, and at which tick of the simulation."""
+
+    what: str
+    tick: int
+
+
+class RunRequest(JsonRecord):
+    """What was to be done, and how."""
+
+    text: str | None
+    domain: str
+    environment: str
+    mode: Literal["physics", "kinematic"]
+    seed: int
+    fault: str | None
+    planner: str
+    plan: tuple[OrderRecord, ...]
+    version: str
+    environment_file: str | None
+    strip: str | None = Field(description="The name of the filmstrip's file.")
+    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file.")
+
+
+class RunRecord(RunRequest):
+    """A whole run."""
+
+    WHAT = "what tmd run --json prints"
+    ANEW = "make it anew with tmd run --json"
+
+    steps: tuple[RanStep, ...]
+    faults: tuple[FaultRecord, ...]
+    status: Literal["done", "recovered", "stopped", "not_grounded", "invalid_plan"]
+    reason: str | None
+    repairs: int
+    seconds: float = Field(description="Simulated time.")
+
+
+class _Event(JsonRecord):
+    """A line of a log; its kind stands first."""
+
+    WHAT = "a line of a log of tmd run"
+    ANEW = "make the log anew with tmd run --log"
+
+    event: str
+
+
+class PlanEvent(RunRequest, _Event):
+    """The first line: what was to be done."""
+
+    event: Literal["plan"]
+
+
+class BeginEvent(_Event):
+    """An instruction begins."""
+
+    event: Literal["begin"]
+    number: int
+    instruction: str
+
+
+class FaultEvent(FaultRecord, _Event):
+    """A fault came about."""
+
+    event: Literal["fault"]
+
+
+class StepEvent(RanStep, _Event):
+    """An instruction is over."""
+
+    event: Literal["step"]
+
+
+class EndEvent(_Event):
+    """The last line; where the run was interrupted, or ended by an error, without ``repairs`` and ``seconds``."""
+
+    event: Literal["end"]
+    status: Literal["done", "recovered", "stopped", "interrupted", "error"]
+    reason: str | None
+    repairs: int = 0
+    seconds: float = 0.0
+
+
+RunEvent: TypeAlias = PlanEvent | BeginEvent | FaultEvent | StepEvent | EndEvent
+_EVENTS: dict[str, type[RunEvent]] = {
+    "plan": PlanEvent, "begin": BeginEvent, "fault": FaultEvent, "step": StepEvent, "end": EndEvent,
+}  # fmt: skip
+
+
+def read_log(lines: Sequence[tuple[int, str]], file: str) -> tuple[PlanEvent, list[RunEvent]]:
+    """The first line of a log, and those after it; the last one may be cut off where the run was killed.
+
+    Args:
+        lines: The lines that are not blank, with their numbers.
+        file: The log, for messages.
+
+    Raises:
+        TmdError: A line is not one of a log, or the first is not the plan.
+    """
+    found = []
+    for number, line in lines:
+        try:
+            value = json_value(line, file, number)
+        except TmdError:
+            if number == lines[-1][0]:
+                break
+            raise
+        kind = value.get("event") if isinstance(value, dict) else None
+        if kind not in _EVENTS:
+            told = f"this is not {_Event.WHAT}: event: should be one of {', '.join(_EVENTS)}"
+            raise TmdError(told, location=Location(file, number, 1), hint=_Event.ANEW)
+        found.append(_EVENTS[kind].from_value(value, file, number))
+    if not found or not isinstance(found[0], PlanEvent):
+        raise TmdError(f"{file} does not begin with a plan", hint="give a whole log of tmd run")
+    return found[0], found[1:]

@@ -1,0 +1,50 @@
+"""``robot/`` of ``tmd experiment``: what a robot did with a prediction, or why there are no trials."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from tmd.records.json_record import JsonRecord
+from tmd.records.run import RanStep
+
+
+class TrialRequest(JsonRecord):
+    """What decides the outcome of a trial; ``id`` is null where no prediction can be executed."""
+
+    environment: str
+    model: str
+    id: str | int | None
+    text: str
+    plan: tuple[str, ...]
+    mode: Literal["kinematic", "physics"]
+    seed: int
+    version: str
+
+
+class Trial(JsonRecord):
+    """A plan that a robot was given, and what came of it."""
+
+    WHAT = "a trial of tmd experiment"
+    ANEW = "remove that file, and let the robot act again: --step robot"
+
+    asked: TrialRequest
+    status: Literal["done", "recovered", "stopped", "no_plan", "no_scene"] = Field(
+        description="How it ended; no_plan and no_scene did not begin."
+    )
+    reason: str = ""
+    repairs: int = 0
+    seconds: float = Field(default=0.0, description="Simulated; 0 without physics.")
+    steps: tuple[RanStep, ...] = ()
+    film: str | None = Field(default=None, description="The file of the film beside the record.")
+    strip: str | None = Field(default=None, description="The file of the filmstrip.")
+
+
+class Skip(JsonRecord):
+    """Why there are no trials."""
+
+    WHAT = "the reason why there are no trials"
+    ANEW = Trial.ANEW
+
+    reason: str
