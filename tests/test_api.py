@@ -119,7 +119,8 @@ def test_what_a_text_asks_for_is_a_problem(tmp_path: Path) -> None:
     assert tmd.parse("Put the cup down.", kit.lexicon).clauses[0].verb == "put_down"
 
 
-def test_what_is_learned_is_used(tmp_path: Path) -> None:
+def test_what_is_learned_is_used(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delenv("TMD_LEARNED", raising=False)
     kit = table(tmp_path)
     with pytest.raises(tmd.TmdError, match="there are no learned weights of '02_table'"):
         kit.ground("Take the cup.", "corner2", weights="learned")
@@ -172,7 +173,7 @@ def test_an_experiment_is_run_and_reported(tmp_path: Path) -> None:
     )  # fmt: skip
     told: list[tuple[int, int]] = []
     metrics = tmd.run_experiment(config, progress=lambda done, of: told.append((done, of)))
-    assert set(metrics["models"]) == {"nearest"}
+    assert set(metrics.models) == {"nearest"}
     assert told[-1][0] == told[-1][1]
     report = config.out / "report.html"
     assert "nearest" in report.read_text()

@@ -182,12 +182,12 @@ def _json_values() -> Iterator[object]:
                 yield pytest.param(name, json.loads(line), id=f"{page.name}-{name}-{number}")
 
 
-@pytest.mark.parametrize(("name", "value"), _json_values())
+@pytest.mark.parametrize(("name", "value"), list(_json_values()))
 def test_json_on_the_pages_is_of_its_format(name: str, value: object) -> None:
     TypeAdapter(FORMATS[name]).validate_python(value)
 
 
-@pytest.mark.parametrize(("name", "value"), _json_values())
+@pytest.mark.parametrize(("name", "value"), list(_json_values()))
 def test_json_on_the_pages_is_of_its_schema(name: str, value: object) -> None:
     jsonschema = pytest.importorskip("jsonschema", reason="the package jsonschema is not installed")
     jsonschema.validate(value, json.loads((SCHEMAS / f"{name}.schema.json").read_text(encoding="utf-8")))

@@ -109,10 +109,7 @@ def test_executable_is_not_reached(study: World) -> None:
 
 def again(told: Grounded) -> GroundingRecord:
     """What was printed of a text, read back."""
-    record = grounding_record(
-        told, domain="03_drawer", environment="study1", environment_file=None, unknown=(), warnings=(),
-        made_with=made_with(None),
-    )  # fmt: skip
+    record = grounding_record(told, domain="03_drawer", environment_file=None, made_with=made_with(None))
     return GroundingRecord.from_text(json.dumps(record.to_value()), "x.json")
 
 
@@ -127,7 +124,7 @@ def test_what_was_printed_is_read_back(told: Grounded, study: World) -> None:
 @pytest.mark.parametrize(
     "change",
     [{"pddl": "(at"}, {"pddl": "(a) (b)"}, {"pddl": "(" * 9_999}, {"last": 999}, {"first": 3}, {"clause": 99}],
-    ids=str,
+    ids=["cut short", "two goals", "too deep", "after the end", "first after last", "no such clause"],
 )
 def test_goals_that_cannot_be_are_refused(told: Grounded, change: dict[str, object]) -> None:
     value = again(told).to_value()
