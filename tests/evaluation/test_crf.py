@@ -183,8 +183,8 @@ def test_a_killed_fit_goes_on_where_it_was_and_learns_the_same(
             most_examples=EXAMPLES,
             rounds=1,
             proposals=3,
-            journal=tmp_path / "fit.journal.jsonl",
         )
+        model.journal = tmp_path / "fit.journal.jsonl"
         model.lives = lives
         return model
 

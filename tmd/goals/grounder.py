@@ -45,6 +45,8 @@ class Grounder:
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
         self.exact = False
         """Nothing stands in for what was named."""
+        self.excepted: frozenset[str] = frozenset()
+        """Objects that ``forall`` leaves out: *clear the table except the cup*."""
         self.live = 0
         """How many atoms of the conditions ground last may hold, counted by who asks."""
 
@@ -125,8 +127,9 @@ class Grounder:
                 unless = negation(self._ground(left, binding, slots, moments))
                 return unless if unless == TRUE else disjunction((unless, self._ground(right, binding, slots, moments)))
             case Forall(parameters, part):
-                found = bindings(parameters, self._objects, binding)
-                return conjunction(self._ground(part, dict(b), slots, moments) for b in found)
+                every = bindings(parameters, self._objects, binding)
+                meant = (b for b in every if not any(b[p.name] in self.excepted for p in parameters))
+                return conjunction(self._ground(part, dict(b), slots, moments) for b in meant)
             case Exists(parameters, part):
                 found = bindings(parameters, self._objects, binding)
                 return disjunction(self._ground(part, dict(b), slots, moments) for b in found)

@@ -36,7 +36,7 @@ from tmd.goals.sources.table import (
 from tmd.language.clause import PERSONS, Clause, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_one
-from tmd.pddl.model import Formula, Or
+from tmd.pddl.model import Formula, Or, conjuncts
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
@@ -609,9 +609,10 @@ class GoalReader:
             )
 
         further = self.requirements.further(row, pairs, direct, leftover, reading)
+        excepted = frozenset(self.referents.excepted(leftover, reading))
 
         def whole(binding: Mapping[str, str]) -> Formula:
-            formula = leaf(binding)
+            formula = self._but_for(excepted, lambda: leaf(binding), reading)
             settled = formula == TRUE and row.source == ACTIONS  # no action moves a curtain from where it hangs
             if formula == FALSE or ((settled or not self.grounder.live) and not row.traceless):
                 # what can never be so is not "not so already", but for one of many: all filters shall be clean
@@ -625,6 +626,21 @@ class GoalReader:
         if formula in _DEAD and one and many:
             formula = self._quantified([*each, *many, *one], {}, whole, reading)
         return FALSE if formula in _DEAD else formula
+
+    def _but_for(
+        self, excepted: frozenset[str], condition: Callable[[], Formula], reading: ClauseReading
+    ) -> Formula:
+        """A condition for all things but some, which stay as they are: *clear the table except the cup*."""
+        everything = condition()
+        self.grounder.excepted = excepted
+        try:
+            rest = condition() if excepted else everything
+        finally:
+            self.grounder.excepted = frozenset()
+        if rest == everything:
+            return everything
+        spared = (part for part in conjuncts(everything) if part not in conjuncts(rest))
+        return conjunction((rest, *(negation(p) for p in spared if not self.grounder.truth(p, reading.state))))
 
     def _quantified(
         self,

@@ -125,9 +125,25 @@ class Referents:
         """Whether a relation of what is acted on holds now of one of its candidates."""
         if not unit.direct:
             return False
-        referent = Referent(unit.direct, self.nouns.things(unit.direct, reading.state))
-        names = self.targets(target, reading)
-        return bool(self.nouns.related_now(referent, relation, names, reading.state, reading.moments))
+        noun = unit.direct
+        if is_one(noun) and self._is_pronoun(noun):  # "the one in the sink goes on the shelf", of mugs
+            noun = next(iter(reading.clause.antecedents.get(noun, ())), noun)
+        referent = Referent(noun, self.nouns.things(noun, reading.state))
+        return bool(self._described(referent, relation, self.targets(target, reading), reading))
+
+    def _described(
+        self, referent: Referent, relation: str, targets: Sequence[str], reading: ClauseReading
+    ) -> tuple[str, ...]:
+        """The candidates that stand in a relation now, or where none does any more, that stood in it at first.
+
+        *Clear the table. What is on it goes on the shelf.* Of several things that one is meant that stood there all
+        along: *The mug in the sink goes on the shelf, and the mug on the shelf in the sink.*
+        """
+        first = reading.memory.first
+        then = self.nouns.related_now(referent, relation, targets, first, Moments(first, first))
+        now = self.nouns.related_now(referent, relation, targets, reading.state, reading.moments)
+        one = referent.definite and referent.mode is Mode.ANY
+        return (tuple(n for n in now if n in then) if one else ()) or now or then
 
     def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
         """Whether a relation says a place where what is acted on is not yet."""
@@ -194,7 +210,7 @@ class Referents:
                 self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
             )
         bound = reading.memory.bound.get(antecedent)
-        many = pronoun in ("them", "they", "these", "those", "both", "all")
+        many = pronoun in ("them", "they", "these", "those", "both", "all") or self.nouns.is_group(antecedent)
         if bound is not None:
             names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
             if not names:
@@ -368,9 +384,8 @@ class Referents:
                 referent = replace(referent, mode=Mode.NUMBER, number=number)
                 continue
             if relation in EXCEPTING:
-                wide = (n for one in reading.clause.meant(target) for n in self.every_kind(one, reading.state))
-                names = (*names, *(wide if not is_one(target) else ()))
-                referent = replace(referent, names=tuple(n for n in referent.names if n not in names))
+                left = self.excepted([(relation, target)], reading)
+                referent = replace(referent, names=tuple(n for n in referent.names if n not in left))
                 continue
             if relation.startswith("not_"):
                 now = self.nouns.related_now(
@@ -384,10 +399,26 @@ class Referents:
                 continue
             if relation in ("without", "for") or not names:
                 continue
-            now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
+            now = self._described(referent, relation, names, reading)
             if now or relation in INVERSE or relation == "where":
                 referent = replace(referent, names=now)  # what stands on nothing has no burner under it
         return referent
+
+    def excepted(self, relations: Iterable[tuple[str, str]], reading: ClauseReading) -> tuple[str, ...]:
+        """What *except* takes away."""
+        found: dict[str, None] = {}
+        for relation, target in relations:
+            if relation in EXCEPTING:
+                names = self.targets(target, reading)
+                phrase = reading.clause.phrase(target)
+                one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
+                wide = (n for noun in reading.clause.meant(target) for n in self.every_kind(noun, reading.state))
+                found.update(dict.fromkeys((*names, *(() if one else wide))))
+        return tuple(found)
+
+    def _is_kind(self, noun: str, names: Iterable[str]) -> bool:
+        """Whether things are of the very class that a noun names."""
+        return any(self.grounder.is_a(name, (noun,)) for name in names)
 
     def targets(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         """The objects or constants that a noun behind a preposition may mean."""

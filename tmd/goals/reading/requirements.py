@@ -67,7 +67,8 @@ class Requirements:
                 beside = self.nouns.constants(target, ("object",), reading.state)
                 supplied = any(n in self.world.profiles.constants for n in names) or all(map(self._is_supply, names))
                 if relation in ("with", "and") and beside and supplied and self._is_substance(referent):
-                    found.append(self._beside(row, variable, beside))
+                    both = reading.clause.phrase(target).quantifier is Quantifier.ALL  # "with both syrups"
+                    found += [self._beside(row, variable, part) for part in (zip(beside) if both else (beside,))]
                     continue
                 if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
                     continue
@@ -85,7 +86,11 @@ class Requirements:
                 if never and relation in PREPOSITIONS["next_to"]:
                     reading.notes.append(f"'{relation.replace('_', ' ')} {target.replace('_', ' ')}' says nothing here")
                     continue
-                found.append(self._relation_goal(variable, relation, names, reading))
+                each = reading.clause.phrase(target).quantifier is Quantifier.ALL
+                found += [
+                    self._relation_goal(variable, relation, part, reading)
+                    for part in (zip(beside or names) if each else (names,))
+                ]
         found += self._substance_attributes(row, pairs, reading)
         for variable, referent in pairs:
             if referent.noun in reading.wanted:

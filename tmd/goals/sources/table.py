@@ -49,15 +49,18 @@ def words_of(section: str) -> frozenset[str]:
 
 
 def family(verb: str) -> tuple[str, ...]:
-    """Verbs that ask for the same as ``verb``, nearest first: its own family, then the families it stands in."""
+    """Verbs that ask for the same as ``verb``, nearest first: its own family, then the families it stands in.
+
+    A member with a ``>`` is one way of doing it: to cook may be to fry, but to fry is not just to cook.
+    """
     families = _table("families")
-    found = dict.fromkeys(families.get(verb, ()))
+    found = dict.fromkeys(member.removeprefix(">") for member in families.get(verb, ()))
     for head, members in families.items():
         if verb in members:
             found[head] = None
     for members in families.values():
         if verb in members:
-            found.update(dict.fromkeys(members[:4]))
+            found.update(dict.fromkeys(member.removeprefix(">") for member in members[:4]))
     found.pop(verb, None)
     return tuple(found)
 

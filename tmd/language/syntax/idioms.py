@@ -27,6 +27,14 @@ _KEEPING = frozenset(
 )
 """Words after which a noun and a state are no end that is asked for."""
 _LYING = frozenset({"lying", "standing", "sitting"})
+_STATES = frozenset({"open", "closed", "shut", "empty", "full", "idle"})
+_LEVELS = {"low": "low", "medium": "medium", "high": "high", "full": "high", "maximum": "high"}
+_SWITCHING = frozenset({"switch", "turn", "set"})
+_DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "both", "all"})
+_ANOTHER = ("in", "another", "one")
+_AT = frozenset({"on", "at", "over", "with"})
+_LIMIT = frozenset({"goes", "go", "gets", "get", "can", "will"})
+_OMITTING = frozenset({"omit", "skip"})
 _CLOSING = {"closed": "close", "shut": "shut", "open": "open"}
 _AFTERWARDS = frozenset(
     {"again", "afterwards", "after", "that", "this", "too", "as", "well", "please", "then", "finally"}
@@ -210,7 +218,8 @@ def _plain_copula(tokens: list[Token]) -> list[Token]:
             return [*tokens[:at], *_plain_copula(tokens[at + 1 :])]
         if words[at - 1] in _DUTIES and words[at] in ("lie", "stand", "sit") and words[at + 1] == "where":
             return [*tokens[:at], replace(tokens[at], text="go"), *_plain_copula(tokens[at + 1 :])]
-        if lies and words[at - 1] in ("is", "are") and tokens[at + 1].kind in BREAKS:
+        state = tokens[at + 1].kind in BREAKS or words[at + 1] in _STATES
+        if lies and words[at - 1] in ("is", "are") and state:  # "if the fridge is standing open"
             return [*tokens[:at], *_plain_copula(tokens[at + 1 :])]
         if happens:
             return [*tokens[:at], replace(tokens[at], text="is"), *_plain_copula(tokens[at + 3 :])]
@@ -309,6 +318,102 @@ def _last_state(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _heat(tokens: list[Token]) -> list[Token]:
+    """Read "switch the burner on, full heat" as "… to high", "put the pot on it, low heat" as "… and turn it to low"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 1):
+        ends = at + 2 == len(words) or tokens[at + 2].kind in BREAKS or words[at + 2] in {*JOINTS, "please"}
+        if words[at] not in _LEVELS or words[at + 1] != "heat" or not ends:
+            continue
+        begin = at - (words[at - 1] in ("a", "the"))
+        begin -= words[begin - 1] in _AT
+        begin -= tokens[begin - 1].kind is Kind.COMMA
+        source = tokens[at]
+        level = replace(source, text=_LEVELS[words[at]])
+        switched = bool(_SWITCHING.intersection(words[:begin]))
+        begin -= switched and words[begin - 1] == "on"  # "turn it on, low heat"
+        lead = ["to"] if switched else [".", "turn", "it", "to"]
+        told = [replace(source, text=word, span=source.span._replace(end=source.span.start)) for word in lead]
+        told[0].kind = Kind.WORD if switched else Kind.STOP
+        return [*tokens[:begin], *told, level, *_heat(tokens[at + 2 :])]
+    return tokens
+
+
+def _left_out(tokens: list[Token]) -> list[Token]:
+    """Read "… but leave the milk out", "… and skip the milk" as "… but without the milk"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 1):
+        if words[at - 1] not in JOINTS:
+            continue
+        end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS), len(words))
+        rest = tokens[at + 1 : end]
+        if words[at] == "leave" and "out" in (words[at + 1], words[end - 1]):
+            rest = rest[1:] if words[at + 1] == "out" else rest[:-1]
+        elif words[at] not in _OMITTING:
+            continue
+        if rest:
+            return [*tokens[:at], replace(tokens[at], text="without"), *rest, *tokens[end:]]
+    return tokens
+
+
+def _as_low_as_it_goes(tokens: list[Token]) -> list[Token]:
+    """Read "set the sound as low as it goes" as "… to low", "as small as possible" as "small"."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 3):
+        if words[at] != "as" or words[at + 2] != "as":
+            continue
+        end = next((i for i in range(at + 3, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS), len(words))
+        limit = words[at + 3 : end]
+        if limit == ["possible"] or (limit[0] in ("it", "they", "you") and set(limit[1:]) & _LIMIT):
+            level = [tokens[at + 1]]
+            if _SWITCHING.intersection(words[:at]):
+                level = [replace(tokens[at], text="to"), *level]
+            return [*tokens[:at], *level, *tokens[end:]]
+    return tokens
+
+
+def _another_of(tokens: list[Token]) -> list[Token]:
+    """Read "one bowl of rice and one of beans" as "rice in one bowl and beans in another one"."""
+    words = [t.text for t in tokens]
+    for at in range(4, len(words) - 2):
+        count = words[at] in ("one", "another", "a") and words[at - 1] == "and"
+        of = next((i for i in (at + 1, at + 2) if i + 1 < len(words) and words[i] == "of"), 0)
+        first = next((i for i in range(at - 4) if words[i] in ("one", "a", "an") and words[i + 2] == "of"), None)
+        if not count or not of or first is None or words[first + 1] not in section("containers"):
+            continue
+        same = words[at + 1 : of] in ([], ["one"], [words[first + 1]])
+        ends = (i for i in range(of + 1, len(words)) if tokens[i].kind in BREAKS or words[i] in _BEHIND)
+        end = next(ends, len(words))
+        if same:
+            inside = replace(tokens[first + 2], text="in", span=tokens[first].span._replace(end=tokens[first].span.start))
+            behind = tokens[end - 1].span
+            other = [replace(tokens[at], text=w, span=behind._replace(start=behind.end)) for w in _ANOTHER]
+            one = [inside, replace(tokens[first], text="one"), tokens[first + 1]]
+            verb = [] if first else [replace(inside, text="put")]
+            head = [*verb, *tokens[:first], *tokens[first + 3 : at - 1], *one, tokens[at - 1]]
+            return [*head, *tokens[of + 1 : end], *other, *tokens[end:]]
+    return tokens
+
+
+def named_where_taken_up(tokens: list[Token]) -> list[Token]:
+    """Read "The cup on the shelf: wash it", "The two drawers, open them both" as "wash the cup on the shelf", …"""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 2):
+        if words[at] not in (":", ","):
+            continue
+        begin = at
+        while begin and tokens[begin - 1].kind not in BREAKS:
+            begin -= 1
+        named = tokens[begin:at]
+        plain = not {t.text for t in named} & (section("be") | section("modals") | JOINTS | {"that", "which"})
+        asked = builtin().verb(words[at + 1]) is not None and words[at + 2] in ("it", "them")
+        if len(named) > 1 and named[0].text in _DEFINITE and plain and asked:
+            rest = tokens[at + 3 :]
+            rest = rest[1:] if rest and rest[0].text in ("both", "all") else rest
+            return [*tokens[:begin], tokens[at + 1], *named, *named_where_taken_up(rest)]
+    return tokens
+
+
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
     _plain_copula,
@@ -330,5 +435,9 @@ IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _with_them,
     _everything_else,
     _coming_off,
+    _heat,
+    _left_out,
+    _as_low_as_it_goes,
+    _another_of,
 )
 """What is done with each sentence, in this order."""

@@ -65,7 +65,7 @@ def _telegram(tokens: list[Token]) -> list[Token]:
     part: list[Token] = []
     spoken = any(t.kind in (Kind.V, Kind.AUX, Kind.LET, Kind.NEG) for t in tokens)
     for token in [*tokens, None]:
-        names = all(t.kind in (*_NOUN_PHRASE, Kind.CC) for t in part)
+        names = all(t.kind in (*_NOUN_PHRASE, Kind.CC) for t in part) or _accompanied(part)
         if token is not None and (token.kind not in _BREAKS or (token.kind is Kind.CC and part and names)):
             part.append(token)
             continue
@@ -81,6 +81,11 @@ def _telegram(tokens: list[Token]) -> list[Token]:
         result += part if token is None else [*part, token]
         part = []
     return result
+
+
+def _accompanied(part: list[Token]) -> bool:
+    """Whether what follows an *and* belongs to what something comes with: "coffee with milk *and* sugar in a mug"."""
+    return next((t.text for t in reversed(part) if t.kind in (Kind.P, Kind.OF)), "") in ("with", "without")
 
 
 def _unspoken(part: list[Token]) -> Token | None:
