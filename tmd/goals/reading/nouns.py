@@ -15,6 +15,7 @@ from tmd.language.lexicon.words import section
 from tmd.language.syntax.attachment import WHOLES
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
+from tmd.veil.profiles import CONTAINED
 from tmd.veil.world import World
 
 INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
@@ -141,6 +142,8 @@ class Nouns:
         best = [m.name for m in matches if m.score == matches[0].score and m.how == matches[0].how]
         if not self.guess and matches and matches[0].how == NAME and self._of_another_class(noun, best):
             return ()
+        if matches and matches[0].how == CONTAINED and not self._of_that_kind(noun, self.contents(best[0], state)):
+            return ()
         best = self._numbered(noun, self._told_apart(noun, best, state))
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
 
@@ -152,6 +155,12 @@ class Nouns:
         if not last.isdigit() or not all(number.isdigit() for number in numbers.values()):
             return found
         return [name for name, number in numbers.items() if int(number) == int(last)]
+
+    def _of_that_kind(self, noun: str, substances: Iterable[str]) -> bool:
+        """Whether substances are no other kind than said: *raspberry milk* is not milk, where syrup is *raspberry*."""
+        kinds = {word for name in self.world.profiles.constants for word in split_name(name)[:-1]}
+        told = kinds & set(split_name(noun)[:-1]) if noun not in self.world.mentions.lexicon.nouns else set()
+        return not told or any(told <= set(split_name(name)) for name in substances)
 
     def _of_another_class(self, noun: str, names: list[str]) -> bool:
         """Whether a class that a noun names has nothing here: a *floor lamp* is not a ceiling lamp."""
@@ -216,12 +225,12 @@ class Nouns:
         fitting = [m for m in ranked if self.grounder.is_a(m.name, types)]
         named = [m.name for m in fitting if m.how == NAME and m.score == fitting[0].score]
         if named:
-            return tuple(self._numbered(noun, named))
+            return tuple(self._numbered(noun, named)) if self._of_that_kind(noun, named) else ()
         aliases = [m.name for m in fitting if m.how == ALIAS or (self.guess and m.how == WORDNET)]
         if aliases:
             later = {other for one in aliases for other in self.turns_into(one)}
             fresh = [name for name in aliases if name not in later] or aliases
-            return tuple(self._numbered(noun, fresh))
+            return tuple(self._numbered(noun, fresh)) if self._of_that_kind(noun, aliases) else ()
         contents: dict[str, None] = {}
         for thing in self.things(noun, state):
             contents.update(dict.fromkeys(c for c in self.contents(thing, state) if self.grounder.is_a(c, types)))

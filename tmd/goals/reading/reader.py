@@ -210,7 +210,7 @@ class GoalReader:
         plain = clause.verb.partition("_")[0]
         goals = {word for group in ("in", "on", "next_to", "to") for word in PREPOSITIONS[group]}
         goes = any(r.source in clause.direct and r.relation in goals for r in clause.relations)
-        if plain != clause.verb and (goes or not clause.verb.endswith(("_out", "_away", "_off"))):
+        if plain != clause.verb and (goes or not clause.verb.endswith(("_out", "_away", "_off", "_ready"))):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         found = self._by_tables(own, reading)
         if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
@@ -627,9 +627,7 @@ class GoalReader:
             formula = self._quantified([*each, *many, *one], {}, whole, reading)
         return FALSE if formula in _DEAD else formula
 
-    def _but_for(
-        self, excepted: frozenset[str], condition: Callable[[], Formula], reading: ClauseReading
-    ) -> Formula:
+    def _but_for(self, excepted: frozenset[str], condition: Callable[[], Formula], reading: ClauseReading) -> Formula:
         """A condition for all things but some, which stay as they are: *clear the table except the cup*."""
         everything = condition()
         self.grounder.excepted = excepted

@@ -396,7 +396,8 @@ class _Attachment:
             return False
         bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
         opposite = [p for c in following.children if isinstance(c, Tree) for p in _phrases(c)]
-        bare = bare or any(word in _OTHERS for p in opposite for word in p.lead)  # "crisps in one and nuts in the other"
+        # "crisps in one bowl and nuts in the other"
+        bare = bare or any(word in _OTHERS for p in opposite for word in p.lead)
         last = following
         if next(_leaves(following)).text in _ORIGIN and isinstance(beyond, Tree) and beyond.data == "place":
             last = beyond  # "the pillow from the floor onto the sofa"

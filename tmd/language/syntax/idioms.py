@@ -319,7 +319,7 @@ def _last_state(tokens: list[Token]) -> list[Token]:
 
 
 def _heat(tokens: list[Token]) -> list[Token]:
-    """Read "switch the burner on, full heat" as "… to high", "put the pot on it, low heat" as "… and turn it to low"."""
+    """Read "switch the burner on, full heat" as "… to high", "put the pot on it, low heat" as "… Turn it to low"."""
     words = [t.text for t in tokens]
     for at in range(2, len(words) - 1):
         ends = at + 2 == len(words) or tokens[at + 2].kind in BREAKS or words[at + 2] in {*JOINTS, "please"}
@@ -385,8 +385,8 @@ def _another_of(tokens: list[Token]) -> list[Token]:
         ends = (i for i in range(of + 1, len(words)) if tokens[i].kind in BREAKS or words[i] in _BEHIND)
         end = next(ends, len(words))
         if same:
-            inside = replace(tokens[first + 2], text="in", span=tokens[first].span._replace(end=tokens[first].span.start))
-            behind = tokens[end - 1].span
+            before, behind = tokens[first].span, tokens[end - 1].span
+            inside = replace(tokens[first + 2], text="in", span=before._replace(end=before.start))
             other = [replace(tokens[at], text=w, span=behind._replace(start=behind.end)) for w in _ANOTHER]
             one = [inside, replace(tokens[first], text="one"), tokens[first + 1]]
             verb = [] if first else [replace(inside, text="put")]
@@ -396,7 +396,7 @@ def _another_of(tokens: list[Token]) -> list[Token]:
 
 
 def named_where_taken_up(tokens: list[Token]) -> list[Token]:
-    """Read "The cup on the shelf: wash it", "The two drawers, open them both" as "wash the cup on the shelf", …"""
+    """Read "The cup on the shelf: wash it" as "wash the cup on the shelf", "The drawers, open them" so too."""
     words = [t.text for t in tokens]
     for at in range(2, len(words) - 2):
         if words[at] not in (":", ","):
@@ -405,7 +405,7 @@ def named_where_taken_up(tokens: list[Token]) -> list[Token]:
         while begin and tokens[begin - 1].kind not in BREAKS:
             begin -= 1
         named = tokens[begin:at]
-        plain = not {t.text for t in named} & (section("be") | section("modals") | JOINTS | {"that", "which"})
+        plain = not {t.text for t in named} & (section("be") | section("modals") | JOINTS | _STATES | {"that", "which"})
         asked = builtin().verb(words[at + 1]) is not None and words[at + 2] in ("it", "them")
         if len(named) > 1 and named[0].text in _DEFINITE and plain and asked:
             rest = tokens[at + 3 :]

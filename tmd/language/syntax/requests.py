@@ -7,6 +7,7 @@ shelf* and *Both wrappers belong in the bin* one with ``put``. The new verb stan
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 from tmd.language.lexicon.words import section
 from tmd.language.syntax.chunking import ALSO
@@ -53,6 +54,9 @@ def rewrite_requests(tokens: list[Token]) -> list[Token]:
 
 def _sentence(tokens: list[Token], count: int) -> list[Token]:
     """One sentence: each request in it, cut at commas and conjunctions before a new subject."""
+    for before, token in pairwise(tokens):
+        if token.text in ("one", "ones") and token.kind is Kind.NUM and before.kind in (Kind.DET, Kind.ADJ):
+            token.kind = Kind.PRON  # "the other one should be on"
     if not any(t.kind in (Kind.N, Kind.PRON) for t in tokens):
         return tokens
     rewritten = _belonging(_there(_wish(_telegram(tokens))))

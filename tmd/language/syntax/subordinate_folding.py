@@ -521,7 +521,8 @@ def _rewrite_should(tokens: list[Token], at: int) -> tuple[list[Token], int] | N
         duties = (i for i in range(copula, next(ends, len(tokens))) if tokens[i].text in ("should", "must"))
         copula = next(duties, copula)
     nominal = tokens[at:copula]
-    if copula >= len(tokens) or tokens[copula].text not in _DUTIES or not any(t.kind is Kind.N for t in nominal):
+    named = any(t.kind is Kind.N or t.text in ("one", "ones") for t in nominal)
+    if copula >= len(tokens) or tokens[copula].text not in _DUTIES or not named:
         return None
     state = copula + 1
     while state < len(tokens) and tokens[state].kind in (Kind.AUX, Kind.ADV, Kind.TO):
