@@ -162,6 +162,23 @@ def test_everything_is_taken_off_a_table() -> None:
     }
 
 
+def test_what_is_excepted_stays_where_it_is() -> None:
+    cleared = said("kitchen", "kitchen2", "Clear the counter except for the sugar bowl.")
+    assert "(at sugar_bowl1 counter1 on)" in end(cleared)
+    assert "(at coffee_pod1 counter1 on)" not in end(cleared)
+
+
+def test_what_was_there_at_first_is_what_was_there() -> None:
+    cleared = said("kitchen", "kitchen1", "Clear the table. Whatever is on it can go on a counter.")
+    assert {"(at cup1 counter1 on)", "(at cup1 counter2 on)"} & set(end(cleared))
+    assert not any(atom.startswith("(at ") and atom.endswith(" table1 on)") for atom in end(cleared))
+
+
+def test_another_flavour_is_another_thing() -> None:
+    refused = said("kitchen", "kitchen3", "Pour some raspberry milk into the glass.")
+    assert refused.refused is not None and "nothing here is called 'raspberry milk'" in refused.reason
+
+
 def test_everything_else_is_all_but_what_was_spoken_of() -> None:
     grounded = said("02_table", "corner2", "Leave the cup where it is and put everything else on a table.")
     assert "(at cup1 shelf1 on)" in end(grounded)
@@ -256,6 +273,42 @@ SAID_OTHERWISE = [
         [
             "(or (and (at beer_bottle2 bin1 in) (at beer_bottle1 snack_table1 on))"
             " (and (at beer_bottle3 bin1 in) (at beer_bottle1 snack_table1 on)))"
+        ],
+    ),
+    (
+        "kitchen/kitchen4",
+        "Put chocolate ice cream in the mug, with both syrups.",
+        ["(and (contains mug1 chocolate_ice_cream) (contains mug1 chocolate_syrup) (contains mug1 raspberry_syrup))"],
+    ),
+    (
+        "kitchen/kitchen3",
+        "Make me a bowl of vanilla ice cream and a bowl of chocolate ice cream.",
+        [
+            "(or (and (contains bowl1 vanilla_ice_cream) (contains bowl2 chocolate_ice_cream))"
+            " (and (contains bowl2 vanilla_ice_cream) (contains bowl1 chocolate_ice_cream)))"
+        ],
+    ),
+    (
+        "kitchen/kitchen2",
+        "The mug in the sink goes on the shelf and the mug on the shelf goes in the sink.",
+        ["(at mug1 shelf1 on)", "(at mug2 sink1 in)"],
+    ),
+    (
+        "kitchen/kitchen1",
+        "Put the pot on burner 2, low heat.",
+        ["(at pot1 stove1_burner2 on)", "(set_to stove1_knob2 low)"],
+    ),
+    (
+        "kitchen/kitchen4",
+        "Put both eggs in the bowl.",
+        ["(and (not (filled egg1)) (contains bowl1 raw_egg) (not (filled egg2)))"],
+    ),
+    (
+        "living_room/room2",
+        "Collect everything but the toy from the floor and drop it in the basket.",
+        [
+            "(and (not (at pillow1 floor on)) (not (at book1 floor on)) (not (at wrapper1 floor on)))",
+            "(and (at pillow1 basket1 in) (at book1 basket1 in) (at wrapper1 basket1 in))",
         ],
     ),
 ]

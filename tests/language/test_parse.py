@@ -134,6 +134,37 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("The chest's open, shut it.", ["(shut, [it])"]),
         ("Set the third dial to low.", ["(set, [third_dial])"]),
         ("Both the cup and the mug go on the desk.", ["(put, [cup, mug, desk], on: cup -> desk, on: mug -> desk)"]),
+        (
+            "The radio on the desk: put it in the crate.",
+            ["(put, [radio, desk, crate], on: radio -> desk, in: desk -> crate)"],
+        ),
+        ("Both chests, open them.", ["(open, [chest])"]),
+        (
+            "Put the pan on the stove over a high heat.",
+            ["(put, [pan, stove], on: pan -> stove)", "(turn, [it])"],
+        ),
+        (
+            "Pour paint in one jar and water in the other.",
+            ["(pour, [paint, jar, water, one], in: paint -> jar, in: water -> one)"],
+        ),
+        (
+            "I'd like a jar of paint and one of water.",
+            ["(have, [jar, paint, water, one], in: paint -> jar, in: water -> one)"],
+        ),
+        ("Make a tea and skip the sugar.", ["(make, [tea, sugar], without: tea -> sugar)"]),
+        ("Make a tea, but leave the sugar out.", ["(make, [tea, sugar], without: tea -> sugar)"]),
+        ("The other one should be off.", ["(turn_off, [one])"]),
+        (
+            "A tea with milk and sugar in the mug.",
+            ["(have, [tea, milk, sugar, mug], with: tea -> milk, with: tea -> sugar, in: tea -> mug)"],
+        ),
+        (
+            "Whatever lies on the desk goes in the crate.",
+            ["(put, [everything, desk, crate], on: everything -> desk, in: everything -> crate)"],
+        ),
+        ("Put the pen in the chest, no wait, in the crate.", ["(put, [pen, crate], in: pen -> crate)"]),
+        ("Put the pen, I mean the rope, in the chest.", ["(put, [rope, chest], in: rope -> chest)"]),
+        ("Tidy the shed: put the rake on the hook.", ["(put, [rake, hook], on: rake -> hook)"]),
     ],
 )
 def test_requests_are_read_in_whatever_form_they_come(text: str, expected: list[str]) -> None:

@@ -31,6 +31,7 @@ _STATES = frozenset({"open", "closed", "shut", "empty", "full", "idle"})
 _LEVELS = {"low": "low", "medium": "medium", "high": "high", "full": "high", "maximum": "high"}
 _SWITCHING = frozenset({"switch", "turn", "set"})
 _DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "both", "all"})
+_PREPARING = frozenset({"make", "fix", "prepare", "serve", "pour", "fill", "me", "us", "like", "want", "need", "have"})
 _ANOTHER = ("in", "another", "one")
 _AT = frozenset({"on", "at", "over", "with"})
 _LIMIT = frozenset({"goes", "go", "gets", "get", "can", "will"})
@@ -382,6 +383,7 @@ def _another_of(tokens: list[Token]) -> list[Token]:
         if not count or not of or first is None or words[first + 1] not in section("containers"):
             continue
         same = words[at + 1 : of] in ([], ["one"], [words[first + 1]])
+        same = same and (not first or bool(_PREPARING.intersection(words[:first])))
         ends = (i for i in range(of + 1, len(words)) if tokens[i].kind in BREAKS or words[i] in _BEHIND)
         end = next(ends, len(words))
         if same:
