@@ -129,9 +129,9 @@ class Referents:
         if is_one(noun) and self._is_pronoun(noun):  # "the one in the sink goes on the shelf", of mugs
             noun = next(iter(reading.clause.antecedents.get(noun, ())), noun)
         referent = Referent(noun, self.nouns.things(noun, reading.state))
-        return bool(self._described(referent, relation, self.targets(target, reading), reading))
+        return bool(self.described(referent, relation, self.targets(target, reading), reading))
 
-    def _described(
+    def described(
         self, referent: Referent, relation: str, targets: Sequence[str], reading: ClauseReading
     ) -> tuple[str, ...]:
         """The candidates that stand in a relation now, or where none does any more, that stood in it at first.
@@ -399,7 +399,7 @@ class Referents:
                 continue
             if relation in ("without", "for") or not names:
                 continue
-            now = self._described(referent, relation, names, reading)
+            now = self.described(referent, relation, names, reading)
             if now or relation in INVERSE or relation == "where":
                 referent = replace(referent, names=now)  # what stands on nothing has no burner under it
         return referent

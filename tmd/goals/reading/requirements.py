@@ -70,7 +70,7 @@ class Requirements:
                     both = reading.clause.phrase(target).quantifier is Quantifier.ALL  # "with both syrups"
                     found += [self._beside(row, variable, part) for part in (zip(beside) if both else (beside,))]
                     continue
-                if self.nouns.related_now(referent, relation, names, reading.state, reading.moments):
+                if self.referents.described(referent, relation, names, reading):
                     continue
                 never = self._never(referent, relation, names, reading)
                 tool = (noun == direct or never) and relation in ("with", "using", "via", "through")

@@ -100,13 +100,14 @@ def _words(*names: str) -> str:
     return f"(?:{'|'.join(map(re.escape, words))}) "
 
 
-_LEAD = f"(?:{_words('before_measure')})*+"
+# atomic groups, not possessive quantifiers: these Python 3.11.2 matches wrongly around alternatives
+_LEAD = f"(?>(?:{_words('before_measure')})*)"
 _NUMBER = rf"(?:\d[^ ]*(?<!st)(?<!nd)(?<!rd)(?<!th) |{_words('numbers')})"
-_NUMBERS = f"(?:{_NUMBER})++(?:(?<=half )an? )?+"
+_NUMBERS = f"(?>(?:{_NUMBER})+)(?>(?:(?<=half )an? )?)"
 _FRACTION = r"(?:\d[^ ]*/[^ ]*|half|quarters?|thirds?) "
-_FEW = "(?![^ ]+ of )(?:(?:more|full) (?!$))?+"
+_FEW = "(?![^ ]+ of )(?>(?:(?:more|full) (?!$))?)"
 """Not "two minutes of it"; but "two more minutes"."""
-_SCALES = "(?:(?:celsius|celcius|fahrenheit|c|f|full|the|way) )*+"
+_SCALES = "(?>(?:(?:celsius|celcius|fahrenheit|c|f|full|the|way) )*)"
 _CLOCK = "(?:am|pm|o'clock) "
 _NO_THING = f"(?!{_words('nouns')}|of )"
 """Not "in the evening dress"."""
@@ -129,13 +130,13 @@ RUNS = (
     RunRule(
         "setting",
         "at what time",
-        rf"(?:(?:at|by) \d[^ ]* |{_words('before_time')}\d[^ ]* (?={_CLOCK}))(?:{_CLOCK})?+{_NO_THING}",
+        rf"(?:(?:at|by) \d[^ ]* |{_words('before_time')}\d[^ ]* (?={_CLOCK}))(?>(?:{_CLOCK})?){_NO_THING}",
         "before 6 pm",
     ),
     RunRule(
         "setting",
         "when",
-        rf"{_words('before_time')}(?:{_words('determiners', 'drop_adjectives')})*+{_words('time_nouns')}{_NO_THING}",
+        rf"{_words('before_time')}(?>(?:{_words('determiners', 'drop_adjectives')})*){_words('time_nouns')}{_NO_THING}",
         "in the morning",
     ),
 )
