@@ -365,6 +365,20 @@ def test_no_clause_but_a_reason(text: str, reason: str) -> None:
     assert [s.reason for s in parsed.skipped] == [reason]
 
 
+@pytest.mark.parametrize(
+    ("text", "skipped", "reason"),
+    [
+        ("Brew a tea, sweetened, and put it on the desk.", "sweetened", "says how something is, and not what"),
+        ("Put it in the chest, no wait, in the crate.", "in the chest, no wait,", "taken back by what was said next"),
+        ("Tidy the shed: put the rake on the hook.", "Tidy the shed:", "a heading: what follows says how"),
+    ],
+)
+def test_what_is_not_read_beside_a_clause_is_told(text: str, skipped: str, reason: str) -> None:
+    parsed = parse(text)
+    assert parsed.clauses
+    assert [(s.text, s.reason) for s in parsed.skipped] == [(skipped, reason)]
+
+
 def test_a_prohibition_is_a_constraint_and_no_instruction() -> None:
     parsed = parse("Do not touch the stove.")
     assert parsed.clauses == parsed.skipped == ()

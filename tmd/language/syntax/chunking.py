@@ -40,6 +40,7 @@ _PLAIN_VERBS = frozenset(
 )  # fmt: skip
 """... and behind that of these, if it is one of the next."""
 _STATES = frozenset({"open", "shut", "closed", "on", "off", "alone", "ready", "full", "empty", "done", "up", "down"})
+NO_NOUN = "says how something is, and not what"
 _ENDS = (Kind.STOP, Kind.COMMA, Kind.SEP)
 _VISIBLE = frozenset({Kind.V, *_NP, Kind.P, Kind.OF, Kind.CONJ, Kind.VCC, Kind.SEP, Kind.MOD})
 
@@ -96,19 +97,32 @@ def _with_states(tokens: list[Token]) -> list[Token]:
 def _leads(tokens: list[Token]) -> None:
     """Keep beside each noun the determiners, numerals and adjectives before it; beside a verb the state it asks for."""
     lead: list[str] = []
+    alone: list[Token] = []  # adjectives whose noun is still to come
     verb: Token | None = None
     for at, token in enumerate(tokens):
         if token.kind in (Kind.N, Kind.PRON):
-            token.lead, lead = lead, []
+            token.lead, lead, alone = lead, [], []
         elif token.kind in (Kind.DET, Kind.NUM, Kind.ADJ) or _modifies(tokens, at):
             lead.append(token.text)
+            if _stands_alone(tokens, at) and not (verb is not None and _is_state(tokens, at, verb)):
+                alone.append(token)
         elif token.kind not in (Kind.FILLER, Kind.ADV):
-            lead = []
+            for adjective in alone:
+                adjective.note = NO_NOUN
+            lead, alone = [], []
         if token.kind in (Kind.V, Kind.STOP, Kind.SEP):
             verb = token if token.kind is Kind.V else None
         if verb is not None and token is not verb and _is_state(tokens, at, verb):
             verb.lead.append(token.text)
             verb.parts.append(token.span)
+
+
+def _stands_alone(tokens: list[Token], at: int) -> bool:
+    """Tell whether a participle between commas has no noun: "a coffee, sweetened, please"."""
+    token = tokens[at]
+    behind = tokens[at + 1].kind if at + 1 < len(tokens) else Kind.STOP
+    apart = bool(at) and tokens[at - 1].kind is Kind.COMMA and behind in (Kind.COMMA, Kind.STOP, Kind.CC)
+    return token.kind is Kind.ADJ and token.form == "ed" and apart
 
 
 def _modifies(tokens: list[Token], at: int) -> bool:
