@@ -77,6 +77,8 @@ class Fitting:
             return False  # they say where something shall be, or nothing
         said = [pair for slot in row.places for pair in self.fillers(slot, unit, reading)]
         where = any(said[:1] and said[0][0] in PREPOSITIONS[p] for p in ("in", "on", "next_to", "under"))
+        definite = unit.direct is not None and reading.clause.phrase(unit.direct).definite
+        where = where or (definite and said[:1] != [] and said[0][0] == "of")  # "take the cup of water"
         if not where or len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
             return False
         return self.referents.tells_which(unit, said[0][0], said[0][1], reading)

@@ -92,7 +92,7 @@ _SLOT = re.compile(r"[A-Z]\Z")
 _WORD = re.compile(r"[a-z][a-z0-9_]*\Z")
 
 PREPOSITIONS: Mapping[str, tuple[str, ...]] = {
-    "in": ("in", "into", "inside", "inside_of", "within"),
+    "in": ("in", "into", "inside", "inside_of", "within", "down"),
     "on": ("on", "onto", "on_to", "on_top_of", "upon", "over", "atop"),
     "next_to": ("next_to", "beside", "by", "near", "close_to", "alongside"),
     "under": ("under", "underneath", "below", "beneath"),

@@ -32,6 +32,9 @@ _LEVELS = {"low": "low", "medium": "medium", "high": "high", "full": "high", "ma
 _SWITCHING = frozenset({"switch", "turn", "set"})
 _DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "both", "all"})
 _PREPARING = frozenset({"make", "fix", "prepare", "serve", "pour", "fill", "me", "us", "like", "want", "need", "have"})
+_ADJECTIVES = section("keep_adjectives") | section("drop_adjectives")
+_STAYING = frozenset({"stays", "stay", "remains"})
+_GOING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "stays", "stay"})
 _ANOTHER = ("in", "another", "one")
 _AT = frozenset({"on", "at", "over", "with"})
 _LIMIT = frozenset({"goes", "go", "gets", "get", "can", "will"})
@@ -161,9 +164,17 @@ def _with_them(tokens: list[Token]) -> list[Token]:
 
 
 def _everything_else(tokens: list[Token]) -> list[Token]:
-    """Read "put the pen in the drawer and everything else in the bin" as "… and everything except that …"."""
+    """Read "put the pen in the drawer and everything else in the bin" as "… and everything except that …".
+
+    So does "the rest", where it stays as it is: "leave the rest", "the rest stays there".
+    """
     words = [t.text for t in tokens]
     for at in range(1, len(words)):
+        stays = words[at + 1 : at + 2] and (words[at + 1] in _STAYING or words[at + 1 : at + 3] == ["can", "stay"])
+        kept = words[at - 2 : at - 1] in (["leave"], ["leaving"]) or stays
+        if words[at - 1 : at + 1] == ["the", "rest"] and kept and words[at + 1 : at + 2] != ["of"]:
+            both = [replace(tokens[at - 1], text="everything"), replace(tokens[at], text="else")]
+            return _everything_else([*tokens[: at - 1], *both, *tokens[at + 1 :]])
         if words[at] == "else" and words[at - 1] in ("everything", "anything"):
             cut = tokens[at].span.start + 1
             but = replace(tokens[at], text="except", span=tokens[at].span._replace(end=cut))
@@ -397,6 +408,60 @@ def _another_of(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _listed_adjectives(tokens: list[Token]) -> list[Token]:
+    """Read "the big, red cup" as "the big red cup"."""
+    kept: list[Token] = []
+    for at, token in enumerate(tokens):
+        before = [t.text for t in kept[-2:]]
+        behind = [t.text for t in tokens[at + 1 : at + 3]]
+        inside = len(before) == len(behind) == 2 and token.kind is Kind.COMMA and before[1] in _ADJECTIVES
+        led = inside and before[0] in section("determiners") | _ADJECTIVES
+        more = inside and (behind[0] in _ADJECTIVES or behind[0].endswith("ed")) and behind[1] not in _BEHIND
+        if not (led and more):
+            kept.append(token)
+    return kept
+
+
+def _which_goes(tokens: list[Token]) -> list[Token]:
+    """Read "…, except the rubbish, which goes in the bin" as "…, except the rubbish. The rubbish goes in the bin"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 3):
+        if words[at : at + 2] != [",", "which"] or words[at + 2] not in _GOING:
+            continue
+        begin = next((i for i in range(at - 1, -1, -1) if words[i] in section("determiners")), None)
+        if begin is not None and not {*words[begin:at]} & _BEHIND:
+            stop = replace(tokens[at], kind=Kind.STOP, text=".")
+            again = [replace(t, span=tokens[at + 1].span) for t in tokens[begin:at]]
+            return [*tokens[:at], stop, *again, *_which_goes(tokens[at + 2 :])]
+    return tokens
+
+
+def _swapped(tokens: list[Token]) -> list[Token]:
+    """Read "swap the cup and the mug" as "swap the cup with the mug"."""
+    words = [t.text for t in tokens]
+    for at, word in enumerate(words[:-3]):
+        end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS), len(words))
+        joint = next((i for i in range(at, end - 2) if words[i] == "and"), None)
+        two = joint is not None and words[joint + 1] in section("determiners") and words[at + 1] != "places"
+        if word in ("swap", "exchange") and joint is not None and two and "with" not in words[at:end]:
+            return [*tokens[:joint], replace(tokens[joint], text="with"), *_swapped(tokens[joint + 1 :])]
+    return tokens
+
+
+def _another(tokens: list[Token]) -> list[Token]:
+    """Read "one of the cups and then another" as "one of the cups and another one"."""
+    found: list[Token] = []
+    for at, token in enumerate(tokens):
+        ends = at + 1 == len(tokens) or tokens[at + 1].kind in BREAKS or tokens[at + 1].text in _BEHIND
+        if token.text == "another" and at and ends:
+            if found and found[-1].text == "then" and len(found) > 1 and found[-2].text == "and":
+                found.pop()
+            found += [token, replace(token, text="one", span=token.span._replace(start=token.span.end))]
+        else:
+            found.append(token)
+    return found
+
+
 def named_where_taken_up(tokens: list[Token]) -> list[Token]:
     """Read "The cup on the shelf: wash it" as "wash the cup on the shelf", "The drawers, open them" so too."""
     words = [t.text for t in tokens]
@@ -441,5 +506,9 @@ IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _left_out,
     _as_low_as_it_goes,
     _another_of,
+    _listed_adjectives,
+    _which_goes,
+    _swapped,
+    _another,
 )
 """What is done with each sentence, in this order."""

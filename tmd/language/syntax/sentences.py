@@ -372,7 +372,7 @@ def _staying(tokens: list[Token]) -> list[Token]:
     """Read "the other one stays put", "the mug should be left where it is" as "leave the other one alone"."""
     for at, token in enumerate(tokens):
         following = [t.text for t in tokens[at + 1 : at + 3]]
-        alone = following[:1] in (["put"], ["alone"], ["untouched"]) and (
+        alone = following[:1] in (["put"], ["alone"], ["untouched"], ["there"], ["here"]) and (
             at + 2 == len(tokens) or tokens[at + 2].kind in BREAKS
         )
         state = following[:1] != [] and following[0] in _END_STATES | {"up", "down", "raised", "lowered"}
