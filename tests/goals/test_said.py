@@ -11,6 +11,7 @@ from tmd.goals.reading.reader import Why
 DONE = [
     ("02_table/corner1", "Put the book on the table.", ["(at book1 table1 on)"]),
     ("02_table/corner1", "Hand me the book.", ["(holding pr2 book1)"]),
+    ("02_table/corner1", "Swap the cup and the book.", ["(and (at cup1 shelf1 on) (at book1 table1 on))"]),
     ("02_table/corner1", "Hide the cup on the shelf.", ["(at cup1 shelf1 on)"]),
     ("02_table/corner2", "Put everything but the cup on a table.", ["(or (at book1 table1 on) (at book1 table2 on))"]),
     # order
@@ -177,6 +178,27 @@ def test_what_was_there_at_first_is_what_was_there() -> None:
 def test_another_flavour_is_another_thing() -> None:
     refused = said("kitchen", "kitchen3", "Pour some raspberry milk into the glass.")
     assert refused.refused is not None and "nothing here is called 'raspberry milk'" in refused.reason
+
+
+def test_what_was_shown_with_something_else_is_not_done_without_it() -> None:
+    assert steps(said("kitchen", "kitchen1", "Wash the mug in the sink."))[-2:] == [
+        "turn(sink1_handle, high)",
+        "turn(sink1_handle, off)",
+    ]
+    assert said("kitchen", "kitchen3", "Wash the mug in the sink.").refused is not None  # there is no sink
+
+
+def test_a_swap_is_one_of_places() -> None:
+    assert goals(said("kitchen", "kitchen1", "Swap the cup and the mug.")) == [
+        "(and (at cup1 counter2 on) (at mug1 table1 on))"
+    ]
+
+
+def test_what_is_poured_away_must_be_there() -> None:
+    assert said("kitchen", "kitchen1", "Pour the milk into the sink.").refused is not None  # it is in its carton
+    assert "(contains cup1 milk)" not in end(
+        said("kitchen", "kitchen1", "Fill the cup with milk. Pour it down the sink.")
+    )
 
 
 def test_everything_else_is_all_but_what_was_spoken_of() -> None:
@@ -456,7 +478,6 @@ def test_nothing_is_handled_for_nothing(kitchen: str) -> None:
 
 
 WRONG = [
-    ("02_table/corner1", "Swap the cup and the book.", {"(at cup1 shelf1 on)", "(at book1 table1 on)"}),
     ("02_table/corner1", "Put the book under the table.", None),
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
     ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),

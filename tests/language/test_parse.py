@@ -139,6 +139,23 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
             ["(put, [radio, desk, crate], on: radio -> desk, in: desk -> crate)"],
         ),
         ("Both chests, open them.", ["(open, [chest])"]),
+        ("Swap the pen and the rope.", ["(swap, [pen, rope], with: pen -> rope)"]),
+        (
+            "Put one rope in the chest and then another in the crate.",
+            ["(put, [rope, chest, one, crate], in: rope -> chest, in: one -> crate)"],
+        ),
+        (
+            "Put everything on the desk, except the pen, which goes in the chest.",
+            [
+                "(put, [everything, desk, pen], on: everything -> desk, except: everything -> pen)",
+                "(put, [pen, chest], in: pen -> chest)",
+            ],
+        ),
+        (
+            "The pen goes in the chest, the rest stays there.",
+            ["(put, [pen, chest], in: pen -> chest)", "(leave, [everything, them], except: everything -> them)"],
+        ),
+        ("Take the clean, polished cup.", ["(take, [cup])"]),
         (
             "Put the pan on the stove over a high heat.",
             ["(put, [pan, stove], on: pan -> stove)", "(turn, [it])"],

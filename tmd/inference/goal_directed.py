@@ -21,7 +21,7 @@ from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
 from tmd.inference.proposers import PLANNER_SOURCE, Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, RankedPlan, Refusal, StepGoal, why_lost
-from tmd.language.clause import Clause, Mood, Parsed, Quantifier
+from tmd.language.clause import PERSONS, Clause, Mood, Parsed, Quantifier
 from tmd.pddl.model import And, Formula, Instruction
 from tmd.pddl.semantics import Constraints as Needs
 from tmd.pddl.task import Bits, Cube, Task
@@ -178,23 +178,29 @@ class _Text:
             return refused
         noted = _noted(step, refused) if guess else _as_shown(step)
         proposed = self._proposed(step, way) if step.role is Role.MAIN else []
-        if not proposed and not guess:
-            return refused
-        if not guess and not self._touched(step, [choice for choice, _ in proposed]):
-            return refused
+        if not guess:
+            proposed = [(choice, end) for choice, end in proposed if self._touches_all(step, choice)]
+            if not proposed:
+                return refused
         choices = proposed or [(_NOTHING, way.path.state)]
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 
-    def _touched(self, step: GoalStep, choices: Sequence[Choice]) -> bool:
+    def _is_missing(self, noun: str, step: GoalStep) -> bool:
+        """Whether a noun that a clause says something of names nothing here, thing or substance."""
+        referents = self.inference.follower.reader.referents
+        named = not (referents.points_back(noun) or noun in (*step.clause.quantities, *PERSONS))
+        return named and not referents.nouns.constants(noun, ("object",), self.inference.world.task.init)
+
+    def _touches_all(self, step: GoalStep, choice: Choice) -> bool:
         """Whether what was shown has to do with everything that the clause names: all of *both bowls*, and the sink."""
         clause, profiles = step.clause, self.inference.world.profiles
         nouns = self.inference.follower.reader.nouns
-        handled = {arg for choice in choices for taken in choice.steps for arg in taken.instruction.args}
+        handled = {arg for taken in choice.steps for arg in taken.instruction.args}
         handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
         for noun in (*clause.direct, *(r.target for r in clause.relations)):
             things = {n for n in nouns.things(noun, self.inference.world.task.init) if n in profiles.objects}
             every = clause.phrase(noun).quantifier is Quantifier.ALL
-            if not things and noun in clause.direct:
+            if not things and (noun in clause.direct or self._is_missing(noun, step)):
                 return False
             if things and not (things <= handled if every else things & handled):
                 return False
