@@ -139,6 +139,12 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
             ["(put, [radio, desk, crate], on: radio -> desk, in: desk -> crate)"],
         ),
         ("Both chests, open them.", ["(open, [chest])"]),
+        ("Is the gate shut? It should be.", ["(shut, [gate])"]),
+        ("Every desk gets a lamp.", ["(put, [desk, lamp], to: lamp -> desk)"]),
+        (
+            "Whatever is empty on the desk goes in the crate.",
+            ["(put, [thing, desk, crate], on: thing -> desk, in: thing -> crate)"],
+        ),
         ("Swap the pen and the rope.", ["(swap, [pen, rope], with: pen -> rope)"]),
         (
             "Put one rope in the chest and then another in the crate.",

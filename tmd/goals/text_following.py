@@ -405,6 +405,8 @@ class Follower:
             held = [cube for cube in goal.cubes if cube.holds(state)]
             return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
+        if not names and any(r.relation in EXCEPTING for r in clause.relations):
+            return []  # "the rest stays there", of what else was spoken of with "every empty thing"
         if not names:
             return (
                 self.reader.referents.not_there(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []

@@ -230,6 +230,7 @@ class ClauseDraft:
             there = all(r.target == "it" for r in self.relations if r.relation not in _UNPLACED)
             placed = placed and not (self.verb.stem == "leave" and there)  # "leave the key in there"
         relative = any(t.form == "relative" for t in self.folds)
+        placed = placed and self.verb.lead[-1:] != ["alone"]  # "leave the cup on the desk alone"
         if self.verb.stem == "leave" and self.direct and (relative or not placed):
             return Mood.KEEP
         keeps = self.verb.stem == "keep" and (self.verb.lead or self.direct)

@@ -33,6 +33,8 @@ _SWITCHING = frozenset({"switch", "turn", "set"})
 _DEFINITE = frozenset({"the", "this", "that", "these", "those", "my", "both", "all"})
 _PREPARING = frozenset({"make", "fix", "prepare", "serve", "pour", "fill", "me", "us", "like", "want", "need", "have"})
 _ADJECTIVES = section("keep_adjectives") | section("drop_adjectives")
+_WHATEVER = frozenset({"whatever", "everything that", "anything that"})
+_ENDING = _STATES | {"on", "off"}
 _STAYING = frozenset({"stays", "stay", "remains"})
 _GOING = frozenset({"goes", "go", "belongs", "belong", "should", "must", "stays", "stay"})
 _ANOTHER = ("in", "another", "one")
@@ -298,6 +300,35 @@ def _whatever(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+def _whatever_is_so(tokens: list[Token]) -> list[Token]:
+    """Read "whatever is empty on the shelf" as "every empty thing on the shelf"."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 3):
+        opener = next((n for n in (1, 2) if " ".join(words[at : at + n]) in _WHATEVER), 0)
+        if opener and words[at + opener] in ("is", "are", "'s") and words[at + opener + 1] in _STATES | _ADJECTIVES:
+            every = [replace(tokens[at], text="every"), tokens[at + opener + 1]]
+            thing = replace(tokens[at + opener + 1], text="thing")
+            thing.span = thing.span._replace(start=thing.span.end)
+            return [*tokens[:at], *every, thing, *_whatever_is_so(tokens[at + opener + 2 :])]
+    return tokens
+
+
+def _gets(tokens: list[Token]) -> list[Token]:
+    """Read "every chair gets a cushion" as "put a cushion to every chair"."""
+    words = [t.text for t in tokens]
+    for at in range(2, len(words) - 2):
+        begin = at
+        while begin and tokens[begin - 1].kind not in BREAKS:
+            begin -= 1
+        end = next((i for i in range(at, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS), len(words))
+        plain = not {*words[begin:at], *words[at + 1 : end]} & (_BEHIND | section("modals") | section("be"))
+        each = words[begin] in ("every", "each", "both", "all") and words[begin + 1] not in ("of", "guest", "one")
+        if words[at] in ("gets", "get") and each and plain and words[at + 1] in section("determiners") | {"one"}:
+            put, to = (replace(tokens[at], text=word) for word in ("put", "to"))
+            return [*tokens[:begin], put, *tokens[at + 1 : end], to, *tokens[begin:at], *_gets(tokens[end:])]
+    return tokens
+
+
 def _same_noun(tokens: list[Token]) -> list[Token]:
     """Read "from the table with the mug to the other table" as "… to the other one"."""
     for at in range(2, len(tokens)):
@@ -462,6 +493,21 @@ def _another(tokens: list[Token]) -> list[Token]:
     return found
 
 
+def asked_and_told(tokens: list[Token]) -> list[Token]:
+    """Read "Is the window closed? It should be." as "The window should be closed."."""
+    words = [t.text for t in tokens]
+    for at in range(3, len(words) - 3):
+        told = words[at + 1] in ("it", "they") and words[at + 2] in ("should", "must") and words[at + 3] == "be"
+        ends = at + 4 == len(words) or tokens[at + 4].kind in BREAKS
+        begin = at
+        while begin and tokens[begin - 1].kind not in BREAKS:
+            begin -= 1
+        if words[at][:1] == "?" and told and ends and words[begin] in ("is", "are") and words[at - 1] in _ENDING:
+            asked = [*tokens[begin + 1 : at - 1], *tokens[at + 2 : at + 4], tokens[at - 1]]
+            return [*tokens[:begin], *asked, *asked_and_told(tokens[at + 4 :])]
+    return tokens
+
+
 def named_where_taken_up(tokens: list[Token]) -> list[Token]:
     """Read "The cup on the shelf: wash it" as "wash the cup on the shelf", "The drawers, open them" so too."""
     words = [t.text for t in tokens]
@@ -484,6 +530,7 @@ def named_where_taken_up(tokens: list[Token]) -> list[Token]:
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
     _plain_copula,
+    _whatever_is_so,
     _whatever,
     _same_noun,
     _at_most,
@@ -510,5 +557,6 @@ IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _which_goes,
     _swapped,
     _another,
+    _gets,
 )
 """What is done with each sentence, in this order."""

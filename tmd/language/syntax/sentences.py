@@ -8,7 +8,7 @@ from itertools import pairwise
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.words import section
 from tmd.language.syntax.first_tags import fold
-from tmd.language.syntax.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS, named_where_taken_up
+from tmd.language.syntax.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS, asked_and_told, named_where_taken_up
 from tmd.language.syntax.subordinate_folding import STATEMENT
 from tmd.language.syntax.tokens import Kind, Token
 
@@ -116,7 +116,7 @@ def rewrite_words(tokens: list[Token]) -> list[Token]:
     * "the books that are lying around on the table" as "the books on the table";
     * "I'm going to bake a cake", "Where did the mug go?" as statements.
     """
-    tokens = _without_posture(_without_asides(_with_copulas(_the_other(named_where_taken_up(tokens)))))
+    tokens = _without_posture(_without_asides(_with_copulas(_the_other(named_where_taken_up(asked_and_told(tokens))))))
     starts = [0, *(i + 1 for i, t in enumerate(tokens) if t.kind is Kind.STOP)]
     if starts[-1] < len(tokens):
         starts.append(len(tokens))
