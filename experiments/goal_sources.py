@@ -16,10 +16,9 @@ from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
 from tmd.ground import TaskPlanners, infer
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.inference.energy import Energy, named_weights
-from tmd.inference.learned.store import Knowledge, known
-from tmd.inference.learning.statistics import count
-from tmd.inference.policy.policy import Policy
+from tmd.inference.energy import Energy, count, named_weights
+from tmd.inference.learned import Knowledge, known
+from tmd.inference.policy import Policy
 from tmd.language import parse
 from tmd.language.clause import Clause, Mood, Parsed
 from tmd.pddl.validator import validate

@@ -23,7 +23,7 @@ if "PYTEST_XDIST_WORKER" not in os.environ:
 import pytest
 from hypothesis import settings
 
-from tmd.inference.learned.store import place, save, study
+from tmd.inference.learned import place, save, study
 from tmd.planning.search.numba_build import digest
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

@@ -13,7 +13,7 @@ from tmd.ground import ground as ground_text
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, preset
 from tmd.inference.energy import Weights, named_weights, read_weights
-from tmd.inference.learned.store import Knowledge, known
+from tmd.inference.learned import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.model import Instruction, Problem

@@ -19,10 +19,9 @@ from tmd.goals.text_following import Follower
 from tmd.grounded import Grounded
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
-from tmd.inference.energy import Energy, Weights, named_weights
+from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.goal_directed import GoalInference
-from tmd.inference.learning.statistics import count
-from tmd.inference.policy.policy import Policy, Reward
+from tmd.inference.policy import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
 from tmd.inference.ranking import Inferred
 from tmd.language.clause import Clause, Parsed

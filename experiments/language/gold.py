@@ -22,7 +22,7 @@ from typing import Any, NamedTuple
 import yaml
 
 from tmd.language import Clause, Relation, parse, read_clause
-from tmd.language.lexicon.words import singular
+from tmd.language.lexicon.lexicon import singular
 
 TOKEN = re.compile(r"[^\W\d_]+(?:'[^\W\d_]+)?|\d+|[^\w\s]|_")
 GOLD = Path(__file__).resolve().parents[2] / "tests" / "language" / "gold"

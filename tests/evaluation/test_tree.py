@@ -17,9 +17,22 @@ from hypothesis import strategies as st
 
 from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.runs.dataset import BundledData, Example
-from tmd.inference.policy.features import FIRST, Features, KnownObjects, Menu, learn_syntax
-from tmd.inference.policy.policy import Made, ascend, bag, likelihood, log_probabilities, mentioned
-from tmd.inference.policy.training import number_features, steps_made, study
+from tmd.inference.policy import (
+    FIRST,
+    Features,
+    KnownObjects,
+    Made,
+    Menu,
+    ascend,
+    bag,
+    learn_syntax,
+    likelihood,
+    log_probabilities,
+    mentioned,
+    number_features,
+    steps_made,
+    study,
+)
 from tmd.language import parse
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.plan_file import parse_instruction

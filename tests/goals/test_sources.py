@@ -11,7 +11,7 @@ from tmd.goals.sources.all_sources import declared_goals, goal_reader
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
 from tmd.goals.text_following import Follower
 from tmd.ground import ground
-from tmd.inference.learned.store import study
+from tmd.inference.learned import study
 from tmd.language import parse
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 import tmd
-from tmd.inference.learned import store
-from tmd.inference.learned.store import Knowledge, cache_directory, known, place, save, study
+from tmd.inference import learned
+from tmd.inference.learned import Knowledge, cache_directory, known, place, save, study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
@@ -43,7 +43,7 @@ def studied(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         found.append(corpus.folder.name)
         return study(corpus, tell)
 
-    monkeypatch.setattr(store, "study", counted)
+    monkeypatch.setattr(learned, "study", counted)
     return found
 
 

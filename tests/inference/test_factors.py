@@ -7,8 +7,8 @@ import pytest
 from tmd.inference import energy
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
-from tmd.veil.profiles import differences, shared
 from tmd.veil.template import Instantiation, Template
+from tmd.veil.world import differences, shared
 
 FULL = {("filled",): True, ("hot",): False, ("contains", "water"): True}
 EMPTY = {("filled",): False, ("hot",): False, ("contains", "water"): False}

@@ -11,8 +11,7 @@ import pytest
 
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER_EXTENDED
-from tmd.inference.energy import NAMES, Energy, Weights, named_weights
-from tmd.inference.learning.statistics import count
+from tmd.inference.energy import NAMES, Energy, Weights, count, named_weights
 from tmd.inference.proposers import proposers_of
 from tmd.language import parse
 from tmd.language.clause import Clause

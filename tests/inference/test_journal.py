@@ -10,8 +10,8 @@ import pytest
 
 from tmd.diagnostics import OutputError
 from tmd.inference.energy import Weights, named_weights
-from tmd.inference.learning.weight_learning import Journal, Learned, learn_weights
 from tmd.inference.ranking import Choice, RankedPlan
+from tmd.inference.weight_learning import Journal, Learned, learn_weights
 
 START = named_weights("paper")
 EXAMPLES, ROUNDS = 5, 2

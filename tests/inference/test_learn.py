@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from tmd.inference.energy import NAMES, Weights, named_weights
-from tmd.inference.learning.weight_learning import Pool, descend, learn_weights, vector_of
 from tmd.inference.ranking import Choice, RankedPlan
+from tmd.inference.weight_learning import Pool, descend, learn_weights, vector_of
 
 START = named_weights("paper_extended")
 

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from tmd.inference.learned.json_form import plain, restored
+from tmd.inference.learned import plain, restored
 from tmd.language import parse
 from tmd.language.clause import Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 

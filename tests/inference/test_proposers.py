@@ -12,8 +12,7 @@ import pytest
 
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER, POLICY
-from tmd.inference.energy import Energy, Factors, named_weights
-from tmd.inference.learning.statistics import count
+from tmd.inference.energy import Energy, Factors, count, named_weights
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language import parse

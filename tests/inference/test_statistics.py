@@ -6,8 +6,7 @@ import math
 
 import pytest
 
-from tmd.inference.energy import NAMES, Energy, Weights
-from tmd.inference.learning.statistics import EndStates, Frequencies, count
+from tmd.inference.energy import NAMES, EndStates, Energy, Frequencies, Weights, count
 from tmd.pddl.model import Instruction
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import learn

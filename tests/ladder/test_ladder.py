@@ -10,7 +10,7 @@ import pytest
 from tmd.goals.reading.reader import Why
 from tmd.ground import ground
 from tmd.inference.config import PAPER
-from tmd.inference.learned.store import Knowledge, study
+from tmd.inference.learned import Knowledge, study
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal

@@ -7,8 +7,7 @@ import pytest
 from tmd.diagnostics import TmdError
 from tmd.language.data import rebuild
 from tmd.language.lexicon.file import read_lexicon
-from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.words import data_text, section, singular
+from tmd.language.lexicon.lexicon import builtin, data_text, section, singular
 
 DICT = Path("/usr/share/wordnet")
 

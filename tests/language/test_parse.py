@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
 from tmd.language.clause import Mood, Quantifier
 from tmd.language.parser import FOREIGN, NO_VERB, NO_WORDS, is_filler
-from tmd.language.syntax.subordinate_folding import REMINDER
+from tmd.language.syntax.subordinate import REMINDER
 from tmd.language.syntax.tokens import Kind, tokenise
 
 

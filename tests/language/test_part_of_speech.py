@@ -6,10 +6,9 @@ import pytest
 
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.syntax import part_of_speech as tables
-from tmd.language.syntax.first_tags import CLASSES, RUNS, ClassRule, RunRule, tag
 from tmd.language.syntax.part_of_speech import TagRule, decide
 from tmd.language.syntax.sentences import rewrite_words
-from tmd.language.syntax.tokens import Kind, tokenise
+from tmd.language.syntax.tokens import CLASSES, RUNS, ClassRule, Kind, RunRule, tag, tokenise
 
 WORDS = ("UNKNOWN_WORD", "ING_FORM", "PAST_FORM", "THIRD_PERSON", "BASE_FORM")
 TABLES: dict[str, tuple[TagRule, ...]] = {

@@ -15,7 +15,7 @@ from tmd.evaluation.models.paper_models import Crf, loss
 from tmd.evaluation.runs.dataset import BundledData, Example
 from tmd.inference.config import PAPER_EXTENDED
 from tmd.inference.energy import Weights, named_weights
-from tmd.inference.learning.weight_learning import Journal, Learned, Propose, learn_weights
+from tmd.inference.weight_learning import Journal, Learned, Propose, learn_weights
 from tmd.pddl.model import Instruction
 from tmd.veil.demonstration import Demonstration, Segment
 

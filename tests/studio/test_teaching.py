@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.inference.learned.json_form import library_to_json
-from tmd.inference.learned.store import Knowledge, place, recall, study
+from tmd.inference.learned import Knowledge, library_to_json, place, recall, study
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive

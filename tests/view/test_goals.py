@@ -13,7 +13,7 @@ from tests.view.reading import Reader
 from tmd.cli.inputs.grounding import made_with
 from tmd.diagnostics import TmdError
 from tmd.ground import Grounded, ground
-from tmd.inference.learned.store import known
+from tmd.inference.learned import known
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction

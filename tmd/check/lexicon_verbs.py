@@ -9,8 +9,7 @@ from pathlib import Path
 from tmd.check.lexicon_goals import Written
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import family
-from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.words import section
+from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.pddl.reading.syntax import read_text
 
 _PARTICLE_WITHIN = 4

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from tmd.diagnostics import Location, TmdError
 from tmd.language.lexicon.file import read_lexicon
-from tmd.language.lexicon.words import verb_candidates
+from tmd.language.lexicon.lexicon import verb_candidates
 from tmd.pddl.reading.syntax import nearest, read_text
 
 _WORD = re.compile(r"[a-z]+")

@@ -17,8 +17,7 @@ from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAto
 from tmd.pddl.semantics import bindings, holds
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.writer import format_formula
-from tmd.veil.profiles import PART_OF
-from tmd.veil.world import World
+from tmd.veil.world import PART_OF, World
 
 TRUE, FALSE = And(), Or()
 

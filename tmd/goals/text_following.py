@@ -6,17 +6,15 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from tmd.goals.clause_goal import ClauseGoal, Refused, Why
-from tmd.goals.commitments import Kept, aims, combined, keep, without_operators
+from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.reading.nouns import Bound, Memory, Referent
 from tmd.goals.reading.reader import GoalReader
-from tmd.goals.reading.referents import EXCEPTING
-from tmd.goals.reading.requirements import BE
+from tmd.goals.reading.referents import BE, EXCEPTING
 from tmd.goals.sources.table import words_of
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
 from tmd.language.syntax.pronouns import is_pronoun
-from tmd.language.syntax.subordinate_folding import REMINDER
+from tmd.language.syntax.subordinate import REMINDER
 from tmd.pddl.task import Bits, Cube, Task
 
 GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})

@@ -13,8 +13,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
-from tmd.goals.clause_goal import Refused, Why, text_of
-from tmd.goals.commitments import passing_predicates
+from tmd.goals.clause_goal import Refused, Why, passing_predicates, text_of
 from tmd.goals.grounder import TRUE
 from tmd.goals.text_following import Context, Follower, GoalStep, Role, Target, TextConstraints
 from tmd.inference.config import InferenceConfig

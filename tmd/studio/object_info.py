@@ -9,8 +9,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits
-from tmd.veil.profiles import PART_OF
-from tmd.veil.world import World
+from tmd.veil.world import PART_OF, World
 
 
 @dataclass(frozen=True, slots=True)

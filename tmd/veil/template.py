@@ -8,8 +8,7 @@ from dataclasses import dataclass
 from tmd.language.clause import Clause, Relation
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.veil.profiles import Mentions, Profile, Profiles, shared
-from tmd.veil.world import World
+from tmd.veil.world import Mentions, Profile, Profiles, World, shared
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,15 +1,23 @@
-"""One environment, ready for grounding: the ground task, the objects' states and the nouns that name them."""
+"""What a state says of one object: the vertex labels of its object graph, as comparable profiles.
+
+A profile maps a *state name* to whether it holds. A state name is an atom about the object with the object taken
+out: ``(contains mug1 water)`` is ``("contains", "water")`` of ``mug1``. The states of an object's parts belong to
+its profile too, under the part's name. What never changes (an affordance, say) is part of the profile where it
+holds. Atoms that relate two objects are no states; nor are the robot's own.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
+from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground import ground
-from tmd.pddl.model import Problem, Universe, universe
-from tmd.pddl.task import Task
-from tmd.veil.profiles import Mentions, Profiles
+from tmd.pddl.model import GroundAtom, Problem, Universe, hierarchy, universe
+from tmd.pddl.task import Bits, Task
 
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
@@ -35,3 +43,218 @@ def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str
     task = ground(problem)
     profiles = Profiles(task)
     return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))
+
+
+CONTAINED = "contained"
+"""How a :class:`Match` was found: the object contains what the noun names."""
+_CONTAINED_SHARE = 0.9
+"""A container is a weaker reading than the thing itself."""
+
+
+class Mentions:
+    """The nouns of one environment.
+
+    Args:
+        profiles: The environment's objects and their states.
+        lexicon: The domain's words.
+        kinds: For objects whose PDDL type says less than that, what kind of thing each is.
+    """
+
+    def __init__(self, profiles: Profiles, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> None:
+        self.profiles = profiles
+        self.lexicon = lexicon
+        problem = profiles.task.problem
+        types = hierarchy(problem.domain)
+        self.classes = frozenset(t.name for t in problem.domain.types)
+        """The classes that the domain knows, be there something of them here or not."""
+        self.types: Mapping[str, tuple[str, ...]] = {o.name: types.ancestors(o.types[0]) for o in problem.all_objects()}
+        own = {name: types[0] for name, types in self.types.items()}
+        self.kinds: Mapping[str, str] = own | {name: kind for name, kind in (kinds or {}).items() if name in own}
+        self._candidates = tuple(self._candidate(name) for name in self.types)
+        self._known: dict[str, tuple[Match, ...]] = {}
+
+    def _candidate(self, name: str) -> NounMatch:
+        types, kind = self.types[name], self.kinds[name]
+        above = types[1:] if kind == types[0] else types
+        return NounMatch(name, kind, above, _words(name, self.profiles.wholes.get(name)))
+
+    def of(self, noun: str, state: Bits) -> list[Match]:
+        """The objects that ``noun`` may mean in ``state``, likeliest first; empty for what is not there."""
+        found: dict[str, Match] = {}
+        for match in self.ranked(noun):
+            if match.name not in self.profiles.constants:
+                found.setdefault(match.name, match)
+                continue
+            for name in self.profiles.containers(match.name, state):
+                better = Match(name, match.score * _CONTAINED_SHARE, CONTAINED)
+                if name not in found or found[name].score < better.score:
+                    found[name] = better
+        return sorted(found.values(), key=lambda m: -m.score)
+
+    def constants(self, noun: str) -> list[str]:
+        """The constants of the domain, substances say, that ``noun`` may mean, likeliest first."""
+        return [match.name for match in self.ranked(noun) if match.name in self.profiles.constants]
+
+    def ranked(self, noun: str) -> tuple[Match, ...]:
+        """The objects and constants that ``noun`` may name, likeliest first, whatever contains them."""
+        if noun not in self._known:
+            self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
+        return self._known[noun]
+
+    def meant(self, clause: Clause, used: Collection[str], state: Bits) -> tuple[str, ...]:
+        """The clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.
+
+        Of several that are equally likely it is the one with the most edges to what was used: the burner of the
+        knob that was turned.
+        """
+        found: dict[str, None] = {}
+        for noun in clause.resolved():
+            matches = self.of(noun, state)
+            chosen = next((match.name for match in matches if match.name in used), None)
+            if chosen is None and matches:
+                best = [match.name for match in matches if match.score == matches[0].score]
+                chosen = max(best, key=lambda name: self._edges(name, used))
+            if chosen is not None:
+                found[chosen] = None
+        return tuple(found)
+
+    def _edges(self, name: str, used: Collection[str]) -> int:
+        links = self.profiles.links
+        return sum(len(links.get((name, u), ())) + len(links.get((u, name), ())) for u in used)
+
+
+def _words(name: str, whole: str | None) -> tuple[str, ...]:
+    """The words in an object's name; a part also answers to the name of its whole."""
+    words = [word.rstrip("0123456789") for word in name.replace("-", "_").split("_")]
+    return tuple(dict.fromkeys([w for w in words if w] + ([whole.rstrip("0123456789")] if whole else [])))
+
+
+Profile = Mapping[tuple[str, ...], bool]
+
+PART_OF = "part_of"
+
+
+class Profiles:
+    """Profiles of the objects of one task.
+
+    Args:
+        task: The ground problem; its fluent atoms are the states that an object can be in.
+    """
+
+    def __init__(self, task: Task) -> None:
+        self.task = task
+        problem = task.problem
+        self.constants = frozenset(c.name for c in problem.domain.constants)
+        self.objects = tuple(o.name for o in problem.objects if o.name not in self.constants)
+        self._fluent = self._by_object(task.atoms)
+        self._static = self._by_object(sorted(task.static))
+        self._relevant: dict[str, Bits] = {}
+        self._known: dict[tuple[str, Bits], Profile] = {}
+
+    @cached_property
+    def parts(self) -> dict[str, tuple[tuple[str, str], ...]]:
+        """For every object its parts, as (the part's short name, the part)."""
+        found: dict[str, list[tuple[str, str]]] = {}
+        for atom in sorted(self.task.static):
+            if atom.predicate == PART_OF and len(atom.args) == 2:
+                part, whole = atom.args
+                found.setdefault(whole, []).append((part.removeprefix(f"{whole}_"), part))
+        return {whole: tuple(parts) for whole, parts in found.items()}
+
+    @cached_property
+    def wholes(self) -> dict[str, str]:
+        """For every part the object it belongs to."""
+        return {part: whole for whole, parts in self.parts.items() for _, part in parts}
+
+    def unit(self, name: str) -> tuple[str, ...]:
+        """``name``, and the object that it is a part of."""
+        whole = self.wholes.get(name)
+        return (name,) if whole is None else (name, whole)
+
+    @cached_property
+    def links(self) -> Mapping[tuple[str, str], frozenset[str]]:
+        """The static relations between each two objects: which edges of the object graphs join them."""
+        found: dict[tuple[str, str], set[str]] = {}
+        for atom in self.task.static:
+            ends = [a for a in atom.args if a not in self.constants]
+            if len(ends) == 2 and ends[0] != ends[1]:
+                found.setdefault((ends[0], ends[1]), set()).add(atom.predicate)
+        return {pair: frozenset(predicates) for pair, predicates in found.items()}
+
+    def of(self, name: str, state: Bits) -> Profile:
+        """The profile of the object ``name`` in ``state``."""
+        if name not in self._relevant:
+            self._relevant[name] = self._atoms_of(name)
+        key = name, state & self._relevant[name]
+        known = self._known.get(key)
+        if known is None:
+            profile = self.own(name, state)
+            for short, part in self.parts.get(name, ()):
+                profile |= {(short, *k): value for k, value in self.own(part, state).items()}
+            known = self._known[key] = profile
+        return known
+
+    def _atoms_of(self, name: str) -> Bits:
+        """The atoms that the profile of ``name`` depends on."""
+        bits = 0
+        for thing in (name, *(part for _, part in self.parts.get(name, ()))):
+            for atom, _ in self._fluent.get(thing, ()):
+                bits |= 1 << self.task.index[atom]
+        return bits
+
+    def own(self, name: str, state: Bits) -> dict[tuple[str, ...], bool]:
+        """The profile of ``name`` without that of its parts."""
+        profile = {key: True for _, key in self._static.get(name, ())}
+        for atom, key in self._fluent.get(name, ()):
+            profile[key] = bool(state >> self.task.index[atom] & 1)
+        return profile
+
+    def containers(self, constant: str, state: Bits) -> list[str]:
+        """The objects that have ``constant`` in a state of theirs now (*contains mug1 water*), in the problem's order.
+
+        Only states that some action changes count: an affordance contains nothing.
+        """
+        found = self._about.get(constant, ())
+        return list(dict.fromkeys(name for name, bit in found if bit is None or state >> bit & 1))
+
+    @cached_property
+    def _about(self) -> dict[str, list[tuple[str, int | None]]]:
+        """For every constant the objects that may have it in a state, each with its atom; ``None`` is always true."""
+        found: dict[str, list[tuple[str, int | None]]] = {}
+        for name in self.objects:
+            states = [(key, None) for _, key in self._static.get(name, ())]
+            for key, bit in [*states, *((key, self.task.index[atom]) for atom, key in self._fluent.get(name, ()))]:
+                if key[0] in self._changing:
+                    for constant in dict.fromkeys(key[1:]):
+                        found.setdefault(constant, []).append((name, bit))
+        return found
+
+    @cached_property
+    def _changing(self) -> frozenset[str]:
+        """The predicates that stand in some action's effect."""
+        return frozenset(effect.atom.predicate for a in self.task.problem.domain.actions for effect in a.effects)
+
+    def _by_object(self, atoms: Iterable[GroundAtom]) -> dict[str, list[tuple[GroundAtom, tuple[str, ...]]]]:
+        found: dict[str, list[tuple[GroundAtom, tuple[str, ...]]]] = {}
+        for atom in atoms:
+            if not atom.args or atom.args[0] in self.constants:
+                continue
+            if all(a in self.constants for a in atom.args[1:]):
+                found.setdefault(atom.args[0], []).append((atom, (atom.predicate, *atom.args[1:])))
+        return found
+
+
+def differences(one: Profile, other: Profile) -> float:
+    """The share of the states of either object in which the two differ (Δ_env for one variable, section VI-A.1).
+
+    A state that only one of them can have counts as a difference. 0 where neither has any.
+    """
+    names = one.keys() | other.keys()
+    if not names:
+        return 0.0
+    return sum(one.get(name) != other.get(name) for name in names) / len(names)
+
+
+def shared(one: Profile, other: Profile) -> int:
+    """How many states the two have in common (rule 3 of section V-A)."""
+    return sum(other.get(name) == value for name, value in one.items())

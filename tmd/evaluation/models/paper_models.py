@@ -22,10 +22,9 @@ from tmd.goals.sources.table import GoalTable
 from tmd.ground import TaskPlanners
 from tmd.ground import infer as ground_clauses
 from tmd.inference.config import GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
-from tmd.inference.energy import NAMES, OURS, Energy, Weights, named_weights
-from tmd.inference.learning.statistics import Statistics, count
-from tmd.inference.learning.weight_learning import Journal, Learned, learn_weights
+from tmd.inference.energy import NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
+from tmd.inference.weight_learning import Journal, Learned, learn_weights
 from tmd.language import Clause, parse
 from tmd.language.clause import Parsed
 from tmd.planning.backends import IN_PROCESS, make

@@ -41,9 +41,8 @@ from tmd.language.lexicon.nouns import WORDNET
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.library import run
-from tmd.veil.profiles import CONTAINED
 from tmd.veil.template import replace
-from tmd.veil.world import World
+from tmd.veil.world import CONTAINED, World
 from tmd.world.folder import find_domain
 
 _LOOSE = (CONTAINED, WORDNET)

@@ -10,13 +10,12 @@ from functools import cached_property
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
 from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable, state_words
 from tmd.language.clause import NounPhrase, Quantifier
+from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
-from tmd.language.lexicon.words import section
 from tmd.language.syntax.attachment import WHOLES
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
-from tmd.veil.profiles import CONTAINED
-from tmd.veil.world import World
+from tmd.veil.world import CONTAINED, World
 
 INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 """Relations said the other way round: what is under the pot is what the pot stands on."""

@@ -20,8 +20,7 @@ from tmd.goals.grounder import (
     why_impossible,
 )
 from tmd.goals.reading.nouns import Memory, Mode, Referent, relations_said
-from tmd.goals.reading.referents import Referents
-from tmd.goals.reading.requirements import BE, Requirements, States
+from tmd.goals.reading.referents import BE, Referents, Requirements, States
 from tmd.goals.sources.table import (
     ACTIONS,
     PREPOSITIONS,

@@ -410,7 +410,7 @@ def _placelike(parameter: TypedName, types: object) -> bool:
 
 
 def _passing(domain: Domain) -> frozenset[str]:
-    from tmd.goals.commitments import passing_predicates
+    from tmd.goals.clause_goal import passing_predicates
 
     return passing_predicates(domain)
 

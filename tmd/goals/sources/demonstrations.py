@@ -17,7 +17,7 @@ from itertools import product
 from typing import Any
 
 from tmd.diagnostics import TmdError
-from tmd.goals.commitments import passing_predicates
+from tmd.goals.clause_goal import passing_predicates
 from tmd.goals.grounder import FALSE, Grounder, Moments
 from tmd.goals.reading.nouns import Nouns
 from tmd.goals.sources.table import (

@@ -18,8 +18,7 @@ from dataclasses import dataclass, field, replace
 from functools import cache, cached_property
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.lexicon.lexicon import Declared
-from tmd.language.lexicon.words import data_text
+from tmd.language.lexicon.lexicon import Declared, data_text
 from tmd.pddl.model import And, Atom, Domain, Equals, Exists, Forall, Formula, Imply, Not, Or, hierarchy, predicates_of
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Group, Node, Word, nearest, parse

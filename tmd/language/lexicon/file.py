@@ -15,8 +15,7 @@ from typing import NoReturn
 import yaml
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.lexicon.lexicon import Declared, Lexicon
-from tmd.language.lexicon.words import singular
+from tmd.language.lexicon.lexicon import Declared, Lexicon, singular
 
 KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")

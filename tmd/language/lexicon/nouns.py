@@ -14,8 +14,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import NamedTuple
 
-from tmd.language.lexicon.lexicon import Lexicon, builtin
-from tmd.language.lexicon.words import data_text, singular
+from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, singular
 
 NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 """What :attr:`Match.how` can say, strongest first."""

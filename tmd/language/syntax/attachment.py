@@ -14,7 +14,7 @@ from lark.exceptions import UnexpectedInput
 from lark.lexer import Lexer
 
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
-from tmd.language.lexicon.words import section, singular
+from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.syntax.chunking import CHOICE
 from tmd.language.syntax.tokens import IMPLIED, NAME, Kind, Token
 

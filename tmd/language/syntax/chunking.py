@@ -5,10 +5,8 @@ from __future__ import annotations
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.words import section, singular
-from tmd.language.syntax.first_tags import fold
-from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.lexicon.lexicon import Lexicon, section, singular
+from tmd.language.syntax.tokens import Kind, Token, fold
 
 ALONE = "alone"
 """The form of a verb that lost its object to a slip: it shares none."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 
-from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.words import section
+from tmd.language.lexicon.lexicon import builtin, section
 from tmd.language.syntax.attachment import is_number
 from tmd.language.syntax.tokens import Kind, Token
 

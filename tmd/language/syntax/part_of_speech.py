@@ -13,8 +13,7 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from tmd.language.clause import NOWHERE
-from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.lexicon.words import section
+from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.syntax.tokens import Kind, Token
 
 _EDGE = Token(Kind.STOP, "", NOWHERE)

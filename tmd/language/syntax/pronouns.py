@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.language.clause import PERSONS, Clause, Condition
-from tmd.language.lexicon.words import section, singular
+from tmd.language.lexicon.lexicon import section, singular
 from tmd.language.syntax.attachment import ClauseDraft, Phrase
 from tmd.language.syntax.tokens import Kind, Token
 

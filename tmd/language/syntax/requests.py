@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
-from tmd.language.lexicon.words import section
+from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.chunking import ALSO
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 

@@ -5,12 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
-from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.words import section
-from tmd.language.syntax.first_tags import fold
+from tmd.language.lexicon.lexicon import builtin, section
 from tmd.language.syntax.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS, asked_and_told, named_where_taken_up
-from tmd.language.syntax.subordinate_folding import STATEMENT
-from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.syntax.subordinate import STATEMENT
+from tmd.language.syntax.tokens import Kind, Token, fold
 
 _ASKING = frozenset({"can", "could", "may", "should", "shall"})
 """What a question begins with that asks for something; *will it be hot* does not."""

@@ -14,10 +14,18 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tmd.planning.search.flat_task import Ints, Tables
+from tmd.planning.search.heuristics import (
+    FAR,
+    Goal,
+    applicable,
+    grown,
+    landmark_cut,
+    reached_goal,
+    scratch,
+    successor,
+    zeros,
+)
 from tmd.planning.search.kernel import CAPPED, DEAD_END, FOUND, enlarged, find, insert, new_table
-from tmd.planning.search.landmarks import landmark_cut, scratch
-from tmd.planning.search.relaxation import Goal
-from tmd.planning.search.state_words import FAR, applicable, grown, reached_goal, successor, zeros
 
 BOOST = 1_000
 """For how many turns the preferred operators go first after progress."""

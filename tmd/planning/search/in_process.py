@@ -14,8 +14,8 @@ from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search import greedy, kernel
 from tmd.planning.search.flat_task import Ints, Tables, build, literals, rows, words_of
+from tmd.planning.search.heuristics import Goal, prepared
 from tmd.planning.search.numba_build import Functions, SearchFunction, array, arrays, compiled
-from tmd.planning.search.relaxation import Goal, prepared
 from tmd.planning.unsolvable import unreachable_reason
 
 Backend = Literal["auto", "numba", "python"]

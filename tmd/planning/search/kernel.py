@@ -1,7 +1,7 @@
 """The search kernel: depth-first search under rising cost bounds, with landmark cuts as the lower bound.
 
-Every function here and in :mod:`~tmd.planning.search.state_words`, :mod:`~tmd.planning.search.relaxation` and
-:mod:`~tmd.planning.search.landmarks` is written in the common subset of plain Python over lists and of numba over
+Every function here and in :mod:`~tmd.planning.search.heuristics`, :mod:`~tmd.planning.search.heuristics` and
+:mod:`~tmd.planning.search.heuristics` is written in the common subset of plain Python over lists and of numba over
 arrays: :mod:`tmd.planning.search.numba_build` compiles the very same code, so both give the same answers step by step.
 
 **What is computed.** The cheapest plan from a state to any cube of the goal; among the cheapest, the plans with the
@@ -13,7 +13,7 @@ depend on the lower bound, on caches or on hashing.
 share the cost of their action). Under one bound the search takes operators in order and skips
 
 * operators that cannot be on any optimal plan within the bound, because no chain of needs leads from what they
-  change to the goal in time (:func:`~tmd.planning.search.relaxation.distances`);
+  change to the goal in time (:func:`~tmd.planning.search.heuristics.distances`);
 * operators outside every cut, where the bound leaves no slack;
 * states already refuted with as much budget (a table of lower bounds, as in IDA* with a transposition table).
 
@@ -28,9 +28,23 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from tmd.planning.search.flat_task import Ints, Tables
-from tmd.planning.search.landmarks import Scratch, earliest, hmax, landmark_cut, scratch
-from tmd.planning.search.relaxation import Goal, Relaxed, change, relaxed
-from tmd.planning.search.state_words import FAR, applicable, grown, reached_goal, successor, zeros
+from tmd.planning.search.heuristics import (
+    FAR,
+    Goal,
+    Relaxed,
+    Scratch,
+    applicable,
+    change,
+    earliest,
+    grown,
+    hmax,
+    landmark_cut,
+    reached_goal,
+    relaxed,
+    scratch,
+    successor,
+    zeros,
+)
 
 FOUND, DEAD_END, CAPPED = 0, 1, 2
 """Status of a search."""

@@ -14,9 +14,9 @@ from pathlib import Path
 from types import FunctionType
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias, cast
 
-from tmd.planning.search import greedy, kernel, landmarks, relaxation, state_words
+from tmd.planning.search import greedy, heuristics, kernel
 from tmd.planning.search.flat_task import Ints, Tables
-from tmd.planning.search.relaxation import Goal
+from tmd.planning.search.heuristics import Goal
 
 if TYPE_CHECKING:
     import numpy as np
@@ -35,7 +35,7 @@ class Functions(NamedTuple):
     search_any: SearchFunction
 
 
-MODULES = (state_words, relaxation, landmarks, kernel, greedy)
+MODULES = (heuristics, kernel, greedy)
 """The modules that make up the kernel, each before those that use it."""
 
 REPLACED = frozenset({"zeros", "grown"})

@@ -14,7 +14,7 @@ from pathlib import Path
 from tmd.diagnostics import TmdError
 from tmd.ground import ground
 from tmd.grounded import Grounded
-from tmd.inference.learned.store import Knowledge, known
+from tmd.inference.learned import Knowledge, known
 from tmd.studio.demonstrations.alignment import Habits
 from tmd.studio.learning.training import Trained, Training
 from tmd.veil.corpus import Corpus

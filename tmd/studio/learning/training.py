@@ -12,9 +12,8 @@ from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
-from tmd.inference.learned.json_form import reward_from_json, reward_to_json, weights_bytes
-from tmd.inference.learned.store import Knowledge, digest, place, save, study
-from tmd.inference.policy.policy import Reward
+from tmd.inference.learned import Knowledge, digest, place, reward_from_json, reward_to_json, save, study, weights_bytes
+from tmd.inference.policy import Reward
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from difflib import SequenceMatcher
 
 from tmd.language.clause import Clause, Span
-from tmd.language.lexicon.lexicon import builtin
-from tmd.language.lexicon.words import positive, singular
+from tmd.language.lexicon.lexicon import builtin, positive, singular
 from tmd.language.syntax.tokens import Kind, Token, tokenise
 
 VERB, OBJECT = "verb", "object"

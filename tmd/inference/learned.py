@@ -1,6 +1,6 @@
 """Directories with what was learned of a domain: where `tmd learn` saves, and the cache of the user.
 
-``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned.store` learns,
+``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned` learns,
 ``weights.txt`` the learned weights if there are any. ``learned.json`` is written last and has checksums: of what
 everything was made from, and of the other files. Where one of them does not fit, nothing of the directory is used.
 
@@ -11,18 +11,20 @@ What nobody saved is learned when it is first asked for, and kept in the user's 
 from __future__ import annotations
 
 import hashlib
+import io
 import json
 import os
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
-from functools import lru_cache
+from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
+from enum import Enum
+from functools import cache, lru_cache
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from types import NoneType, TracebackType, UnionType
+from typing import Any, Self, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -31,18 +33,178 @@ from tmd.files import make_directory, write_bytes
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
 from tmd.goals.sources.table import GoalTable
 from tmd.inference.energy import Weights, format_weights, parse_weights
-from tmd.inference.learned.json_form import (
-    library_from_json,
-    library_to_json,
-    reward_from_json,
-    reward_to_json,
-    weights_bytes,
-)
-from tmd.inference.policy.policy import Reward
-from tmd.inference.policy.training import learn_policy
+from tmd.inference.policy import Features, Reward, Syntax, learn_policy
+from tmd.language.clause import Clause
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.model import Instruction
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import Library, learn
+from tmd.veil.template import Template
+from tmd.veil.world import Profile
+
+_T = TypeVar("_T")
+
+
+def plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
+    """What :func:`restored` makes the same value of; fields of a dataclass that have their default are left out."""
+    if is_dataclass(value):
+        pairs = ((field, getattr(value, field.name)) for field in fields(value))
+        return {field.name: plain(part) for field, part in pairs if part != _default(field)}
+    if isinstance(value, Mapping):
+        return {key: plain(part) for key, part in value.items()}
+    if isinstance(value, tuple):
+        return [plain(part) for part in value]
+    return value.value if isinstance(value, Enum) else value
+
+
+def restored(kind: type[_T], data: Any) -> _T:  # noqa: ANN401 - any value of JSON
+    """The value of type ``kind``.
+
+    Raises:
+        KeyError, TypeError, ValueError, AttributeError: It is none.
+    """
+    found: _T = _restored(kind, data)
+    return found
+
+
+def _restored(kind: Any, data: Any) -> Any:  # noqa: ANN401 - a type, and what JSON has for it
+    if is_dataclass(kind) and isinstance(kind, type):
+        hints = _hints(kind)
+        return kind(**{name: _restored(hints[name], part) for name, part in data.items()})
+    origin, parts = get_origin(kind), get_args(kind)
+    if origin in (Union, UnionType):
+        return None if data is None else _restored(next(part for part in parts if part is not NoneType), data)
+    if origin is tuple:
+        return tuple(_restored(parts[0], part) for part in data)
+    if origin is Mapping:
+        return {key: _restored(parts[1], part) for key, part in data.items()}
+    if isinstance(kind, type) and issubclass(kind, tuple):
+        return kind(*(_restored(hint, part) for hint, part in zip(_hints(kind).values(), data, strict=True)))
+    return kind(data) if isinstance(kind, type) and issubclass(kind, Enum) else data
+
+
+@cache
+def _hints(kind: type) -> dict[str, Any]:
+    return get_type_hints(kind)
+
+
+def _default(field: Field[Any]) -> Any:  # noqa: ANN401 - of any type
+    return field.default_factory() if field.default_factory is not MISSING else field.default
+
+
+def library_to_json(library: Library) -> dict[str, Any]:
+    """What :func:`library_from_json` makes the same library of."""
+    profiles = _Profiles()
+    templates = [_template(t, profiles) for verb in library.verbs() for t in library.templates(verb)]
+    return {"unaligned": [list(pair) for pair in library.unaligned], "templates": templates, "profiles": profiles.all}
+
+
+def library_from_json(data: Mapping[str, Any], lexicon: Lexicon) -> Library:
+    """The library.
+
+    Raises:
+        KeyError, TypeError, ValueError, IndexError: It is none.
+    """
+    profiles = [_profile(lines) for lines in data["profiles"]]
+    library = Library(lexicon, [(source, text) for source, text in data["unaligned"]])
+    for entry in data["templates"]:
+        library.add(_read_template(entry, profiles))
+    return library
+
+
+class _Profiles:
+    """The distinct profiles, numbered as they come."""
+
+    def __init__(self) -> None:
+        self.all: list[list[Any]] = []
+        self._numbers: dict[tuple[Any, ...], int] = {}
+
+    def number(self, profile: Profile) -> int:
+        key = tuple(profile.items())
+        if key not in self._numbers:
+            self._numbers[key] = len(self.all)
+            self.all.append([[*name, value] for name, value in profile.items()])
+        return self._numbers[key]
+
+
+def _profile(lines: Sequence[Sequence[Any]]) -> Profile:
+    return {tuple(line[:-1]): line[-1] for line in lines}
+
+
+def _template(template: Template, profiles: _Profiles) -> dict[str, Any]:
+    return {
+        "source": template.source,
+        "clause": plain(template.clause),
+        "environment": template.environment,
+        "instructions": [[i.name, *i.args] for i in template.instructions],
+        "variables": {
+            z: [name, template.classes[z], profiles.number(template.profiles[z]), profiles.number(template.ends[z])]
+            for z, name in template.grounding.items()
+        },
+        "wanted": {z: [list(types) for types in wanted] for z, wanted in template.wanted.items()},
+        "links": [[a, b, *sorted(names)] for (a, b), names in template.links.items()],
+        "mentions": dict(template.mentions),
+        "subjects": [[kind, profiles.number(profile)] for kind, profile in template.subjects],
+    }
+
+
+def _read_template(data: Mapping[str, Any], profiles: Sequence[Profile]) -> Template:
+    variables = data["variables"]
+    return Template(
+        source=data["source"],
+        clause=restored(Clause, data["clause"]),
+        environment=data["environment"],
+        instructions=tuple(Instruction(name, tuple(args)) for name, *args in data["instructions"]),
+        grounding={z: entry[0] for z, entry in variables.items()},
+        classes={z: entry[1] for z, entry in variables.items()},
+        wanted={z: tuple(tuple(types) for types in wanted) for z, wanted in data["wanted"].items()},
+        profiles={z: profiles[entry[2]] for z, entry in variables.items()},
+        links={(a, b): frozenset(names) for a, b, *names in data["links"]},
+        mentions=dict(data["mentions"]),
+        ends={z: profiles[entry[3]] for z, entry in variables.items()},
+        subjects=tuple((kind, profiles[number]) for kind, number in data["subjects"]),
+    )
+
+
+def reward_to_json(reward: Reward) -> dict[str, Any]:
+    """All but the weights."""
+    features = reward.features
+    return {
+        "words": list(features.words),
+        "properties": [list(name) for name in features.properties],
+        "shapes": [[name, list(kinds)] for name, kinds in features.syntax.shapes],
+        "needs": [[name, place, list(earlier)] for (name, place), earlier in features.syntax.needs.items()],
+        "longest": features.syntax.longest,
+        "before": reward.before,
+        "after": reward.after,
+    }
+
+
+def reward_from_json(data: Mapping[str, Any], weights: bytes) -> Reward:
+    """The same again.
+
+    Raises:
+        KeyError, TypeError, ValueError: It is none.
+    """
+    syntax = Syntax(
+        tuple((name, tuple(kinds)) for name, kinds in data["shapes"]),
+        {(name, place): tuple(earlier) for name, place, earlier in data["needs"]},
+        data["longest"],
+    )
+    features = Features(data["words"], (tuple(name) for name in data["properties"]), syntax)
+    theta = np.load(io.BytesIO(weights), allow_pickle=False)
+    if theta.shape != (features.size,) or theta.dtype != np.float64:
+        raise ValueError("the weights are of another policy")
+    return Reward(features, theta, float(data["before"]), float(data["after"]))
+
+
+def weights_bytes(reward: Reward) -> bytes:
+    """The weights as a ``.npy`` file."""
+    buffer = io.BytesIO()
+    np.save(buffer, reward.theta, allow_pickle=False)
+    return buffer.getvalue()
+
 
 _PATIENCE = 2.0
 """Seconds that nobody minds waiting without a word."""
@@ -83,9 +245,9 @@ class Progress:
             sys.stderr.flush()
 
 
-_ROOT = Path(__file__).resolve().parents[2]
-_PACKAGES = ("pddl", "world", "language", "veil", "goals", "inference/policy", "inference/learned")
-"""The packages whose code decides what is learned from a demonstration."""
+_ROOT = Path(__file__).resolve().parents[1]
+_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy.py", "inference/learned.py")
+"""The packages and modules of ``tmd`` whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 
 
@@ -111,10 +273,10 @@ def _files(corpus: Corpus) -> Iterator[tuple[str, Path]]:
 
 @lru_cache(maxsize=1)
 def _program() -> str:
-    """Of the code and the word lists of the packages below."""
+    """Of the code and the word lists of :data:`_SOURCES`."""
     found = hashlib.sha256()
-    for package in _PACKAGES:
-        for path in sorted((_ROOT / package).rglob("*")):
+    for source in (_ROOT / name for name in _SOURCES):
+        for path in [source] if source.is_file() else sorted(source.rglob("*")):
             if path.is_file() and path.suffix != ".pyc":
                 content = path.read_bytes()
                 found.update(f"{path.relative_to(_ROOT).as_posix()} {len(content)}\n".encode())
@@ -202,7 +364,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
         knowledge: What was learned.
         corpus: The domain.
         directory: Where to.
-        made_from: The :func:`~tmd.inference.learned.store.digest` of the corpus before it was read, where others may
+        made_from: The :func:`~tmd.inference.learned.digest` of the corpus before it was read, where others may
             write to it meanwhile; what it is now where none is given.
 
     Raises:
