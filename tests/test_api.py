@@ -116,6 +116,11 @@ def test_what_a_text_asks_for_is_a_problem(tmp_path: Path) -> None:
     page = tmd.grounded_page(grounded)
     assert page.startswith("<!DOCTYPE html>") and "Put the cup on the first table. (corner2)" in page
     assert "A plan in corner2" in tmd.plan_page(problem, grounded.plans[0].instructions)
+    file = tmp_path / "plan.txt"
+    file.write_text("".join(f"{step}\n" for step in (i.pddl() for i in grounded.plans[0].instructions)))
+    assert "a plan in corner2" in tmd.file_page(
+        file, environment="corner2", domain="02_table", domains=ROOT / "domains"
+    )
     assert tmd.parse("Put the cup down.", kit.lexicon).clauses[0].verb == "put_down"
 
 

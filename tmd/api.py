@@ -18,7 +18,7 @@ from tmd.export.from_unified import from_unified_planning
 from tmd.export.pddl_package import from_pddl, to_pddl
 from tmd.export.planned_problem import planned
 from tmd.export.strips import restored
-from tmd.export.unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
+from tmd.export.to_unified import plan_from_unified_planning, plan_to_unified_planning, to_unified_planning
 from tmd.grounded import Grounded
 from tmd.language.parser import parse
 from tmd.pddl.model import Instruction, Problem
@@ -70,6 +70,7 @@ __all__ = [
     "check_veil500",
     "compile_domain",
     "export_plan",
+    "file_page",
     "find_plan",
     "format_domain",
     "format_file",
@@ -294,6 +295,43 @@ def plan_page(problem: Problem, plan: Iterable[Instruction]) -> str:
     from tmd.view.subject import PlannedStep, Subject
 
     return render(Subject(f"A plan in {problem.name}", problem, tuple(map(PlannedStep, plan)))).html
+
+
+def file_page(
+    path: str | Path,
+    *,
+    environment: str | Path | None = None,
+    problem: str | Path | None = None,
+    demonstration: str | None = None,
+    strip: str | Path | None = None,
+    domain: str | None = None,
+    domains: str | Path | None = None,
+    problems: str | Path | None = None,
+) -> str:
+    """A self-contained HTML page of what a file holds, as ``tmd view FILE`` writes it.
+
+    Args:
+        path: What ``tmd ground --json`` or ``tmd run --json`` printed, a log of ``tmd run``, a plan file, or
+            demonstrations.
+        environment: Where: for a plan file, or instead of what the file names.
+        problem: Of a plan file: its PDDL problem.
+        demonstration: Of a file of demonstrations: which one.
+        strip: Of a run: its filmstrip; beside the log by default.
+        domain: The domain; otherwise the environment's or problem's own.
+        domains: The directory of all domains; ``./domains`` or the packaged one by default.
+        problems: The directory of all problems; ``./problems`` or the packaged one by default.
+
+    Raises:
+        TmdError: The file is of no kind that is known, or something in it or around it is wrong.
+    """
+    from tmd.view.page import render
+    from tmd.view.sources import ViewRequest, subject_of_file
+
+    place, in_problem, film = (None if given is None else str(given) for given in (environment, problem, strip))
+    asked = ViewRequest(
+        str(path), place, domain, Path(in_problem) if in_problem else None, demonstration, Path(film) if film else None
+    )
+    return render(subject_of_file(_roots(domains, problems), asked).subject).html
 
 
 def grounded_page(grounded: Grounded) -> str:

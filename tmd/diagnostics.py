@@ -91,6 +91,12 @@ class TmdError(Exception):
         return f"{place}{self.message}{hint}"
 
 
+class OptionError(TmdError):
+    """An option that was given has no meaning here, or one that is needed was not given."""
+
+    exit_code = ExitCode.USAGE
+
+
 class DataError(TmdError):
     """A data set is missing, truncated or of another version."""
 

@@ -13,9 +13,8 @@ from __future__ import annotations
 
 from weakref import WeakKeyDictionary
 
-from tmd.goals.sources.all_sources import goal_reader
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.text_following import Follower
+from tmd.goals.text_following import Follower, goal_reader
 from tmd.grounded import Grounded
 from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig

@@ -23,11 +23,11 @@ import numpy as np
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "planning"))
 from record_queries import random_goal, random_walk
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Answer, Filled
-from tmd.planning.unified import UnifiedPlanner, fast_downward
+from tmd.planning.up_planners import UnifiedPlanner, fast_downward
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain, find_root

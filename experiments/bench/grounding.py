@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from statistics import median
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Problem, TypedName
 from tmd.pddl.reading.reader import read_domain
 from tmd.world.compile import compile_problem

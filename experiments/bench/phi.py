@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.semantics import apply
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment

@@ -50,7 +50,7 @@ def _guarded(case: Case) -> Record:
     try:
         return _run(case)
     except Exception as error:  # one run that breaks must not end the others; the record says what broke
-        place = traceback.extract_tb(error.__traceback__)[-1]
+        place = traceback.extract_tb(error.__traceback__, limit=-1)[0]
         said = f"{type(error).__name__} in {place.filename.rpartition('/')[2]}:{place.lineno}: {error}"
         return _record(case, status=FAILED, reason=said, seconds=time.perf_counter() - begin)
 

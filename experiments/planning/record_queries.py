@@ -16,13 +16,13 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Operator, Task
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.flat_task import ones
-from tmd.planning.unified import UnifiedPlanner, fast_downward
+from tmd.planning.up_planners import UnifiedPlanner, fast_downward
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain

@@ -16,7 +16,7 @@ from tmd.studio.applicable_actions import Offers
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.learning.teaching import Teacher
+from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.world.folder import find_domain, find_problems

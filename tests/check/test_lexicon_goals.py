@@ -10,7 +10,7 @@ import pytest
 from tmd.check.checker import Checker
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.diagnostic import Diagnostic
-from tmd.check.lexicon_words import check_lexicon
+from tmd.check.lexicon import check_lexicon
 from tmd.format.yaml_layout import format_yaml
 from tmd.language.lexicon.file import read_lexicon
 

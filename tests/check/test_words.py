@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tmd.check.lexicon_words import check_lexicon
+from tmd.check.lexicon import check_lexicon
 
 LEXICON = """\
 verbs: [heat]

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.cli.inputs.ranges import numbers
+from tmd.cli.commands.experiment import numbers
 
 COMMAND = click.Command("experiment")
 CONTEXT = click.Context(COMMAND)

@@ -19,9 +19,9 @@ from tmd.datasets.veil500 import (
     rollout,
     to_veil,
 )
+from tmd.datasets.veil500.compile import DISPATCH
 from tmd.datasets.veil500.forms import RELATIONS, pddl_name
 from tmd.datasets.veil500.relations import initial_relations
-from tmd.datasets.veil500.rules import DISPATCH
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.semantics import applicable, apply
 

@@ -9,7 +9,7 @@ import pytest
 
 from tmd.datasets.veil500 import Rollout, VeilData, VeilEnvironment, compile_environment, from_veil, rollout
 from tmd.datasets.veil500.compile import Semantics
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction
 
 THREE_THINGS = "moveto Mug_1, grasp Mug_1, moveto Fork_1, grasp Fork_1, moveto Salt_1, grasp Salt_1"

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.datasets.veil500.text import clean
+from tmd.datasets.veil500.data import clean
 
 
 @pytest.mark.parametrize(

@@ -22,7 +22,7 @@ from tmd.evaluation.models.model import MODELS, Model, make_model
 from tmd.evaluation.models.paper_models import ROWS, Crf
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.dataset import BundledData, Example
-from tmd.evaluation.runs.incomplete import sentences
+from tmd.evaluation.runs.jobs import sentences
 from tmd.inference.config import PAPER, PRESETS
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.validator import validate

@@ -13,7 +13,7 @@ import pytest
 
 from tests.pddl.conftest import RandomProblems
 from tmd.export.planned_problem import Planned, planned, with_outcome
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem

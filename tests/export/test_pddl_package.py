@@ -10,7 +10,7 @@ from tests.export.conftest import planned_case
 from tmd.diagnostics import TmdError
 from tmd.export.pddl_package import from_pddl, to_pddl
 from tmd.export.planned_problem import Planned
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_domain, parse_problem, read_problem
 from tmd.pddl.validator import validate

@@ -5,11 +5,10 @@ from __future__ import annotations
 import pytest
 
 from tests.export.conftest import Val, planned_case
-from tmd.export.durative import format_durative_domain, format_durative_problem, token
+from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf, format_temporal, token
 from tmd.export.formats import FORMATS
 from tmd.export.planned_problem import Planned
 from tmd.export.strips import restored
-from tmd.export.temporal import format_popf, format_temporal
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.reading.reader import parse_domain

@@ -12,13 +12,13 @@ from tmd.diagnostics import TmdError
 from tmd.export.formats import FORMATS
 from tmd.export.from_unified import from_unified_planning
 from tmd.export.planned_problem import Planned
-from tmd.export.unified import (
+from tmd.export.to_unified import (
     format_anml,
     plan_from_unified_planning,
     plan_to_unified_planning,
     to_unified_planning,
 )
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.validator import validate

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.goals.conftest import end, goals, said, steps
-from tmd.goals.reading.reader import Why
+from tmd.goals.reading.goal_reader import Why
 
 # environment, text, the goals of the steps, the steps
 DONE = [

@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.goals.conftest import corpus, pddl
-from tmd.goals.reading.reader import Refused, Why
+from tmd.goals.reading.goal_reader import Refused, Why
 from tmd.goals.sources.actions import rows_of_actions
-from tmd.goals.sources.all_sources import declared_goals, goal_reader
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
-from tmd.goals.text_following import Follower
+from tmd.goals.text_following import Follower, declared_goals, goal_reader
 from tmd.ground import ground
 from tmd.inference.learned import study
 from tmd.language import parse

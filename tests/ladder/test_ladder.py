@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tmd.goals.reading.reader import Why
+from tmd.goals.reading.goal_reader import Why
 from tmd.ground import ground
 from tmd.inference.config import PAPER
 from tmd.inference.learned import Knowledge, study

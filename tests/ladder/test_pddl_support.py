@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.semantics import apply

@@ -11,7 +11,7 @@ from typing import Any, TypeAlias
 import pytest
 
 from tmd.pddl import semantics
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Atom, GroundAtom, Instruction, Problem
 from tmd.pddl.plan_file import read_plan
 from tmd.pddl.reading.reader import parse_domain, parse_problem

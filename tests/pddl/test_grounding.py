@@ -10,7 +10,7 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.pddl import semantics
-from tmd.pddl.grounding.ground import ground, ground_condition
+from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import Instruction, Problem, State, universe
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task

@@ -7,7 +7,7 @@ from random import Random
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.semantics import regress
 from tmd.pddl.task import ConditionalEffect, Cube, Operator

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import And, Atom, Effect, Exists, Forall, Formula, Imply, Not, Or, Problem, TypedName
 from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import parse_domain, parse_problem

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.task import Bits, Cube, Operator, Task

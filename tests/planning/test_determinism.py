@@ -14,7 +14,7 @@ import tmd
 PROGRAM = """
 import sys
 from pathlib import Path
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.unsolvable import Impossible

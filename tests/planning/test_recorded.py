@@ -15,7 +15,7 @@ from tmd.pddl import semantics
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.unified import fast_downward
+from tmd.planning.up_planners import fast_downward
 
 NAMES = sorted(path.stem for path in (Path(__file__).parent / "queries").glob("*.jsonl"))
 

@@ -18,7 +18,7 @@ from tmd.planning import up_worker
 from tmd.planning.backends import make, solve
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Filled, GaveUp, Unreachable
-from tmd.planning.unified import (
+from tmd.planning.up_planners import (
     OPTIMAL,
     OPTIMAL_WITH_AXIOMS,
     EngineSpec,
@@ -97,14 +97,14 @@ def test_unknown_planners_are_refused(name: str, pantry: Task) -> None:
 
 
 def test_without_fast_downward(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
-    monkeypatch.setattr("tmd.planning.unified.find_spec", lambda name: None)
+    monkeypatch.setattr("tmd.planning.up_planners.find_spec", lambda name: None)
     with pytest.raises(MissingToolError) as caught:
         make("fast-downward", pantry)
     assert caught.value.hint == "pip install up-fast-downward"
 
 
 def test_without_unified_planning(monkeypatch: pytest.MonkeyPatch, pantry: Task) -> None:
-    monkeypatch.setattr("tmd.planning.unified.find_spec", lambda name: None)
+    monkeypatch.setattr("tmd.planning.up_planners.find_spec", lambda name: None)
     with pytest.raises(MissingToolError, match="unified-planning"):
         UnifiedPlanner(pantry, EngineSpec("tamer"))
 

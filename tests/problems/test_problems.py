@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_problem, read_domain, read_problem
 from tmd.pddl.validator import validate

@@ -12,11 +12,10 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
 from tmd.pddl.semantics import apply
-from tmd.robot.monitor.executor import MOST_REPAIRS, Executor
-from tmd.robot.monitor.failure_memory import Setbacks, without
+from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Setbacks, without
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
 from tmd.robot.skills.skill_file import load_skills

@@ -8,11 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from tests.view.reading import Reader
-from tmd.evaluation.report.linked_pages import linked_pages, page_name
+from tmd.evaluation.report.page import linked_pages, page_name
 from tmd.evaluation.report.report import write_report
 from tmd.evaluation.runs.config import ExperimentConfig
 from tmd.evaluation.runs.summary import summarise
-from tmd.robot_trials.pages import write_pages
+from tmd.robot_trials.experiment import write_pages
 
 ROOT = Path(__file__).parents[2]
 GOOD = ["find(mug1)", "moveto(mug1)"]
@@ -69,7 +69,7 @@ def test_the_report_links_to_a_page_for_each_prediction(tmp_path: Path) -> None:
     found = links(write_report(tmp_path))
     assert sorted(found) == [f"pages/full-ramen-kitchen1-{n}.html" for n in (1, 2, 3)]
     one, two = (Reader((tmp_path / f"pages/full-ramen-kitchen1-{n}.html").read_text()) for n in (1, 2))
-    assert all(text in one.text for text in ("clause 1", "left unsaid", "1.25", "demo-1"))
+    assert all(text in one.text for text in ("clause 1", "latent", "1.25", "demo-1"))
     assert "<b>mug</b>" in one.without("small")
     assert "Here the plan breaks." in two.text
     before = {path.name: path.read_bytes() for path in (tmp_path / "pages").iterdir()}

@@ -26,10 +26,8 @@ from tmd.evaluation.runs.summary import summarise
 from tmd.evaluation.runs.trial_records import Trials, read_trials
 from tmd.records.prediction import PredictionRecord
 from tmd.records.trial import Trial
-from tmd.robot_trials import perform as performing
-from tmd.robot_trials.choice import choices
-from tmd.robot_trials.perform import orders_of
-from tmd.robot_trials.run import run_trials
+from tmd.robot_trials import trials as performing
+from tmd.robot_trials.trials import choices, orders_of, run_trials
 
 ROOT = Path(__file__).parents[2]
 TEXT = "Find the <b>mug</b>."

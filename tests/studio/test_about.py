@@ -10,7 +10,7 @@ from tmd.studio.demonstrations.session import Session
 from tmd.studio.object_info import about
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 
 def test_parts_states_relations_and_edges(kitchen1: World) -> None:

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
-from tmd.studio.panels.energies import energies
+from tmd.studio.panels.say_panel import energies
 
 
 def plan(energy: float, source: str | None, why: str = "") -> RankedPlan:

@@ -12,7 +12,7 @@ from tmd.pddl.semantics import applicable
 from tmd.studio.applicable_actions import Offers
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).parents[2]

@@ -15,7 +15,7 @@ from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.learning.teaching import Teacher
+from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import learn

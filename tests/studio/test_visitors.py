@@ -16,9 +16,9 @@ pytest.importorskip("viser", reason="needs the extra studio")
 
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
-from tmd.studio.learning.teaching import Teacher
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
+from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 
 VISITORS = 10

@@ -15,9 +15,8 @@ from tmd.language import parse
 from tmd.language.clause import Clause, Parsed, Span
 from tmd.pddl.plan_file import parse_instruction
 from tmd.veil.world import World
-from tmd.view.text.clauses import NOTHING, lit_choice, lit_sentence
-from tmd.view.text.meaning import meanings_in
-from tmd.view.text.phrases import OBJECT, VERB, phrases
+from tmd.view.clauses import NOTHING, OBJECT, VERB, lit_choice, lit_sentence, phrases
+from tmd.view.meaning import meanings_in
 
 WORDS = [
     "take",

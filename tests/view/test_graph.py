@@ -10,9 +10,7 @@ from tmd.pddl.model import Domain, GroundAtom, Predicate, Problem, TypedName
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.veil.world import World
-from tmd.view.object_graph.anatomy import Edge, anatomy
-from tmd.view.object_graph.graph import LONGEST, GraphChanges, draw, object_graph
-from tmd.view.object_graph.layout import place
+from tmd.view.object_graph import LONGEST, Edge, GraphChanges, anatomy, draw, object_graph, place
 
 
 def test_parts_edges_states_and_relations_are_drawn(kitchen: World) -> None:

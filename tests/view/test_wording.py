@@ -7,7 +7,7 @@ import pytest
 from tests.view.conftest import corpus
 from tmd.pddl.model import Atom, GroundAtom, Problem, TypedName
 from tmd.pddl.reading.reader import parse_domain, with_goal
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 
 @pytest.fixture(scope="module")

@@ -1,17 +1,6 @@
-"""The checker for people who write domains: every problem of their files at once, each with its place and a hint.
+"""Diagnostics for authors of domains: every fault of their files at once, each with its place and a hint.
 
-==================  ==============================================================================
-module              holds
-==================  ==============================================================================
-``codes``           the kinds of problems, each an error or a warning (``docs/errors.md`` explains them)
-``diagnostic``      one problem of a file; the list of them
-``run``             what lies at a path, and checking all of it
-``pddl_file``       domains and problems: all faults, without those that only follow from others
-``data_files``        YAML and JSON Lines: which file is checked how, and with what
-``yaml_files``        object classes, environments; ``words`` lexicons; ``demonstrations``
-``possible``          what may ever hold in a problem, and which actions may ever apply
-``find``            the domain that a problem belongs to
-``lint_domain``     what is allowed in a domain and hardly ever meant
-``lint_problem``    the same for problems: goals and actions that nothing reaches
-==================  ==============================================================================
+Begin with :mod:`tmd.check.report`, what ``tmd check`` calls; it runs :mod:`~tmd.check.checker` on each file. PDDL is
+checked by :mod:`~tmd.check.pddl_file` and :mod:`~tmd.check.lint`, the lexicon by :mod:`~tmd.check.lexicon`, the other
+files of a domain by :mod:`~tmd.check.data_files`. The codes and what each means stand in :mod:`~tmd.check.codes`.
 """

@@ -2,21 +2,178 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Findings
-from tmd.check.yaml_files import check_compiled, check_environment, check_objects
-from tmd.diagnostics import TmdError
-from tmd.pddl.model import Problem
-from tmd.pddl.reading.reader import read_problem
-from tmd.pddl.reading.syntax import Report
-from tmd.world.compile import compile_problem
+from tmd.diagnostics import Location, TmdError
+from tmd.pddl.model import Domain, Problem, State
+from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
+from tmd.veil.corpus import replay
+from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
+from tmd.world.classes import Classes, ObjectsFile
+from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.environment import EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.yaml_positions import YamlSource
+
+
+def check_demonstrations(path: Path, world: Callable[[str], Problem | None], known: list[str], report: Report) -> None:
+    """Every demonstration of a file: read, and played in its environment.
+
+    Args:
+        path: JSON Lines.
+        world: The environment of a name; ``None`` where it has faults of its own.
+        known: The names of all environments.
+        report: Takes the faults.
+
+    Raises:
+        TmdError: The file cannot be read.
+    """
+    seen: dict[str, int] = {}
+    for number, line in enumerate(split_lines(read_text(path)), start=1):
+        if not line.strip():
+            continue
+        try:
+            demonstration = read_demonstration(path, number, line)
+            if demonstration.id in seen:
+                message = f"the id '{demonstration.id}' stands in this file twice"
+                hint = f"it is that of line {seen[demonstration.id]} as well"
+                raise TmdError(message, location=demonstration.location, hint=hint, code="duplicate-name")
+            seen[demonstration.id] = number
+            _play(demonstration, line, world, known)
+        except TmdError as error:
+            report(error)
+
+
+def _play(demonstration: Demonstration, line: str, world: Callable[[str], Problem | None], known: list[str]) -> None:
+    if demonstration.environment not in known:
+        message = f"there is no environment '{demonstration.environment}'"
+        hint = nearest(demonstration.environment, known, what="environments")
+        raise TmdError(message, location=_place(demonstration, line), hint=hint, code="unknown-environment")
+    problem = world(demonstration.environment)
+    if problem is None:
+        return
+    last = _states(demonstration, problem)[-1]
+    check_goal(demonstration, problem, last)
+
+
+def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
+    """What happens, whatever the goal is; the plan that was corrected is played as well."""
+    what = f"'{demonstration.id}'"
+    try:
+        states = replay(replace(demonstration, goal=None), problem)
+        if demonstration.proposed is not None:
+            what = f"the plan that '{demonstration.id}' corrects"
+            replay(_as_proposed(demonstration), problem)
+    except TmdError as error:
+        message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
+        hint = "mend the demonstration, or the domain or environment if they are what changed"
+        raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
+    return states
+
+
+def _as_proposed(demonstration: Demonstration) -> Demonstration:
+    """What would have been done without the correction; how it ends is not stated, and it need not reach the goal."""
+    segments = tuple(replace(segment, instructions=segment.proposed or ()) for segment in demonstration.segments)
+    return replace(demonstration, segments=segments, end_state=(), goal=None)
+
+
+def _place(demonstration: Demonstration, line: str) -> Location | None:
+    """Where the environment's name stands."""
+    place = demonstration.location
+    column = line.find(json.dumps(demonstration.environment))
+    return Location(place.file, place.line, column + 1) if place and column >= 0 else place
+
+
+def check_objects(folder: DomainFolder, report: Report) -> None:
+    """``objects.yaml``: its form, the classes, their facts, and the rules that derive more.
+
+    Raises:
+        TmdError: The file cannot be used at all.
+    """
+    source = YamlSource(folder.path / "objects.yaml", report)
+    if not folder.instructions_path.is_file():
+        source.load(ObjectsFile)
+        hint = "a domain with objects.yaml has its instructions there; domain.pddl is compiled"
+        place = Location(str(source.path), 1, 1)
+        raise TmdError("there is no instructions.pddl beside this", location=place, hint=hint, code="missing-file")
+    domain = _instructions(folder)
+    if domain is None:
+        return
+    classes = Classes(source, {t.name: t.parent for t in domain.types})
+    arities = {p.name: len(p.parameters) for p in domain.predicates}
+    for path, fact in _facts(classes):
+        _check_fact(source, path, fact, arities)
+    folder.__dict__["classes"] = classes
+    for _ in derive_rules(folder):
+        pass
+
+
+def check_compiled(folder: DomainFolder) -> None:
+    """``domain.pddl`` must be what its sources compile to.
+
+    Raises:
+        TmdError: It is something else.
+    """
+    target = folder.path / "domain.pddl"
+    if not target.is_file() or read_text(target) != compile_domain(folder):
+        raise TmdError(
+            "this is not what instructions.pddl and objects.yaml compile to",
+            location=Location(str(target), 1, 1),
+            hint=f"run `tmd compile {folder.path}`",
+            code="stale-domain",
+        )
+
+
+def check_environment(path: Path, folder: DomainFolder, report: Report) -> Problem | None:
+    """An environment as a problem of its domain.
+
+    Raises:
+        TmdError: The file cannot be used at all.
+    """
+    return compile_problem(load_environment(path, report), folder)
+
+
+def _instructions(folder: DomainFolder) -> Domain | None:
+    """The hand-written domain that classes are compiled into; ``None`` where it has faults, which are told anyway."""
+    try:
+        return read_domain(folder.instructions_path)
+    except TmdError:
+        return None
+
+
+def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
+    """Every fact of ``objects.yaml`` with its path; an edge as ``predicate tail head``."""
+    entries = classes.entries
+    for kind in ("facts", "init"):
+        yield from (((kind, number), fact) for number, fact in enumerate(getattr(entries, kind)))
+    for name, entry in entries.classes.items():
+        for kind in ("facts", "init"):
+            yield from ((("classes", name, kind, n), fact) for n, fact in enumerate(getattr(entry, kind)))
+            for part, said in entry.parts.items():
+                path = ("classes", name, "parts", part, kind)
+                yield from (((*path, n), fact) for n, fact in enumerate(getattr(said, kind)))
+        for number, edge in enumerate(entry.edges):
+            words = edge.strip().strip("()").split()
+            if len(words) > 2:
+                yield ("classes", name, "edges", number), " ".join((words[1], words[0], *words[2:]))
+
+
+def _check_fact(source: YamlSource, path: tuple[str | int, ...], fact: str, arities: dict[str, int]) -> None:
+    words = fact.strip().strip("()").split()
+    name = words[0] if words else ""
+    if name not in arities:
+        hint = nearest(name, sorted(arities))
+        source.fault(source.error(path, f"'{fact}': the domain has no predicate '{name}'", hint, "unknown-predicate"))
+    elif len(words) - 1 != arities[name]:
+        message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
+        source.fault(source.error(path, message, None, "wrong-arity"))
 
 
 class FaultCollector(Protocol):
@@ -83,9 +240,7 @@ class DataFiles:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon_goals import check_goals
-        from tmd.check.lexicon_verbs import check_goal_verbs, segments_of
-        from tmd.check.lexicon_words import check_lexicon, texts_of
+        from tmd.check.lexicon import check_goal_verbs, check_goals, check_lexicon, segments_of, texts_of
         from tmd.language.lexicon.file import read_lexicon
 
         folder = self._folder(file)
@@ -183,7 +338,6 @@ class DataFiles:
         return self._folders.setdefault(found.path.resolve(), found)
 
     def _demonstrations(self, file: Path) -> None:
-        from tmd.check.demonstrations import check_demonstrations
 
         directory = file.parent.parent / "environments"
         environments = {p.stem: p for suffix in ("pddl", "yaml") for p in sorted(directory.glob(f"*.{suffix}"))}

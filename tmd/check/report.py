@@ -2,15 +2,113 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from tmd.check.checker import Checker
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic
-from tmd.check.fixes import FIXABLE, fix_file
+from tmd.diagnostics import Location, TmdError
 from tmd.files import write_text
+from tmd.pddl.reading.syntax import Group, parse, read_text, split_lines
+
+FIXABLE = frozenset(
+    {
+        "empty-condition", "glued-dash", "missing-requirement", "unclosed-parenthesis", "extra-parenthesis",
+        "look-alike",
+        "stale-domain",
+    }
+)  # fmt: skip
+"""The codes that may be mended; parentheses only where there is one way to do it."""
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class _Edit:
+    """``length`` characters at a place are replaced by ``text``; lines and columns count from 0."""
+
+    line: int
+    column: int
+    length: int
+    text: str
+
+
+def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
+    """The text of ``file`` with what is mechanical mended; ``None`` where nothing is.
+
+    Raises:
+        TmdError: The file cannot be read.
+    """
+    if any(diagnostic.code == "stale-domain" for diagnostic in diagnostics):
+        return _compiled(file)
+    text = read_text(file)
+    lines = list(split_lines(text))
+    edits = sorted(set(_edits(text, lines, file, diagnostics)), reverse=True)
+    for edit in edits:
+        line = lines[edit.line]
+        lines[edit.line] = line[: edit.column] + edit.text + line[edit.column + edit.length :]
+    return "\n".join(lines) if edits else None
+
+
+def _compiled(file: Path) -> str | None:
+    from tmd.world.compile import compile_domain
+    from tmd.world.folder import DomainFolder
+
+    try:
+        return compile_domain(DomainFolder(file.parent))
+    except TmdError:
+        return None
+
+
+def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Diagnostic]) -> Iterator[_Edit]:
+    parentheses = [d for d in diagnostics if d.code in ("unclosed-parenthesis", "extra-parenthesis")]
+    for diagnostic in diagnostics:
+        row, column = diagnostic.location.line - 1, diagnostic.location.column - 1
+        if diagnostic.code == "empty-condition":
+            found = re.compile(r"\(\s*\)").match(lines[row], column)
+            if found:
+                yield _Edit(row, column, found.end() - column, "(and)")
+        elif diagnostic.code == "glued-dash":
+            yield _Edit(row, column + 1, 0, " ")
+        elif diagnostic.code == "look-alike":
+            plain = re.fullmatch(r'write "(.)"', diagnostic.hint or "")
+            if plain:
+                yield _Edit(row, column, 1, plain[1])
+        elif diagnostic in parentheses and len(parentheses) == 1:
+            yield from _parenthesis(diagnostic, text, lines)
+    wanted = {d.hint.split()[1] for d in diagnostics if d.code == "missing-requirement" and d.hint}
+    if wanted and not parentheses:
+        yield from _requirements(text, str(file), wanted)
+
+
+def _parenthesis(diagnostic: Diagnostic, text: str, lines: Sequence[str]) -> Iterator[_Edit]:
+    """At the end of the file only: elsewhere nobody but the author knows where it belongs."""
+    if "no opening parenthesis" in diagnostic.message:
+        yield _Edit(diagnostic.location.line - 1, diagnostic.location.column - 1, 1, "")
+    elif diagnostic.hint == 'add the missing ")"' and '"(define"' in diagnostic.message:
+        last = max(number for number, line in enumerate(lines) if line.strip())
+        code = lines[last].partition(";")[0].rstrip()
+        yield _Edit(last, len(code), 0, ")")
+
+
+def _requirements(text: str, file: str, wanted: Iterable[str]) -> Iterator[_Edit]:
+    document = parse(text, file, lambda _: None)
+    added = " ".join(sorted(wanted))
+    sections = [part for part in document.groups[0].parts if isinstance(part, Group)]
+    declared = next((group for group in sections if group.head == ":requirements"), None)
+    if declared is not None:
+        yield _insertion(declared.end, f" {added}")
+    else:
+        title = sections[0].end
+        strips = ":strips " if sections[0].head == "domain" else ""
+        place = Location(title.file, title.line, title.column + 1)
+        yield _insertion(place, f"\n  (:requirements {strips}{added})")
+
+
+def _insertion(place: Location, text: str) -> _Edit:
+    return _Edit(place.line - 1, place.column - 1, 0, text)
+
 
 _MOST_ROUNDS = 4
 """Mending one thing may bring another to light."""

@@ -1,5 +1,6 @@
 """The command line: a module for each command, what they are given, and what they print.
 
+Begin with :mod:`tmd.cli.program`, the table of commands.
 Nothing heavy is imported before a command needs it: ``tmd --help`` is to be there at once.
 """
 

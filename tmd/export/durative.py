@@ -8,10 +8,45 @@ conditions of conditional effects are read at its end (VAL takes them so, and no
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
+from decimal import Decimal
 
-from tmd.pddl.model import TRUE, ActionSchema, Atom, Domain, Effect, GroundAtom, Predicate, Problem, TypedName
+from tmd.pddl.model import (
+    TRUE,
+    ActionSchema,
+    Atom,
+    Domain,
+    Effect,
+    GroundAtom,
+    Instruction,
+    Predicate,
+    Problem,
+    TypedName,
+)
 from tmd.pddl.writer import format_domain, format_formula, format_problem
+
+GAP = Decimal("0.001")
+"""Between the end of an instruction and the start of the next; the tolerance of VAL and POPF."""
+
+
+def starts(count: int) -> list[Decimal]:
+    """When each of ``count`` instructions starts."""
+    return [number * (DURATION + GAP) for number in range(count)]
+
+
+def format_temporal(plan: Sequence[Instruction]) -> str:
+    """A plan of PDDL 2.1: ``0.000: (grasp cup1) [1.000]``."""
+    lines = [f"{start:.3f}: {i.pddl()} [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
+    return "".join(f"{line}\n" for line in lines)
+
+
+def format_popf(plan: Sequence[Instruction]) -> str:
+    """A plan as the planner POPF prints it, which is what PlanSys2 reads: from ``Solution Found`` on."""
+    makespan = len(plan) * DURATION + max(0, len(plan) - 1) * GAP
+    lines = [f"{start:.3f}: {i.pddl()}  [{DURATION:.3f}]" for start, i in zip(starts(len(plan)), plan, strict=True)]
+    return "".join(f"{line}\n" for line in [";;;; Solution Found", f"; Cost: {makespan:.3f}", *lines])
+
 
 DURATION = 1
 """How long every action takes; PDDL says nothing of how long an instruction takes a robot."""

@@ -71,8 +71,7 @@ def _with_origins(text: str, found: Strips, keyword: str = "action") -> str:
 
 
 def _durative(source: Planned) -> Files:
-    from tmd.export.durative import format_durative_domain, format_durative_problem
-    from tmd.export.temporal import format_temporal
+    from tmd.export.durative import format_durative_domain, format_durative_problem, format_temporal
 
     return _texts(
         {
@@ -84,9 +83,8 @@ def _durative(source: Planned) -> Files:
 
 
 def _plansys2(source: Planned) -> Files:
-    from tmd.export.durative import format_durative_domain, format_durative_problem
+    from tmd.export.durative import format_durative_domain, format_durative_problem, format_popf
     from tmd.export.strips import strips
-    from tmd.export.temporal import format_popf
 
     found = strips(source, typed=True)
     domain = format_durative_domain(found.problem.domain)
@@ -100,13 +98,13 @@ def _plansys2(source: Planned) -> Files:
 
 
 def _anml(source: Planned) -> Files:
-    from tmd.export.unified import format_anml
+    from tmd.export.to_unified import format_anml
 
     return _texts({"problem.anml": format_anml(source.problem)})
 
 
 def _protobuf(source: Planned) -> Files:
-    from tmd.export.unified import messages
+    from tmd.export.to_unified import messages
 
     problem, plan = messages(source)
     return {"problem.pb": problem, "plan.pb": plan}

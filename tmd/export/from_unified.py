@@ -1,4 +1,4 @@
-"""A problem of unified-planning as one of ours: the way back from :mod:`tmd.export.unified`."""
+"""A problem of unified-planning as one of ours: the way back from :mod:`tmd.export.to_unified`."""
 
 from __future__ import annotations
 

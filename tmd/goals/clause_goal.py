@@ -1,4 +1,4 @@
-"""What a clause asks for, and why it may have no goal: the data of :mod:`tmd.goals`."""
+"""What a clause asks for, why it may have no goal, and what later clauses must not undo."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import lru_cache
 from itertools import product
 
 from tmd.goals.grounder import Moments
-from tmd.goals.reading.nouns import Memory
+from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.sources.table import GoalRow
 from tmd.language.clause import Clause
 from tmd.pddl.model import Atom, Domain, Formula, GroundAtom, conjuncts, signed_atoms

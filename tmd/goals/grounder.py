@@ -12,7 +12,7 @@ from functools import cached_property
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import FIRST, WAS, split_predicate
-from tmd.pddl.grounding.ground import ground_condition
+from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or, conjuncts, universe
 from tmd.pddl.semantics import bindings, holds
 from tmd.pddl.task import Bits, Cube, Task

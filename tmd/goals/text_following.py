@@ -1,21 +1,82 @@
-"""A text, clause by clause: which goals it has in the state reached so far, and what must be kept."""
+"""A text, clause by clause: its goals in the state reached so far, what must be kept, and where meanings come from."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, aims, combined, keep, without_operators
 from tmd.goals.grounder import TRUE, Moments, atoms_of
-from tmd.goals.reading.nouns import Bound, Memory, Referent
-from tmd.goals.reading.reader import GoalReader
+from tmd.goals.reading.goal_reader import GoalReader
+from tmd.goals.reading.noun_phrases import Bound, Memory, Referent
 from tmd.goals.reading.referents import BE, EXCEPTING
-from tmd.goals.sources.table import words_of
+from tmd.goals.sources.actions import rows_of_actions
+from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table, words_of
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
+from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_pronoun
 from tmd.language.syntax.subordinate import REMINDER
+from tmd.pddl.model import Domain
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.veil.world import World
+
+SOURCES = (DECLARED, LEARNED, ACTIONS)
+"""All sources, the surest first."""
+
+
+_DECLARED: WeakKeyDictionary[Lexicon, dict[Domain, GoalTable]] = WeakKeyDictionary()
+
+
+def declared_goals(lexicon: Lexicon, domain: Domain) -> GoalTable:
+    """What a lexicon declares for a domain; read once.
+
+    Raises:
+        TmdError: A row is wrong; with its place.
+    """
+    known = _DECLARED.setdefault(lexicon, {})
+    if domain not in known:
+        known[domain] = read_table(lexicon.goals, lexicon.attributes, lexicon.groups, domain)
+    return known[domain]
+
+
+@lru_cache(maxsize=8)
+def _actions(domain: Domain) -> GoalTable:
+    return rows_of_actions(domain)
+
+
+def goal_reader(
+    world: World,
+    lexicon: Lexicon,
+    learned: GoalTable | None = None,
+    *,
+    sources: Collection[str] = SOURCES,
+    guess: bool = False,
+) -> GoalReader:
+    """A reader for one environment.
+
+    Args:
+        world: The environment.
+        lexicon: The domain's words.
+        learned: The rows that its demonstrations teach.
+        sources: Which sources are asked.
+        guess: Whether a thing may be taken for what a noun is only like in meaning.
+
+    Raises:
+        TmdError: The lexicon declares something that is wrong; with its place.
+    """
+    domain = world.task.problem.domain
+    said = declared_goals(lexicon, domain)
+    rows = said.rows if DECLARED in sources else ()
+    tables = [GoalTable(rows, said.attributes, said.groups)]
+    if LEARNED in sources and learned is not None:
+        tables.append(learned)
+    if ACTIONS in sources:
+        tables.append(_actions(domain))
+    return GoalReader(world, tables, lexicon, guess=guess)
+
 
 GUARDS = frozenset({"if", "unless", "in_case", "provided_that", "whether", "as_long_as"})
 EARLIER = frozenset(

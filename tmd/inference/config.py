@@ -28,7 +28,7 @@ class InferenceConfig:
         policy: Whether a policy, learned from the same demonstrations, proposes sequences beside the templates and
             judges all candidates by the words of the clause (Δ_words).
         goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
-        sources: Where the meaning of a clause may come from (:data:`tmd.goals.sources.all_sources.SOURCES`).
+        sources: Where the meaning of a clause may come from (:data:`tmd.goals.text_following.SOURCES`).
         latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
         knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.

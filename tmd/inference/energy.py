@@ -1,4 +1,7 @@
-"""The energy of a choice: every factor with its weight (section VI). Summed over the choices it is the paper's Γ."""
+"""The energy of a choice: every factor with its weight (section VI), and the counts that the factors read.
+
+Summed over the choices it is the paper's Γ.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Directories with what was learned of a domain: where `tmd learn` saves, and the cache of the user.
+"""What is learned of a domain, and the directories that keep it: where `tmd learn` saves, and the user's cache.
 
-``library.json``, ``policy.json`` and ``policy.npy`` hold what :mod:`tmd.inference.learned` learns,
-``weights.txt`` the learned weights if there are any. ``learned.json`` is written last and has checksums: of what
-everything was made from, and of the other files. Where one of them does not fit, nothing of the directory is used.
+``library.json``, ``policy.json`` and ``policy.npy`` hold what was learned, ``weights.txt`` the learned weights if there
+are any. ``learned.json`` is written last and has checksums: of what everything was made from, and of the other files.
+Where one of them does not fit, nothing of the directory is used.
 
 What nobody saved is learned when it is first asked for, and kept in the user's cache directory, a directory for each
 :mod:`digest <tmd.inference.learned.digest>`. Where there is no place for it, it is learned each time.

@@ -1,7 +1,7 @@
 """A policy: a learned distribution over instruction sequences given the words of a clause.
 
 It is the reward of the paper's Instruction-Tree baseline, and beyond the paper a second source of candidates for
-inference (the preset ``policy``).
+inference (the preset ``policy``). Here: the features of what may come next, proposing sequences, and learning them.
 """
 
 from __future__ import annotations

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.pddl.grounding.ground import ground, ground_condition
+from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import OBJECT, Instruction, Or, Problem, State, TypedName, universe
 from tmd.pddl.semantics import bind, schema_of
 from tmd.pddl.task import Bits, Cube, Operator, Task

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from importlib.util import find_spec
 
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.planning.search.in_process import FirstSearch, OptimalSearch
 

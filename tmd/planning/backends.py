@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from importlib.util import find_spec
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Task
@@ -60,15 +60,15 @@ def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
 
         return FirstSearch(task, cap=DEFAULT_CAP if cap is None else cap)
     if name == FAST_DOWNWARD:
-        from tmd.planning.unified import fast_downward
+        from tmd.planning.up_planners import fast_downward
 
         return fast_downward(task)
     if name == FAST_DOWNWARD_FIRST:
-        from tmd.planning.unified import first_plan
+        from tmd.planning.up_planners import first_plan
 
         return first_plan(task)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
-        from tmd.planning.unified import EngineSpec, UnifiedPlanner
+        from tmd.planning.up_planners import EngineSpec, UnifiedPlanner
 
         return UnifiedPlanner(task, EngineSpec(name.removeprefix(UP_PREFIX)))
     known = [IN_PROCESS, IN_PROCESS_FIRST, FAST_DOWNWARD, FAST_DOWNWARD_FIRST, f"{UP_PREFIX}ENGINE"]

@@ -10,7 +10,7 @@ from tmd.pddl.model import Instruction, State
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Operator
 from tmd.veil.world import World
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 
 @dataclass(frozen=True, slots=True)

@@ -14,7 +14,7 @@ from tmd.veil.world import PART_OF, World
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """One object in one state. Facts are sorted; :class:`~tmd.view.text.wording.Wording` tells them in words.
+    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` tells them in words.
 
     Attributes:
         name: The object.

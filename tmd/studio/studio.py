@@ -17,7 +17,7 @@ from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.demonstrations.tasks import task_texts
 from tmd.studio.environment_view import Setting, open_setting
-from tmd.studio.learning.teaching import Teacher
+from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.robot_mesh import Figure
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration

@@ -1,4 +1,6 @@
-"""What a state says of one object: the vertex labels of its object graph, as comparable profiles.
+"""One environment, ready for grounding: the ground task, what a state says of each object, and which nouns name it.
+
+What a state says of one object: the vertex labels of its object graph, as comparable profiles.
 
 A profile maps a *state name* to whether it holds. A state name is an atom about the object with the object taken
 out: ``(contains mug1 water)`` is ``("contains", "water")`` of ``mug1``. The states of an object's parts belong to
@@ -15,7 +17,7 @@ from functools import cached_property
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
-from tmd.pddl.grounding.ground import ground
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 

@@ -9,7 +9,7 @@ from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State, universe
 from tmd.pddl.semantics import holds
 from tmd.pddl.validator import validate
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 GUESS = "a guess"
 """A note on a step without a goal begins with this where its instructions were guessed."""

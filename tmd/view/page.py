@@ -16,13 +16,13 @@ from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
 from tmd.records.run import RanStep
 from tmd.view.candidates import candidates
+from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, all_reached, followed
 from tmd.view.markup import data, style, templates
 from tmd.view.pictures import Strip, Tile
 from tmd.view.run_record import Ran
 from tmd.view.steps import ShownStep, shown_steps
 from tmd.view.subject import Said, Subject
-from tmd.view.text.clauses import lit_sentence
 
 FEW = 60
 """A plan with more steps than this has them folded."""

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply
 from tmd.pddl.validator import Verdict, validate
-from tmd.view.object_graph.anatomy import Anatomy, anatomy
-from tmd.view.object_graph.graph import GraphChanges, draw
+from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
 from tmd.view.subject import PlannedStep
 
 BUDGET = 6_000_000

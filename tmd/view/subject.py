@@ -10,9 +10,9 @@ from tmd.inference.ranking import RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
 from tmd.veil.world import World
+from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
-from tmd.view.text.meaning import Meaning, meanings, meanings_in
 
 _TITLE = 90
 """Characters of a text that a title shows."""

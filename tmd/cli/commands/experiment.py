@@ -3,17 +3,63 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.ranges import numbers
 from tmd.cli.output import emit
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
     from tmd.evaluation.runs.config import ExperimentConfig, Shard
+
+
+@contextmanager
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
+    """Show a bar once there is progress; what it yields is told the number of parts done and of all parts."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    bar = Progress(*columns, console=Console(stderr=True))
+    task = bar.add_task(what, total=None)
+
+    def tell(done: int, total: int) -> None:
+        bar.update(task, completed=done, total=total)
+        if not bar.live.is_started:
+            bar.start()
+
+    try:
+        yield tell
+    finally:
+        if bar.live.is_started:
+            bar.stop()
+
+
+_PIECE = re.compile(r"\s*(\d{1,4})\s*(?:-\s*(\d{1,4})\s*)?")
+
+
+def numbers(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, ...] | None:
+    """What an option of numbers says: each number once, in ascending order (a callback of :mod:`click`).
+
+    Raises:
+        click.BadParameter: It says anything else.
+    """
+    if value is None:
+        return None
+    found: set[int] = set()
+    for piece in value.split(","):
+        match = _PIECE.fullmatch(piece)
+        if match is None:
+            raise click.BadParameter(f"'{piece}' is neither a number nor a range such as 1-8", ctx, param)
+        first, last = int(match[1]), int(match[2] or match[1])
+        if last < first:
+            raise click.BadParameter(f"the range {piece.strip()} runs backwards", ctx, param)
+        found.update(range(first, last + 1))
+    return tuple(sorted(found))
 
 
 def names(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[str, ...] | None:
@@ -166,7 +212,6 @@ def command(
 
 
 def _share(config: ExperimentConfig, shard: Shard) -> None:
-    from tmd.cli.progress import progress_bar
     from tmd.evaluation.runs.experiment import work
 
     with progress_bar(f"{config.task}, {config.data} data, {shard.number}/{shard.of}") as progress:
@@ -175,7 +220,6 @@ def _share(config: ExperimentConfig, shard: Shard) -> None:
 
 
 def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
-    from tmd.cli.progress import progress_bar
     from tmd.evaluation.report.report import REPORT, print_table
     from tmd.robot_trials.experiment import run_experiment
 
@@ -188,7 +232,6 @@ def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
 
 
 def _trials(config: ExperimentConfig, mode: str) -> None:
-    from tmd.cli.progress import progress_bar
     from tmd.cli.signals import stoppable
     from tmd.robot_trials.experiment import carry_out_predictions
 

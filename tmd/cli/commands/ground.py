@@ -39,8 +39,7 @@ def command(
     What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
     the time. Ends with 12 where no plan was found.
     """
-    from tmd.cli.show.goals import whole_goal_text
-    from tmd.cli.show.plans import grounded_text, remarks
+    from tmd.cli.show.grounding import grounded_text, remarks, whole_goal_text
     from tmd.inference.config import preset
     from tmd.language.parser import short_enough
 

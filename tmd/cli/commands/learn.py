@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from tmd.cli.inputs.learned import learned_option
+from tmd.cli.inputs.grounding import learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots

@@ -16,7 +16,7 @@ from tmd.veil.roots import Roots
 @click.pass_obj
 def command(roots: Roots, text: str | None, text_file: str | None, domain_name: str | None, as_json: bool) -> None:
     """Split a text into verb clauses, and show what no clause accounts for."""
-    from tmd.cli.show.clauses import parsed_text
+    from tmd.cli.show.grounding import parsed_text
     from tmd.language import parse
 
     parsed = parse(said(text, text_file), roots.lexicon(domain_name) if domain_name else None)

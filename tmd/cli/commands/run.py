@@ -9,8 +9,7 @@ from pathlib import Path
 import click
 
 from tmd import __version__
-from tmd.cli.inputs.grounding import environment_file
-from tmd.cli.inputs.learned import learned_option
+from tmd.cli.inputs.grounding import environment_file, learned_option
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.veil.roots import Roots

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from click.core import ParameterSource
@@ -12,6 +13,9 @@ from tmd.cli.inputs.text import text_options
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
+
+if TYPE_CHECKING:
+    from tmd.view.sources import FoundSubject
 
 _OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim")
 
@@ -63,14 +67,13 @@ def command(
         raise click.UsageError("give PLAN|RUN, or --environment and --text")
 
     from tmd.cli.inputs.text import said
-    from tmd.cli.inputs.view import STANDARD, ViewRequest
-    from tmd.cli.inputs.view_source import subject_of_file, subject_of_text
     from tmd.files import write_text
     from tmd.language.parser import short_enough
     from tmd.view.page import render
+    from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
     if source is None:
-        found = subject_of_text(roots, short_enough(said(text, text_file)), environment or "", domain_name, options)
+        found = _subject_of_text(roots, short_enough(said(text, text_file)), environment or "", domain_name, options)
     else:
         found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
@@ -84,6 +87,27 @@ def command(
     for line in (*found.remarks, found.complaint(page.verdict)):
         emit(line, error=True)
     return found.ending(page.verdict)
+
+
+def _subject_of_text(
+    roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions
+) -> FoundSubject:
+    """Ground a text now.
+
+    Raises:
+        TmdError: The environment, or how it is to be grounded, is wrong.
+    """
+    from tmd.cli.inputs.grounding import answer
+    from tmd.cli.show.grounding import remarks
+    from tmd.view.sources import FoundSubject, made_rows
+    from tmd.view.subject import text_subject
+
+    found = answer(roots, text, environment, domain, options)
+    rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
+    told = tuple(remarks(found.grounded))
+    return FoundSubject(
+        text_subject(found.grounded, rows), Path(f"{found.grounded.world.name}.html"), told, of_text=True
+    )
 
 
 def _refuse_to_overwrite(target: str, *shown: str | Path | None) -> None:

@@ -53,9 +53,9 @@ def planned_source(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     if asked.goal in (ASKED, CHANGED) and not of_text:
         raise click.UsageError(f"--goal {asked.goal} is for a text, or for what tmd ground --json printed")
     if path.is_dir():
-        from tmd.cli.inputs.prediction import prediction
+        from tmd.evaluation.runs.finished_run import predicted_plan
 
-        return _checked(*prediction(roots, path, asked.example, asked.model), asked.goal)
+        return _checked(*predicted_plan(roots, path, asked.example, asked.model), asked.goal)
     if asked.example or asked.model:
         raise click.UsageError(f"--example and --model are for the directory of a run, and {path} is none")
     if path.suffix == ".json":

@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from tmd import __version__
-from tmd.cli.inputs.learned import learned_option
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.veil.roots import Roots
 
@@ -20,7 +19,20 @@ if TYPE_CHECKING:
     from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
 
+
+VARIABLE = "TMD_LEARNED"
 _Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+def learned_option(command: _Command) -> _Command:
+    """``--learned DIR``: where `tmd learn --out DIR` has saved."""
+    return click.option(
+        "--learned",
+        type=click.Path(path_type=Path),
+        metavar="DIR",
+        envvar=VARIABLE,
+        help=f"What `tmd learn --out DIR` saved; ${VARIABLE}, or else learned/ beside the demonstrations, by default.",
+    )(command)
 
 
 @dataclass(frozen=True, slots=True)

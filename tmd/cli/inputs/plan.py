@@ -43,7 +43,7 @@ def orders_of_text(
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
     """
     from tmd.cli.inputs.grounding import Answer, made_with
-    from tmd.cli.show.plans import remarks
+    from tmd.cli.show.grounding import remarks
     from tmd.domain_kit import DomainKit, orders_of
 
     grounded = DomainKit(corpus, learned).ground(text, world, planner=planner)

@@ -145,7 +145,7 @@ def _first(things: Sequence[object], most: int) -> str:
 def _origin(order: Order) -> str:
     if order.clause is None:
         return ""
-    return f"clause {order.clause + 1}{', left unsaid' if order.latent else ''}"
+    return f"clause {order.clause + 1}{', latent' if order.latent else ''}"
 
 
 def _ending(execution: Execution, steps: int) -> str:

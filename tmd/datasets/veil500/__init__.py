@@ -1,7 +1,7 @@
 """VEIL-500, the data set behind the paper's follow-up: reading, simulating, repairing and checking it.
 
-The data are not part of this project; give the directory of your copy to :func:`load`. All about it is in
-``docs/veil500.md``.
+The data are not part of this project; give the directory of your copy to :func:`load`. Begin with
+:mod:`tmd.datasets.veil500.data`; all about the set is in ``docs/veil500.md``.
 """
 
 from tmd.datasets.veil500.compile import absent_types, compile_environment, veil_domain

@@ -26,8 +26,7 @@ def write_report(directory: Path) -> Path:
     Raises:
         TmdError: The directory holds no finished run, a file of it is damaged, or it cannot be written to.
     """
-    from tmd.evaluation.report.linked_pages import linked_pages
-    from tmd.evaluation.report.page import render
+    from tmd.evaluation.report.page import linked_pages, render
     from tmd.evaluation.runs.finished_run import read_run
     from tmd.evaluation.runs.trial_records import read_trials
 

@@ -1,4 +1,4 @@
-"""What a clause asks for besides its row: contents, *without*, adjectives of substances, places, tools."""
+"""What the noun phrases of a clause mean, and what they ask for besides its row: contents, *without*, places, tools."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why, text_of
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, atoms_of, conjunction, disjunction
-from tmd.goals.reading.nouns import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.reading.noun_phrases import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import (
     PREPOSITIONS,
     RELATION,

@@ -19,7 +19,7 @@ from typing import Any
 from tmd.diagnostics import TmdError
 from tmd.goals.clause_goal import passing_predicates
 from tmd.goals.grounder import FALSE, Grounder, Moments
-from tmd.goals.reading.nouns import Nouns
+from tmd.goals.reading.noun_phrases import Nouns
 from tmd.goals.sources.table import (
     LEARNED,
     PREPOSITIONS,

@@ -1,4 +1,4 @@
-"""The words the parser knows: own lists, WordNet's verbs behind them, and what a domain adds.
+"""The words the parser knows: own lists, word forms, WordNet's verbs behind them, and what a domain adds.
 
 A domain's ``lexicon.yaml`` is read by :mod:`tmd.language.lexicon.file`.
 """

@@ -1,9 +1,8 @@
-"""The passes from text to clauses, which :mod:`tmd.language.parser` calls in order.
+"""The passes from text to clauses, which :mod:`tmd.language.parser` calls in order. Begin with that.
 
-Words: :mod:`~tmd.language.syntax.tokens`, :mod:`~tmd.language.syntax.sentences` with the turns of phrase of
-:mod:`~tmd.language.syntax.idioms`. Their classes: :mod:`~tmd.language.syntax.tokens` from lists,
-:mod:`~tmd.language.syntax.part_of_speech` from the neighbours. Clauses: :mod:`~tmd.language.syntax.requests`,
-:mod:`~tmd.language.syntax.subordinate`, :mod:`~tmd.language.syntax.chunking`,
-:mod:`~tmd.language.syntax.attachment`, :mod:`~tmd.language.syntax.subordinate`,
-:mod:`~tmd.language.syntax.pronouns`.
+Words and their classes from lists: :mod:`~tmd.language.syntax.tokens`; from their neighbours:
+:mod:`~tmd.language.syntax.part_of_speech`. Before that, turns of phrase are put plainly:
+:mod:`~tmd.language.syntax.sentences` with :mod:`~tmd.language.syntax.idioms`. Clauses:
+:mod:`~tmd.language.syntax.requests`, :mod:`~tmd.language.syntax.subordinate` (conditions and what hangs on a clause),
+:mod:`~tmd.language.syntax.chunking`, :mod:`~tmd.language.syntax.attachment`, :mod:`~tmd.language.syntax.pronouns`.
 """

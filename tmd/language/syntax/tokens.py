@@ -1,4 +1,4 @@
-"""Text to tokens with character offsets, and the removal of repeated runs.
+"""Text to tokens with character offsets, repeated runs removed, and the first classes of words, by lists.
 
 Segment marks (``|``), line breaks and control characters are blanks. Numbers glued to units are cut
 ("10minutes"); hyphens inside words are part of the word.

@@ -196,4 +196,4 @@ def _said(title: Title) -> str:
     order = title.order
     if order is None or order.clause is None:
         return ""
-    return f"clause {order.clause + 1}{', left unsaid, for' if order.latent else ':'} “{order.text}”"
+    return f"clause {order.clause + 1}{', latent, for' if order.latent else ':'} “{order.text}”"

@@ -25,7 +25,7 @@ from tmd.studio.demonstrations.clause_spans import clean, cut
 from tmd.studio.demonstrations.history import History
 from tmd.studio.demonstrations.session import MAX_STEPS, DemonstratedStep, Session
 from tmd.veil.world import World
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 
 @dataclass(frozen=True, slots=True)

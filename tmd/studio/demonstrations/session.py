@@ -22,7 +22,7 @@ from tmd.studio.demonstrations.history import History
 from tmd.studio.object_info import About, about
 from tmd.veil.demonstration import Segment
 from tmd.veil.world import World
-from tmd.view.text.wording import Wording
+from tmd.view.wording import Wording
 
 MAX_STEPS = 500
 """Longer demonstrations are refused: the longest of the bundled ones has about thirty steps."""

@@ -7,7 +7,7 @@ from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, object_facts
 from tmd.studio.panels.widgets import chosen, put
 from tmd.view.markup import style
-from tmd.view.object_graph.graph import GraphChanges, object_graph
+from tmd.view.object_graph import GraphChanges, object_graph
 
 NOTHING = "(nothing)"
 

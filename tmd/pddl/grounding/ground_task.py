@@ -2,7 +2,7 @@
 
 In three steps. Actions are instantiated while relaxed reachability collects the atoms that may hold
 (:mod:`tmd.pddl.grounding.instantiate`). Then what can never apply, and what never changes, is pruned
-(:mod:`tmd.pddl.grounding.ground`). At last the atoms that are left are numbered.
+(:mod:`tmd.pddl.grounding.ground_task`). At last the atoms that are left are numbered.
 """
 
 from __future__ import annotations

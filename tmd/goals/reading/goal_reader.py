@@ -19,7 +19,7 @@ from tmd.goals.grounder import (
     only_negative,
     why_impossible,
 )
-from tmd.goals.reading.nouns import Memory, Mode, Referent, relations_said
+from tmd.goals.reading.noun_phrases import Memory, Mode, Referent, relations_said
 from tmd.goals.reading.referents import BE, Referents, Requirements, States
 from tmd.goals.sources.table import (
     ACTIONS,

@@ -1,7 +1,8 @@
-"""Checking what a lexicon says that verbs, adjectives and groups mean: every fault, each at its word."""
+"""What is wrong with a lexicon: its words, the verbs that it serves, and the goals that it declares."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, replace
@@ -10,13 +11,212 @@ from pathlib import Path
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.lint.reachable import Possible, Scope, possible, types_of
 from tmd.diagnostics import Location, TmdError
-from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, read_pattern, read_table
-from tmd.language.lexicon.lexicon import Declared, Lexicon
+from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, family, read_pattern, read_table
+from tmd.language.lexicon.file import read_lexicon
+from tmd.language.lexicon.lexicon import Declared, Lexicon, section, verb_candidates
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, nearest, parse, read_text, split_lines
 from tmd.pddl.writer import format_formula
+
+_WORD = re.compile(r"[a-z]+")
+_PARTICLE_WITHIN = 5
+"""A particle stands at most that many words behind its verb."""
+
+
+def check_lexicon(path: Path, actions: Collection[str], names: Collection[str], texts: Iterable[str]) -> list[TmdError]:
+    """What is odd about a lexicon.
+
+    Args:
+        path: The file.
+        actions: The names of the domain's actions.
+        names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
+        texts: The texts of the domain's demonstrations.
+
+    Raises:
+        TmdError: The file is not a lexicon.
+    """
+    lexicon = read_lexicon(path)
+    source = _Lines(path)
+    found = []
+    for noun, targets in sorted(lexicon.nouns.items()):
+        for target in targets:
+            if names and target not in names:
+                hint = nearest(target, sorted(names))
+                message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
+                found.append(source.error(noun, target, message, hint, "unknown-target"))
+    served = _Served(texts, actions)
+    verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
+    # one word of several that stand for the same verb is enough: its template serves all of them
+    meant = lexicon.goal_verbs
+    shown = {
+        serving for verb, serving in verbs.items() if {verb, serving} & meant or verb in served or serving in served
+    }
+    for verb, serving in sorted(verbs.items()) if served.texts else ():
+        if serving not in shown:
+            message = f"no demonstration, no action and no goal serves the verb '{verb}'"
+            if serving != verb:
+                message += f", nor '{serving}', which it stands for"
+            hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
+            found.append(source.error(verb, verb, message, hint, "unserved-verb"))
+    return found
+
+
+def texts_of(path: Path) -> list[str]:
+    """The texts of a corpus, as far as it can be read."""
+    texts = []
+    try:
+        lines = read_text(path).splitlines()
+    except TmdError:
+        return []
+    for line in lines:
+        try:
+            said = json.loads(line)
+        except (json.JSONDecodeError, RecursionError):
+            continue
+        if isinstance(said, dict) and isinstance(said.get("text"), str):
+            texts.append(said["text"])
+    return texts
+
+
+class _Served:
+    """The verbs that texts or actions have; a stem that a word may be a form of counts."""
+
+    def __init__(self, texts: Iterable[str], actions: Collection[str]) -> None:
+        self.texts = [_WORD.findall(text.lower()) for text in texts]
+        self._actions = frozenset(actions)
+        words = {word for text in self.texts for word in text}
+        self._stems = {word: frozenset((word, *(stem for stem, _ in verb_candidates(word)))) for word in words}
+        self._all = frozenset(stem for stems in self._stems.values() for stem in stems)
+
+    def __contains__(self, verb: str) -> bool:
+        if verb in self._actions or verb.replace("_", "") in self._actions:
+            return True
+        stem, *particles = verb.split("_")
+        if not particles:
+            return stem in self._all
+        return any(self._has(text, stem, particles[0]) for text in self.texts)
+
+    def _has(self, text: list[str], stem: str, particle: str) -> bool:
+        return any(
+            stem in self._stems[word] and particle in text[place + 1 : place + 1 + _PARTICLE_WITHIN]
+            for place, word in enumerate(text)
+        )
+
+
+class _Lines:
+    """The lines of a lexicon, to find a key in it."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+        self.lines = read_text(path).splitlines()
+
+    def error(self, key: str, word: str, message: str, hint: str | None, code: str) -> TmdError:
+        for number, line in self._lines_with(key):
+            column = line.find(word, line.find(key) + (len(key) if word != key else 0))
+            place = Location(str(self.path), number, max(column, 0) + 1)
+            return TmdError(message, location=place, hint=hint, source=line, code=code)
+        return TmdError(message, location=Location(str(self.path), 1, 1), hint=hint, code=code)
+
+    def _lines_with(self, key: str) -> Iterator[tuple[int, str]]:
+        word = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
+        for number, line in enumerate(self.lines, start=1):
+            if word.search(line.partition("#")[0]):
+                yield number, line
+
+
+_A_VERB = 2
+"""So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`)."""
+_POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
+"""The sections of words that only lead to what is asked for: *please*, *I need you to*."""
+
+
+def check_goal_verbs(
+    path: Path, lexicon: Lexicon, actions: Collection[str], segments: Iterable[str]
+) -> Iterator[TmdError]:
+    """Notes on the verbs of a lexicon that declares goals.
+
+    Args:
+        path: The lexicon's file.
+        lexicon: What it says.
+        actions: The names of the domain's actions.
+        segments: The pieces of its demonstrations' texts that were carried out one after another.
+    """
+    if not lexicon.goals:
+        return
+    written = Written(path)
+    yield from _standing_for_another(lexicon, written)
+    verbs = dict.fromkeys((name for action in actions for name in _verb_of_action(action, lexicon)), "an action")
+    for text in segments:
+        for verb in _first_verb(text, lexicon):
+            verbs.setdefault(verb, "a demonstration")
+    for verb, where in sorted(verbs.items()):
+        if not _has_goal(verb, lexicon):
+            message = f"no goal says what '{verb}' means, which {where} speaks of"
+            hint = f"write '- {verb} X: (…)' under goals, or '{verb}: OTHER' under verb_synonyms"
+            yield written.error(written.in_section("goals"), message, hint, "no-goal")
+
+
+def segments_of(path: Path) -> list[str]:
+    """The pieces of a corpus' texts that have instructions, as far as it can be read."""
+    found: list[str] = []
+    try:
+        lines = read_text(path).splitlines()
+    except TmdError:
+        return []
+    for line in lines:
+        try:
+            segments = json.loads(line)["segments"]
+            found += [str(segment["text"]) for segment in segments if segment["instructions"]]
+        except (ValueError, KeyError, TypeError, RecursionError):
+            continue
+    return found
+
+
+def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdError]:
+    """Verbs with a row of their own that share the templates of another verb."""
+    told: set[str] = set()
+    for entry in lexicon.goals:
+        for verb in entry.pattern.partition(" ")[0].split("|"):
+            other = lexicon.canonical_verb(verb)
+            if other != verb and verb not in told:
+                told.add(verb)
+                message = f"'{verb}' has a goal of its own, and stands for '{other}' as well"
+                hint = f"its own goals are tried before those of '{other}'; remove one of the two if they mean the same"
+                yield written.error(written.in_pattern(entry, verb), message, hint, "synonym-with-goal")
+
+
+def _verb_of_action(name: str, lexicon: Lexicon) -> Iterator[str]:
+    """What an action's name says as a verb: itself with its particle, or its first word."""
+    stem, _, rest = name.partition("_")
+    if not _is_verb(stem, lexicon):
+        return
+    yield f"{stem}_{rest}" if rest and lexicon.particle(stem, rest) is not None else stem
+
+
+def _first_verb(text: str, lexicon: Lexicon) -> Iterator[str]:
+    """The verb that a piece of a text begins with, if it begins with one."""
+    words = text.lower().replace(",", " ").replace(".", " ").split()
+    found = lexicon.verb(words[0]) if words else None
+    if found is None or found[2] < _A_VERB or found[1] != "base" or any(found[0] in section(s) for s in _POLITE):
+        return
+    stem = found[0]
+    near = words[1 : 1 + _PARTICLE_WITHIN]
+    yield next((f"{stem}_{word}" for word in near if lexicon.particle(stem, word)), stem)
+
+
+def _is_verb(word: str, lexicon: Lexicon) -> bool:
+    found = lexicon.verb(word)
+    return found is not None and found[0] == word and found[2] >= _A_VERB
+
+
+def _has_goal(verb: str, lexicon: Lexicon) -> bool:
+    """Whether a row is for a verb, for its verb without a particle, or for one that means the same."""
+    plain = verb.partition("_")[0]
+    own = {verb, plain, lexicon.canonical_verb(verb), lexicon.canonical_verb(plain)}
+    return bool(lexicon.goal_verbs & (own | {other for one in own for other in family(one)}))
+
 
 _NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")
 """The word of a pattern that a fault speaks of."""

@@ -1,0 +1,151 @@
+"""A grounded text as lines for people: clauses, what was skipped, goals, plans."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from tmd.export.end_goal import asked_problem
+from tmd.grounded import Grounded
+from tmd.inference.ranking import RankedPlan
+from tmd.language.clause import Clause, Condition, Mood, Parsed, print_clause
+from tmd.pddl.model import Problem
+from tmd.pddl.validator import Verdict
+from tmd.pddl.writer import format_formula, format_problem
+from tmd.records.json_record import rounded
+from tmd.view.goals import ShownGoal, in_words
+
+_MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
+
+
+def parsed_text(parsed: Parsed) -> str:
+    """The clauses, numbered from 1, the constraints, and what was skipped."""
+    lines = ["clauses"] if parsed.clauses else ["no clause"]
+    lines += [f"  {number}. {_clause_text(clause)}" for number, clause in enumerate(parsed.clauses, start=1)]
+    if parsed.constraints:
+        lines.append("constraints")
+        lines += [f"  {_MOODS.get(c.mood, 'to be kept')}: {_noted(c, _notes(c))}" for c in parsed.constraints]
+    if parsed.skipped:
+        lines.append("skipped")
+        lines += [f'  "{_flat(piece.text)}": {piece.reason}' for piece in parsed.skipped]
+    return "\n".join(lines) + "\n"
+
+
+def _clause_text(clause: Clause) -> str:
+    mood = [_MOODS[clause.mood]] if clause.mood in _MOODS else []
+    return _noted(clause, [*mood, *_notes(clause)])
+
+
+def _noted(clause: Clause, notes: list[str]) -> str:
+    return print_clause(clause) + (f"   {'; '.join(notes)}" if notes else "")
+
+
+def _notes(clause: Clause) -> list[str]:
+    """What else was said: what pronouns mean, the state that something shall be in, when and how."""
+    return [
+        *(f"{name} = {' + '.join(clause.meant(name))}" for name in clause.antecedents if name),
+        *([f"state: {clause.result}"] if clause.result else []),
+        *(["or"] if clause.alternative else []),
+        *(["otherwise"] if clause.otherwise else []),
+        *(_condition_text(condition) for condition in clause.conditions),
+        *_as_written(clause),
+    ]
+
+
+def _condition_text(condition: Condition) -> str:
+    """A condition as written, and as it was read."""
+    read = " and ".join(_within(clause) for clause in condition.clauses)
+    return f"{_flat(condition.text)}: {'not ' if condition.negated else ''}{read or 'not understood'}"
+
+
+def _within(clause: Clause) -> str:
+    """A clause of a condition, what else was said within its brackets."""
+    return "; ".join([print_clause(clause).removesuffix(")"), *_notes(clause)]) + ")"
+
+
+def _as_written(clause: Clause) -> Iterator[str]:
+    """Conditions and the like that were not read any further."""
+    read = {_flat(condition.text).lower() for condition in clause.conditions}
+    purpose = any(condition.word == "to" for condition in clause.conditions)
+    for word in ("condition", "duration", "purpose", "setting"):
+        value = getattr(clause, word)
+        if value and _flat(value).lower() not in read and not (purpose and word == "purpose"):
+            yield f"{word}: {_flat(value)}"
+
+
+def _flat(text: str) -> str:
+    return " ".join(text.split())
+
+
+def goals_text(plan: RankedPlan, clauses: Sequence[Clause], problem: Problem) -> str:
+    """The goals of a plan's steps: in words, as PDDL, and where their meaning comes from."""
+    lines = ["goals"]
+    for shown in in_words(plan.goals, problem):
+        lines.append(f"  {shown.goal.clause + 1}. {_of_part(shown, clauses)}{_told(shown)}")
+        lines += [f"     {line}" for line in _below(shown)]
+    return "\n".join(lines) + "\n"
+
+
+def _of_part(shown: ShownGoal, clauses: Sequence[Clause]) -> str:
+    """What was said, where it is only a part of the clause: *when you have taken the cup*."""
+    clause = clauses[shown.goal.clause] if shown.goal.clause < len(clauses) else None
+    whole = "" if clause is None else " ".join(clause.text.split())
+    return "" if shown.goal.text == whole else f'"{shown.goal.text}": '
+
+
+def _told(shown: ShownGoal) -> str:
+    return f"{shown.told} (already so)" if shown.asked and shown.goal.already else shown.told
+
+
+def _below(shown: ShownGoal) -> list[str]:
+    """The goal as PDDL with its source, and what was not taken into account."""
+    goal = shown.goal
+    if goal.formula is None or not shown.asked:
+        return []
+    source = f"   {goal.source}: {goal.row}" if goal.source else ""
+    return [f"{format_formula(goal.formula)}{source}", *([f"note: {goal.note}"] if goal.note else [])]
+
+
+def whole_goal_text(grounded: Grounded) -> str:
+    """The environment as a PDDL problem whose goal is what the text asks for; empty where there is no plan."""
+    problem = asked_problem(grounded)
+    return "" if problem is None else format_problem(problem)
+
+
+def remarks(grounded: Grounded) -> list[str]:
+    """Lines for standard error: its warnings, and why there is no plan if there is none."""
+    lines = [f"warning: {warning}\n" for warning in grounded.warnings]
+    return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
+
+
+def grounded_text(grounded: Grounded) -> str:
+    """Clauses, what was skipped, what the steps ask for, then each plan with its energy and why it is not first."""
+    parts = [parsed_text(grounded.parsed)]
+    told: list[str] = []
+    for number, (plan, verdict) in enumerate(zip(grounded.plans, grounded.verdicts, strict=True), start=1):
+        goals = _goals_text(plan, grounded)
+        parts += [goals] if goals and goals not in told[-1:] else []
+        told.append(goals)
+        parts.append(_plan_text(number, plan, verdict))
+    return "\n".join(parts)
+
+
+def _goals_text(plan: RankedPlan, grounded: Grounded) -> str:
+    """What the steps ask for; empty where the model has no goals."""
+    if not plan.goals:
+        return ""
+    return goals_text(plan, grounded.parsed.clauses, grounded.world.task.problem)
+
+
+def _plan_text(number: int, plan: RankedPlan, verdict: Verdict) -> str:
+    valid = "valid" if verdict.valid else f"invalid: {verdict.reason}"
+    steps = f"{len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
+    lines = [f"plan {number}: energy {plan.energy:.4f}, {steps}, {valid}"]
+    if plan.why:
+        lines.append(f"  not first: {plan.why}")
+    width = max((len(str(step.instruction)) for step in plan.steps), default=0)
+    for place, step in enumerate(plan.steps, start=1):
+        origin = f"clause {step.clause + 1}{', latent' if step.latent else ''}"
+        lines.append(f"  {place:>3}. {step.instruction!s:<{width}}  {origin}")
+    factors = ", ".join(f"{name} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
+    lines.append(f"  energy by factor: {factors or 'nothing'}")
+    return "\n".join(lines) + "\n"

@@ -1,0 +1,308 @@
+"""The robot carries out predictions of a run: which ones, each of them, and what is recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import closing, nullcontext, suppress
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Literal
+
+from tmd import __version__
+from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.evaluation.runs.backends import in_processes
+from tmd.evaluation.runs.config import BUNDLED, ExperimentConfig
+from tmd.evaluation.runs.finished_run import Run, read_run
+from tmd.evaluation.runs.summary import EMPTY
+from tmd.evaluation.runs.trial_records import FOLDER, SKIPPED, Trials, read_trial, read_trials
+from tmd.files import make_directory, write_text
+from tmd.inference.config import DEFAULT
+from tmd.pddl.model import GroundAtom
+from tmd.pddl.plan_file import parse_instruction
+from tmd.records.prediction import PredictionRecord
+from tmd.records.run import RanStep
+from tmd.records.trial import Skip, Trial, TrialRequest
+from tmd.robot.monitor.listeners import Order, Title
+from tmd.robot.run_plan import Filming, run_plan
+from tmd.robot.sim.engine import STEPS_PER_SECOND
+from tmd.robot.skills.results import ExecutedStep
+from tmd.robot.skills.skill_file import load_skills
+from tmd.robot.video.film import open_movie
+from tmd.robot.video.movie_file import MovieFile
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import DomainFolder, find_domain, find_root
+
+
+@dataclass(frozen=True, slots=True)
+class TrialChoice:
+    """A prediction to carry out.
+
+    Attributes:
+        environment: Where.
+        model: The row.
+        line: The prediction; ``None`` where no prediction of the row can be executed there under PDDL.
+    """
+
+    environment: str
+    model: str
+    line: PredictionRecord | None
+
+
+def choices(run: Run) -> list[TrialChoice]:
+    """One for each environment that was tested in, in the order of the run.
+
+    The row is the model that ships, so that the films show what users get; where a run is without it, the row with the
+    greatest END on average, in a tie the last. Of its predictions in an environment the first is taken that can be
+    executed under PDDL, and that reaches its goal if one does.
+    """
+    rows = [name for name in run.metrics.models if name != EMPTY]
+    if not rows:
+        return []
+    best = DEFAULT if DEFAULT in rows else max(reversed(rows), key=lambda name: run.metrics.models[name].average.END)
+    lines = run.of(best)
+    environments = sorted({line.environment for line in lines})
+    return [
+        TrialChoice(where, best, _first([line for line in lines if line.environment == where and _works(line)]))
+        for where in environments
+    ]
+
+
+def _first(lines: Sequence[PredictionRecord]) -> PredictionRecord | None:
+    """The first that reaches its goal, or the first."""
+    return next((line for line in lines if line.success), next(iter(lines), None))
+
+
+def _works(line: PredictionRecord) -> bool:
+    return line.executable and bool(line.predicted)
+
+
+PICTURE = (400, 300)
+FPS = 5
+"""Small films: they stand in a page."""
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One trial that is to be made; it can be sent to another process.
+
+    Attributes:
+        asked: What is to be done.
+        line: The prediction.
+        domain: The domain's folder.
+        problems: The directory of its problems.
+        out: Where record and films go.
+    """
+
+    asked: TrialRequest
+    line: PredictionRecord
+    domain: Path
+    problems: Path
+    out: Path
+
+    @property
+    def record(self) -> Path:
+        """The file of the record."""
+        return self.out / f"{self.asked.environment}.json"
+
+
+def perform(job: Job) -> None:
+    """Make a trial, and write its record last.
+
+    Raises:
+        MissingToolError: What simulates is not installed.
+        OutputError: It cannot be written.
+    """
+    try:
+        trial = _carried_out(job)
+    except (MissingToolError, OutputError):
+        raise
+    except TmdError as error:
+        trial = Trial(asked=job.asked, status="no_scene", reason=str(error))
+    write_text(job.record, trial.model_dump_json(indent=2) + "\n")
+
+
+def _carried_out(job: Job) -> Trial:
+    corpus = Corpus(DomainFolder(job.domain), job.problems)
+    where = job.asked.environment
+    environment = load_environment(corpus.directory / "environments" / f"{where}.yaml")
+    problem = corpus.world(where).task.problem
+    kinematic = job.asked.mode == "kinematic"
+    orders = orders_of(job.line)
+    notes = _Notes()
+    movie, strip = _movie(job), job.out / f"{where}.png"
+    heading = f"{where}: {len(orders)} instructions of {job.asked.model}"
+    with movie or nullcontext():
+        run = run_plan(
+            environment, corpus.folder, problem, orders, prepare=lambda _: (notes,), kinematic=kinematic,
+            seed=job.asked.seed, filming=Filming(heading, job.asked.text, movie, strip) if movie is not None else None,
+        )  # fmt: skip
+    execution, seconds = run.execution, round(run.sim_steps / STEPS_PER_SECOND, 2)
+    return Trial(
+        asked=job.asked,
+        status=execution.status.value,
+        reason=execution.reason,
+        repairs=execution.repairs,
+        seconds=0.0 if kinematic else seconds,
+        steps=tuple(notes.steps),
+        film=None if movie is None else movie.path.name,
+        strip=None if movie is None else strip.name,
+    )
+
+
+def _movie(job: Job) -> MovieFile | None:
+    """The film's file: MP4, where there is no ffmpeg a GIF, and none where pictures cannot be made at all."""
+    for suffix in (".mp4", ".gif"):
+        try:
+            return open_movie(job.out / f"{job.asked.environment}{suffix}", PICTURE, FPS, small=True)
+        except MissingToolError:
+            continue
+    return None
+
+
+def orders_of(line: PredictionRecord) -> list[Order]:
+    """A prediction as orders; where the model worked by clauses, with the words that each instruction is for."""
+    if not line.whole:
+        return [Order(parse_instruction(text)) for text in line.predicted]
+    return [
+        Order(parse_instruction(text), number, latent, " ".join(clause.text.split()))
+        for number, clause in enumerate(line.clauses)
+        for latent, texts in ((True, clause.latent), (False, clause.said))
+        for text in texts
+    ]
+
+
+class _Notes:
+    """Writes down each step."""
+
+    def __init__(self) -> None:
+        self.steps: list[RanStep] = []
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """An instruction begins."""
+
+    def end(self, title: Title, step: ExecutedStep) -> None:
+        """It is over."""
+        self.steps.append(RanStep.of(title, step))
+
+
+Mode = Literal["kinematic", "physics"]
+Progress = Callable[[int, int], None]
+
+
+def run_trials(config: ExperimentConfig, mode: Mode, progress: Progress | None = None) -> Trials:
+    """Let the robot carry out one prediction for each environment of a finished run.
+
+    Args:
+        config: The run.
+        mode: How the robot moves.
+        progress: Is told the number of trials done and of all trials.
+
+    Returns:
+        What came of it; where no trial could be made, why.
+
+    Raises:
+        OutputError: The run's directory cannot be written.
+        WorkerLostError: A process that simulated was killed.
+        TmdError: The directory holds no finished run.
+    """
+    folder = make_directory(config.out / FOLDER)
+    reason = _hindrance(config)
+    if not reason:
+        (folder / SKIPPED).unlink(missing_ok=True)
+        with suppress(OSError):
+            for draft in folder.glob("*.unfinished.*"):
+                draft.unlink()
+        try:
+            _perform_all(config, mode, folder, progress)
+        except MissingToolError as error:
+            reason = f"{error.message}: {error.hint}"
+    if reason:
+        write_text(folder / SKIPPED, Skip(reason=reason).model_dump_json() + "\n")
+    return read_trials(config.out) or Trials(folder)
+
+
+def _hindrance(config: ExperimentConfig) -> str:
+    """Why no trial can be made here; empty where they can."""
+    if config.data != BUNDLED:
+        return "the actions of VEIL-500 have no skills: the robot acts in bundled environments only"
+    if find_spec("pybullet") is None:
+        return "pybullet is not installed: pip install 'tmd[robot]' with CPython 3.11"
+    try:
+        load_skills(find_domain(config.domain, config.domains))
+    except TmdError as error:
+        return error.message
+    return ""
+
+
+def _perform_all(config: ExperimentConfig, mode: Mode, folder: Path, progress: Progress | None) -> None:
+    domain = find_domain(config.domain, config.domains)
+    problems = find_root("problems", config.problems) / config.domain
+    chosen = choices(read_run(config.out))
+    asked = [_asked(choice, config, mode) for choice in chosen]
+    _forget_others(folder, {each.environment for each in asked})
+    left = [pair for pair in zip(chosen, asked, strict=True) if not _is_done(folder, pair[1])]
+    done = len(chosen) - len(left)
+    if progress:
+        progress(done, len(chosen))
+    jobs = []
+    for choice, each in left:
+        if choice.line is None:
+            _without_plan(folder, each)
+            done += 1
+        else:
+            jobs.append((Job(each, choice.line, _absolute(domain), problems.resolve(), folder.resolve()),))
+    with closing(in_processes(perform, jobs, config.jobs)) as ended:
+        for _ in ended:
+            done += 1
+            if progress:
+                progress(done, len(chosen))
+
+
+def _absolute(domain: DomainFolder) -> Path:
+    """Other processes may work elsewhere."""
+    return domain.path.resolve()
+
+
+def _asked(choice: TrialChoice, config: ExperimentConfig, mode: Mode) -> TrialRequest:
+    line = choice.line
+    return TrialRequest(
+        environment=choice.environment,
+        model=choice.model,
+        id=None if line is None else line.id,
+        text="" if line is None else line.text,
+        plan=() if line is None else line.predicted,
+        mode=mode,
+        seed=config.seed,
+        version=__version__,
+    )
+
+
+def _is_done(folder: Path, asked: TrialRequest) -> bool:
+    """Whether the same trial was made before, and its films are there."""
+    path = folder / f"{asked.environment}.json"
+    if not path.is_file():
+        return False
+    try:
+        trial = read_trial(path)
+    except TmdError:
+        return False
+    films = [name for name in (trial.film, trial.strip) if name is not None]
+    return trial.asked == asked and all((folder / name).is_file() for name in films)
+
+
+def _forget_others(folder: Path, environments: set[str]) -> None:
+    """Trials in environments that this run does not test in are not its own."""
+    for path in folder.glob("*.json"):
+        if path.stem not in environments:
+            try:
+                path.unlink()
+            except OSError as error:
+                raise OutputError(f"{path} cannot be removed: {error.strerror}") from None
+
+
+def _without_plan(folder: Path, asked: TrialRequest) -> None:
+    reason = f"no prediction of {asked.model} can be executed there under PDDL"
+    text = Trial(asked=asked, status="no_plan", reason=reason).model_dump_json(indent=2)
+    write_text(folder / f"{asked.environment}.json", text + "\n")
