@@ -77,7 +77,7 @@ types: setup ## Check types.
 docs: setup ## Run the examples in the pages, and check their links.
 	@$(BIN)/python -m pytest tests/test_docs.py
 
-examples: setup ## Run the examples in the pages, and write what they print into the pages anew.
+examples: setup ## Run the examples in the pages, and write what they print into the pages.
 	@$(BIN)/python tests/test_docs.py
 
 bench: setup ## Run the benchmarks.

@@ -1,4 +1,4 @@
-"""What all tests share: what was learned of the bundled domains, so that not every run of ``tmd`` learns it anew."""
+"""What all tests share: what was learned of the bundled domains, so that not every run of ``tmd`` learns it again."""
 
 from __future__ import annotations
 

@@ -159,9 +159,9 @@ def test_a_domain_is_begun_checked_laid_out_and_compiled(tmp_path: Path) -> None
     assert tmd.compile_domain("mine", domains=places["domains"], write=False)
     found = tmd.check_files("mine", **places)
     assert [(d.code, d.location.file) for d in found.diagnostics] == [("stale-domain", str(domain))]
-    mended = tmd.check_files(made.folder, made.problems, fix=True, **places)
-    assert mended.fixed == (domain,)
-    assert not mended.counts[next(s for s in mended.counts if s == "error")]
+    fixed = tmd.check_files(made.folder, made.problems, fix=True, **places)
+    assert fixed.fixed == (domain,)
+    assert not fixed.counts[next(s for s in fixed.counts if s == "error")]
     assert domain.read_text() == text
     problem = next(made.problems.glob("*.pddl"))
     laid_out = problem.read_text()

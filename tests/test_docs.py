@@ -5,7 +5,7 @@ A block after ``<!-- file: NAME -->`` is a file that the examples of its page fi
 Blocks after ``<!-- tested: one after another -->`` are a walk: the commands of the page run in one directory, which is
 empty at first, and a block after ``<!-- write: PATH -->`` (or ``append:``) writes that file when its turn comes.
 A ``json`` block after ``<!-- format: NAME -->`` holds values of that format, one a line.
-``python tests/test_docs.py`` runs the examples and writes their output into the pages anew, and the schemas.
+``python tests/test_docs.py`` runs the examples and writes their output into the pages again, and the schemas.
 """
 
 from __future__ import annotations
@@ -195,7 +195,7 @@ def test_json_on_the_pages_is_of_its_schema(name: str, value: object) -> None:
 
 def test_the_schemas_are_those_of_the_classes() -> None:
     written = {path.name.removesuffix(".schema.json"): path.read_text(encoding="utf-8") for path in SCHEMAS.iterdir()}
-    assert written == {name: schema_text(name) for name in FORMATS}, "write them anew: python -m tmd.records"
+    assert written == {name: schema_text(name) for name in FORMATS}, "write them again: python -m tmd.records"
 
 
 def test_the_page_on_json_links_to_every_schema() -> None:

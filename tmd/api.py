@@ -193,13 +193,13 @@ def check_files(
         domain: The domain of the problems; otherwise it is looked for.
         domains: The directory of all domains; ``./domains`` or the packaged one by default.
         problems: The directory of all problems; ``./problems`` or the packaged one by default.
-        fix: Whether to mend what can be mended without knowing what the author meant.
+        fix: Whether to fix what can be fixed without knowing what the author meant.
 
     Returns:
         ``.diagnostics``, each with ``.location``, ``.severity``, ``.code``, ``.message`` and ``.hint``; ``.counts``.
 
     Raises:
-        TmdError: There is nothing at a path, or a file cannot be mended.
+        TmdError: There is nothing at a path, or a file cannot be fixed.
     """
     from tmd.check.report import check_paths
 

@@ -57,7 +57,7 @@ class Location:
 
 
 class TmdError(Exception):
-    """Something the user can mend.
+    """Something the user can fix.
 
     Args:
         message: What is wrong, in one line.

@@ -14,7 +14,8 @@ from pathlib import Path
 
 import numpy as np
 
-from tmd.robot.pr2.arm_motion import CLEARANCE, STRIDES
+from tmd.robot.parameters import ARM_MOTION
+from tmd.robot.pr2.arm_motion import STRIDES
 from tmd.robot.pr2.collision import CollisionChecker
 from tmd.robot.pr2.kinematics import Array, Tree
 from tmd.robot.pr2.posture import TUCKED
@@ -70,7 +71,7 @@ def planning(robot: Pr2) -> None:
     kinematics, start = robot.arm_kinematics["right"], np.array(TUCKED["right"])
     lower = np.where(np.isinf(kinematics.lower), start - np.pi, kinematics.lower)
     upper = np.where(np.isinf(kinematics.upper), start + np.pi, kinematics.upper)
-    with CollisionChecker(robot, robot.arm_joints["right"], arm="right", margin=CLEARANCE) as checker:
+    with CollisionChecker(robot, robot.arm_joints["right"], arm="right", margin=ARM_MOTION.clearance) as checker:
         queries: list[Array] = []
         while len(queries) < QUERIES:
             x, y, z = rng.uniform((0.5, -0.6, 0.55), (0.75, 0.1, 1.15))

@@ -7,7 +7,7 @@
     python -m experiments.execution --out runs/execution --page docs/execution.md
 
 Each run is a line of DIR/runs.jsonl, written when the run ends. What is there already is not done again, so an
-experiment that was interrupted goes on where it was; remove the file to begin anew.
+experiment that was interrupted goes on where it was; remove the file to begin again.
 """
 
 from __future__ import annotations
@@ -69,7 +69,13 @@ def _parser() -> argparse.ArgumentParser:
     add("--physics", action="store_true", help="under physics, not kinematically")
     add("--faults", type=_names, default=(), metavar="KIND", help=f"inject faults: kinds, '{ALL}', or '{ONE}' a run")
     add("--seed", type=int, default=0, metavar="S", help="of everything random; 0, the default: exact places")
-    add("--repairs", type=int, default=MOST_REPAIRS, metavar="N", help=f"mend a plan so often; default {MOST_REPAIRS}")
+    add(
+        "--repairs",
+        type=int,
+        default=MOST_REPAIRS,
+        metavar="N",
+        help=f"maximum number of times the executor replans; default {MOST_REPAIRS}",
+    )
     add("--twice", action="store_true", help="run each two times, and compare the trajectories to the byte")
     add("--jobs", type=_positive, default=1, metavar="N", help="so many processes")
     add("--report", action="store_true", help="run nothing; print the tables of DIR as Markdown")

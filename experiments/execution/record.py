@@ -31,7 +31,7 @@ class Case:
         physics: Under physics; otherwise kinematically.
         fault: Which kind of fault is injected; empty for none.
         seed: Random seed. With 0 things stand exactly where they should; other seeds move them a little.
-        repairs: So often the plan may be mended.
+        repairs: Maximum number of times the executor replans.
         twice: Run it two times and compare the trajectories.
     """
 
@@ -72,7 +72,7 @@ class Record(JsonRecord):
         seed: Random seed.
         status: ``done``, ``recovered``, ``stopped``, or ``error``.
         reason: Why it did not get to the end.
-        repairs: How often the plan was mended.
+        repairs: How often the executor replanned.
         steps: The instructions.
         faults: The faults that came about.
         goal: The literals of the end state that do not hold in what is observed at the end.
@@ -84,7 +84,7 @@ class Record(JsonRecord):
     """
 
     WHAT = "a run of this version"
-    ANEW = "move the file away to begin anew"
+    REMAKE = "move the file away to begin again"
 
     name: str
     task: str

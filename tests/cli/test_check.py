@@ -74,7 +74,7 @@ def test_notes_are_counted_and_printed_when_asked_for(tmd: Tmd, drawer: Path) ->
     assert [d["severity"] for d in told["diagnostics"]] == ["note"]
 
 
-def test_a_parenthesis_too_many_in_a_goal_is_mended(tmd: Tmd, drawer: Path) -> None:
+def test_a_parenthesis_too_many_in_a_goal_is_fixed(tmd: Tmd, drawer: Path) -> None:
     drawer.write_text(f"{GOALS}  - open X: (and (opened ?x)\n      (free pr2)))\n")
     assert tmd("check", drawer).code == 13
     assert tmd("check", drawer, "--fix").code == 0

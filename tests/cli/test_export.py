@@ -87,7 +87,7 @@ def test_what_ground_printed(tmd: Tmd, tmp_path: Path) -> None:
     assert (ended.code, ended.err) == (
         ExitCode.BAD_INPUT,
         "error: g.json is not what tmd ground --json prints: warnings: the key is missing\n"
-        "hint: it was written by an older version of tmd: make it anew with tmd ground --json\n",
+        "hint: it was written by an older version of tmd: make it again with tmd ground --json\n",
     )
 
 

@@ -1,4 +1,4 @@
-"""``tmd learn``: what is kept says the same as learning anew, for as long as it is true and whole."""
+"""``tmd learn``: what is kept says the same as learning again, for as long as it is true and whole."""
 
 from __future__ import annotations
 

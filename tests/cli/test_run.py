@@ -111,7 +111,7 @@ def test_a_robot_that_cannot_go_on_says_why(tmd: Tmd, plan: Path) -> None:
     ended = tmd(*KITCHEN, "--plan", plan, "--repairs", "1", before=STOP_WHEELS)
     assert ended.code == ExitCode.NOT_EXECUTED
     assert ended.out.count("failed: path: the wheels do not turn") == 3  # twice as a step, once as the reason
-    assert re.search(r"^stopped: mended 1 times?, and then moveto\(pot1\) failed: path: ", ended.out, re.MULTILINE)
+    assert re.search(r"^stopped: replanned 1 times?, and then moveto\(pot1\) failed: path: ", ended.out, re.MULTILINE)
 
 
 @pytest.mark.usefixtures("robot")

@@ -81,19 +81,19 @@ def test_executability_of_a_small_set(small: VeilData) -> None:
 )
 def test_executability_of_the_release(
     released: VeilData,
-    mended: VeilData,
+    repaired_data: VeilData,
     two_hands: bool,
     exclusive_near: bool,
     as_released: tuple[int, int],
     after_repair: tuple[int, int],
 ) -> None:
-    for data, expected in ((released, as_released), (mended, after_repair)):
+    for data, expected in ((released, as_released), (repaired_data, after_repair)):
         found = executability(data, two_hands=two_hands, exclusive_near=exclusive_near)
         assert (found.executable, found.failing) == expected
 
 
 @pytest.fixture(scope="module")
-def mended(released: VeilData) -> VeilData:
+def repaired_data(released: VeilData) -> VeilData:
     return repaired(released)
 
 
@@ -132,11 +132,11 @@ def test_size_of_what_sequences_change(released: VeilData) -> None:
     assert (round(sum(sizes) / len(sizes), 1), sizes.count(0)) == (7.6, 6)
 
 
-def test_placebo(released: VeilData, mended: VeilData) -> None:
+def test_placebo(released: VeilData, repaired_data: VeilData) -> None:
     """A move deleted from the last group of a sound sequence comes back, wherever its loss is noticed."""
     repairer = Repairer(released)
     noticed = restored = 0
-    for demonstration in mended.points:
+    for demonstration in repaired_data.points:
         last = demonstration.groups[-1]
         first = last.instructions[0] if last.instructions else None
         sound = repairer.simulator(demonstration).run(demonstration.instructions).executable

@@ -309,7 +309,7 @@ def test_a_scheduler_that_dies_is_told(tmp_path: Path, cluster_: Cluster, serial
     assert process.returncode == ExitCode.MISSING_TOOL
     lines = said(error)
     assert lines[0] == f"error: the scheduler at {cluster_.address} is lost"
-    assert lines[1].startswith("hint: start it anew; what is done is kept")
+    assert lines[1].startswith("hint: restart it; what is done is kept")
     assert len(lines) == 2
     assert told == b""
     assert 0 < len(list((out / "parts").iterdir())) < 20

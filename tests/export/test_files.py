@@ -55,7 +55,10 @@ def test_the_schema_says_what_a_record_has() -> None:
     ("change", "message"),
     [
         (lambda r: r.update(format="tmd-plan-9"), "format: .*tmd-plan-1"),
-        (lambda r: r.pop("steps"), "steps: the key is missing .*an older version of tmd: make it anew with tmd export"),
+        (
+            lambda r: r.pop("steps"),
+            "steps: the key is missing .*an older version of tmd: make it again with tmd export",
+        ),
         (lambda r: r.update(more=1), "more: there is no such key"),
         (lambda r: r["steps"].pop(), "the plan does not work: at the end the goal"),
         (lambda r: r.update(domain_pddl="(define"), r"domain_pddl:1:1"),

@@ -28,7 +28,7 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 @pytest.fixture
 def table(tmp_path: Path) -> Callable[[], Corpus]:
-    """A copy of a small domain, opened anew at each call."""
+    """A copy of a small domain, opened again at each call."""
     for kind in ("domains", "problems"):
         shutil.copytree(ROOT / kind / NAME, tmp_path / kind / NAME, ignore=shutil.ignore_patterns("learned"))
     return lambda: Corpus(DomainFolder(tmp_path / "domains" / NAME), tmp_path / "problems" / NAME)

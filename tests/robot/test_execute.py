@@ -1,4 +1,4 @@
-"""The monitor, with a world whose truth is a PDDL state: what goes wrong is seen, mended, and never claimed done."""
+"""The monitor, with a world whose truth is a PDDL state: what goes wrong is seen, replanned, and never claimed done."""
 
 from __future__ import annotations
 
@@ -145,10 +145,10 @@ def test_plans_of_the_living_room_are_done_as_well() -> None:
 
 @pytest.mark.parametrize("fault", [lose, break_off, carry_off])
 @pytest.mark.parametrize("number", range(7, 200, 64))
-def test_trouble_is_seen_and_mended(
+def test_trouble_is_seen_and_replanned(
     corpus: Corpus, demonstrations: list[Demonstration], number: int, fault: Callable[[Truth, Instruction], bool]
 ) -> None:
-    """Whatever is claimed at the end is true; and what can be mended is."""
+    """Whatever is claimed at the end is true; and what can be repaired is."""
     armed = [fault]
 
     def once(truth: Truth, instruction: Instruction) -> bool:
@@ -172,7 +172,7 @@ def test_trouble_is_seen_and_mended(
         assert atom in truth.state, atom
 
 
-def test_what_goes_on_by_itself_is_not_mended(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+def test_what_goes_on_by_itself_is_not_replanned(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     """Things that are farther than they should be are reported; where the rest can be done all the same, it is."""
 
     def away(truth: Truth, instruction: Instruction) -> bool:
@@ -270,7 +270,7 @@ def test_what_is_out_of_reach_where_it_is_is_taken_out_first(
 
 
 def test_a_thing_is_taken_anew_where_the_grip_is_bad(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
-    """How a thing is held is not a fact of PDDL: what cannot be put down somewhere is put elsewhere and taken anew."""
+    """How a thing is held is not a fact of PDDL: what cannot be put down somewhere is put elsewhere and taken again."""
 
     def into(instruction: Instruction) -> bool:
         return instruction.name == "keep" and instruction.args[1:] == ("microwave1", "in")

@@ -46,7 +46,7 @@ def test_the_copy_is_repaired(source: Path, cache: Path) -> None:
         np.testing.assert_allclose(lengths[area > 1e-12], 1, atol=1e-5)
 
 
-def test_the_copy_is_made_once_and_mended(source: Path, cache: Path) -> None:
+def test_the_copy_is_made_once_and_repaired(source: Path, cache: Path) -> None:
     first = pr2_urdf.prepare().urdf
     made = first.stat().st_mtime_ns
     assert pr2_urdf.prepare().urdf == first

@@ -1,4 +1,4 @@
-"""Editing a plan: every edit is what it says, breaks are found where they are, and mending makes the plan work."""
+"""Editing a plan: every edit is what it says, breaks are found where they are, and repairing makes the plan work."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def lines(correction: Correction) -> list[str]:
 
 def test_a_plan_that_works_is_not_broken(correction: Correction) -> None:
     assert correction.broken() is None
-    assert correction.mend() == ()
+    assert correction.repair() == ()
     session = correction.session()
     assert [(str(s.instruction), s.clause) for s in session.steps] == PLAN
     assert session.proposed == correction.proposed
 
 
-def test_a_deleted_step_breaks_a_later_one_and_is_mended(correction: Correction) -> None:
+def test_a_deleted_step_breaks_a_later_one_and_is_repaired(correction: Correction) -> None:
     correction.delete(5)
     found = correction.broken()
     assert found is not None
@@ -47,7 +47,7 @@ def test_a_deleted_step_breaks_a_later_one_and_is_mended(correction: Correction)
     assert found.why == "not while the inside of microwave1 is behind a closed door"
     with pytest.raises(TmdError, match=r"step 5, keep\(mug1, microwave1, in\), does not apply"):
         correction.session()
-    assert [str(i) for i in correction.mend()] == ["open(microwave1_door)"]
+    assert [str(i) for i in correction.repair()] == ["open(microwave1_door)"]
     assert correction.broken() is None
     assert [(str(s.instruction), s.clause) for s in correction.session().steps] == PLAN
     assert correction.undo()
@@ -107,10 +107,10 @@ def test_what_cannot_be_edited(correction: Correction) -> None:
     assert correction.steps == before
 
 
-def test_what_can_never_be_done_is_not_mended(correction: Correction) -> None:
+def test_what_can_never_be_done_is_not_repaired(correction: Correction) -> None:
     correction.insert(1, parse_instruction("keep(fork1, microwave1, in)"))
     with pytest.raises(TmdError, match=r"keep\(fork1, microwave1, in\) can never be done here"):
-        correction.mend()
+        correction.repair()
     correction.undo()
     assert correction.broken() is None
 
@@ -138,7 +138,7 @@ def test_mending_makes_any_edited_plan_work_or_says_why_not(
         assert not validate(kitchen1.task.problem, [s.instruction for s in found.steps]).valid
         last = broken.step
         try:
-            assert found.mend()
+            assert found.repair()
         except TmdError as error:
             assert "\n" not in str(error)
             return

@@ -152,7 +152,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
             visitor.put(label, value)
         for label in (
             "Plan it",
-            "Begin anew",
+            "Start over",
             "Save (K)",
             "Throw away",
             "Insert before this step",

@@ -271,7 +271,7 @@ class Checker:
         if len(faults) > MOST_SHOWN:
             place = faults[MOST_SHOWN].location or Location(str(file), 1, 1)
             message = "this file has more problems; the others are not shown"
-            self.findings.add(TmdError(message, location=place, hint="mend the first ones", code="too-many"), place)
+            self.findings.add(TmdError(message, location=place, hint="fix the first ones", code="too-many"), place)
 
 
 def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:

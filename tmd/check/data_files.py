@@ -73,7 +73,7 @@ def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
             replay(_as_proposed(demonstration), problem)
     except TmdError as error:
         message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
-        hint = "mend the demonstration, or the domain or environment if they are what changed"
+        hint = "fix the demonstration, or the domain or environment if they are what changed"
         raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
     return states
 

@@ -433,7 +433,7 @@ def _never(sound: Collection[_Sound], environments: Iterable[Problem], written: 
         place = written.in_pattern(one.entry, preposition)
         said = f"'{one.entry.pattern}'" + (f" with '{preposition}'" if preposition else "")
         message = f"{said} can be fulfilled in no environment: {atom} can hold of nothing there"
-        hint = "mend the condition, or add an environment in which it can hold"
+        hint = "fix the condition, or add an environment in which it can hold"
         yield written.error(place, message, hint, "impossible-goal")
 
 

@@ -1,4 +1,4 @@
-"""Checking paths, and mending what is mechanical: what ``tmd check`` does."""
+"""Checking paths, and fixing what is mechanical: what ``tmd check`` does."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ FIXABLE = frozenset(
         "stale-domain",
     }
 )  # fmt: skip
-"""The codes that may be mended; parentheses only where there is one way to do it."""
+"""The codes that may be fixed; parentheses only where there is one way to do it."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -35,7 +35,7 @@ class _Edit:
 
 
 def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
-    """The text of ``file`` with what is mechanical mended; ``None`` where nothing is.
+    """The text of ``file`` with what is mechanical fixed; ``None`` where nothing is.
 
     Raises:
         TmdError: The file cannot be read.
@@ -111,7 +111,7 @@ def _insertion(place: Location, text: str) -> _Edit:
 
 
 _MOST_ROUNDS = 4
-"""Mending one thing may bring another to light."""
+"""Fixing one thing may bring another to light."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +121,7 @@ class CheckReport:
     Attributes:
         files: The files that were checked.
         diagnostics: What is wrong with them, by file, line and column.
-        fixed: The files that were mended.
+        fixed: The files that were fixed.
     """
 
     files: tuple[Path, ...]
@@ -149,10 +149,10 @@ def check_paths(
         domain: The file of the domain of all problems, where it shall not be looked for.
         domains: The directory of all domains; the usual one by default.
         problems: The directory of all problems; the usual one by default.
-        fix: Mend what can be mended without knowing what the author meant, and check again.
+        fix: Fix what can be fixed without knowing what the author meant, and check again.
 
     Raises:
-        TmdError: There is nothing at a path, or a mended file cannot be written.
+        TmdError: There is nothing at a path, or a fixed file cannot be written.
     """
     chosen = [Path(path) for path in paths]
     fixed: dict[Path, None] = {}
@@ -161,15 +161,15 @@ def check_paths(
         for path in chosen:
             checker.check(path)
         checker.finish()
-        mended = _mend(checker) if fix and rounds else []
-        if not mended:
+        changed = _fix(checker) if fix and rounds else []
+        if not changed:
             break
-        fixed |= dict.fromkeys(mended)
+        fixed |= dict.fromkeys(changed)
     return CheckReport(tuple(checker.files), tuple(checker.findings.sorted()), tuple(fixed))
 
 
-def _mend(checker: Checker) -> list[Path]:
-    """Mend the files that were checked, each written whole; the files that changed."""
+def _fix(checker: Checker) -> list[Path]:
+    """Fix the files that were checked, each written whole; the files that changed."""
     by_file: dict[Path, list[Diagnostic]] = {}
     for diagnostic in checker.findings.sorted():
         if diagnostic.code in FIXABLE:

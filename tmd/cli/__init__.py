@@ -11,7 +11,7 @@ import os
 import sys
 
 ALLOCATIONS = 100_000
-"""Python looks for cycles after so many new objects: parse trees grow quickly, and hold none."""
+"""Number of new objects after which Python looks for cycles: parse trees grow quickly, and hold none."""
 
 
 def main() -> None:

@@ -109,7 +109,7 @@ def text_of(clause: Clause) -> str:
 
 
 _MOST = 512
-"""So many conjunctions are made of a goal and of what must be kept."""
+"""Maximum number of conjunctions made of a goal and of what must be kept."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,7 +49,7 @@ class _Way:
 
 
 _KEPT_AT_MOST = 4
-"""So many more steps may be made to keep what earlier clauses reached: to open a door again, and to close it."""
+"""Maximum number of further steps to keep what earlier clauses reached: to open a door again, and to close it."""
 _Executable = tuple[Proposal, Instructions, Instructions]
 """A candidate that can be done, what must be done before it, and its own instructions."""
 _NOTHING = Choice(None, (), {}, {})

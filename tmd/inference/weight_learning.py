@@ -8,7 +8,7 @@ structured hinge with margin rescaling: for each example
 
 plus a small quadratic term that keeps the weights near where they began. It is convex in the weights, and its
 subgradient is the difference of two factor vectors. Factors are costs, so weights are kept from falling below zero.
-Plans are proposed anew with the weights of each round, and the old ones are kept: the most violating plan of a
+Plans are proposed again with the weights of each round, and the old ones are kept: the most violating plan of a
 round is among them.
 """
 
@@ -91,7 +91,7 @@ def learn_weights(
         start: Where to begin.
         random: The order in which examples are visited.
         factors: The factors to be weighed; all others keep weight 0.
-        rounds: How often plans are proposed anew.
+        rounds: How often plans are proposed again.
         epochs: Passes over the examples in each round.
         rate: The step of the descent, in units of each factor's spread.
         pull: How strongly weights are drawn to ``start``.

@@ -420,7 +420,7 @@ class Impossible:
     """Recognises impossible goals of one task.
 
     What is derived from a state holds in every state reachable from it. It is derived from the task's initial
-    state when first asked, and anew from states that are out of its reach (forced instructions lead there).
+    state when first asked, and again from states that are out of its reach (forced instructions lead there).
 
     Args:
         task: The ground problem.

@@ -1,7 +1,7 @@
 """Planners of unified-planning, each in a worker process of its own.
 
 The problem goes over as PDDL text (:func:`tmd.pddl.normalise.portable`, then our writer) and is read there by
-unified-planning's reader. So the reference sees the lifted domain and grounds it anew; it does not share our
+unified-planning's reader. So the reference sees the lifted domain and grounds it again; it does not share our
 grounding.
 """
 

@@ -127,7 +127,7 @@ class ParsedRecord(JsonRecord):
     """The clauses of a text; ``constraints`` are what must not be done or must stay, left out where there are none."""
 
     WHAT = "what tmd parse --json prints"
-    ANEW = "make it anew with tmd parse --json"
+    REMAKE = "make it again with tmd parse --json"
 
     clauses: tuple[ClauseRecord, ...]
     constraints: tuple[ClauseRecord, ...] = ()

@@ -33,7 +33,7 @@ class Fit(JsonRecord):
     """What one model learned from one training set, in which environments."""
 
     WHAT = "what a model of tmd experiment learned"
-    ANEW = "remove that file; the page will lack its curve"
+    REMAKE = "remove that file; the page will lack its curve"
 
     model: str
     trained_in: tuple[str, ...]

@@ -166,7 +166,7 @@ class GroundingRecord(ParsedRecord, GroundedText):
     """A grounded text. Clauses are counted from 0."""
 
     WHAT = "what tmd ground --json prints"
-    ANEW = "make it anew with tmd ground --json"
+    REMAKE = "make it again with tmd ground --json"
 
     unseen_verbs: tuple[str, ...]
     unknown_nouns: tuple[str, ...]
@@ -210,7 +210,7 @@ class GoalOnlyRecord(GroundedText):
     """What ``tmd ground --goal-only --json`` prints: the goal of the first plan."""
 
     WHAT = "what tmd ground --goal-only --json prints"
-    ANEW = "make it anew with tmd ground --goal-only --json"
+    REMAKE = "make it again with tmd ground --goal-only --json"
 
     environment_file: str | None = Field(description=_FILE)
     goal: str | None

@@ -24,9 +24,9 @@ class JsonRecord(BaseModel):
 
     WHAT: ClassVar[str] = "a record of tmd"
     """What a whole file, or a line of it, is: *a prediction of tmd experiment*."""
-    ANEW: ClassVar[str] = "make it anew"
+    REMAKE: ClassVar[str] = "make it again"
     """What to do about one of another version."""
-    MEND: ClassVar[str] = ""
+    REPAIR: ClassVar[str] = ""
     """What to do about one that is damaged; the same if empty."""
 
     def to_value(self) -> dict[str, Any]:
@@ -65,7 +65,7 @@ class JsonRecord(BaseModel):
         Raises:
             TmdError: It is not JSON, or not this record.
         """
-        return cls.from_value(json_value(text, file, line, cls.MEND or cls.ANEW), file, line)
+        return cls.from_value(json_value(text, file, line, cls.REPAIR or cls.REMAKE), file, line)
 
     @classmethod
     def from_lines(cls, text: str, file: str) -> list[Self]:
@@ -82,7 +82,7 @@ class JsonRecord(BaseModel):
         """The first thing that is wrong."""
         first = error.errors(include_url=False, include_input=False)[0]
         version = {"missing": "an older", "extra_forbidden": "another"}.get(first["type"])
-        hint = f"it was written by {version} version of tmd: {cls.ANEW}" if version else cls.MEND or cls.ANEW
+        hint = f"it was written by {version} version of tmd: {cls.REMAKE}" if version else cls.REPAIR or cls.REMAKE
         place = ".".join(map(str, first["loc"]))
         told = f"not {cls.WHAT}: {f'{place}: ' if place else ''}{_expectation(first['type'], first['msg'])}"
         if line is None:

@@ -121,8 +121,8 @@ class Metrics(JsonRecord):
     """The means of each row, how rows differ, and what was asked for."""
 
     WHAT = "the metrics of tmd experiment"
-    ANEW = PredictionRecord.ANEW
-    MEND = PredictionRecord.MEND
+    REMAKE = PredictionRecord.REMAKE
+    REPAIR = PredictionRecord.REPAIR
 
     models: dict[str, Row] = Field(min_length=1)
     floor: Row | None = Field(description="The row that predicts nothing; null if it was not run.")

@@ -25,7 +25,7 @@ class PlanRecord(JsonRecord):
     """A problem, its plan, and what each instruction of the plan changes."""
 
     WHAT = "a plan that tmd export wrote"
-    ANEW = "make it anew with tmd export --format json"
+    REMAKE = "make it again with tmd export --format json"
 
     format: Literal["tmd-plan-1"] = Field(default=FORMAT, description="The name of this form and its version.")
     domain: str = Field(description="The name of the domain.")

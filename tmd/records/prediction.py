@@ -38,8 +38,8 @@ class PredictionRecord(JsonRecord):
     """
 
     WHAT = "a prediction of tmd experiment"
-    ANEW = "run the experiment anew, into another directory"
-    MEND = "run the same `tmd experiment` again; finished work is not redone"
+    REMAKE = "run the experiment again, into another directory"
+    REPAIR = "run the same `tmd experiment` again; finished work is not redone"
 
     id: str | int
     task: str

@@ -129,7 +129,7 @@ class RunRecord(RunRequest):
     """A whole run."""
 
     WHAT = "what tmd run --json prints"
-    ANEW = "make it anew with tmd run --json"
+    REMAKE = "make it again with tmd run --json"
 
     steps: tuple[RanStep, ...]
     faults: tuple[FaultRecord, ...]
@@ -143,7 +143,7 @@ class _Event(JsonRecord):
     """A line of a log; its kind stands first."""
 
     WHAT = "a line of a log of tmd run"
-    ANEW = "make the log anew with tmd run --log"
+    REMAKE = "make the log again with tmd run --log"
 
     event: str
 
@@ -211,7 +211,7 @@ def read_log(lines: Sequence[tuple[int, str]], file: str) -> tuple[PlanEvent, li
         kind = value.get("event") if isinstance(value, dict) else None
         if kind not in _EVENTS:
             told = f"this is not {_Event.WHAT}: event: should be one of {', '.join(_EVENTS)}"
-            raise TmdError(told, location=Location(file, number, 1), hint=_Event.ANEW)
+            raise TmdError(told, location=Location(file, number, 1), hint=_Event.REMAKE)
         found.append(_EVENTS[kind].from_value(value, file, number))
     if not found or not isinstance(found[0], PlanEvent):
         raise TmdError(f"{file} does not begin with a plan", hint="give a whole log of tmd run")

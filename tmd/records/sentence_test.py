@@ -53,7 +53,7 @@ class SentenceReport(JsonRecord):
     """All tests."""
 
     WHAT = "what tmd test --json prints"
-    ANEW = "make it anew with tmd test --json"
+    REMAKE = "make it again with tmd test --json"
 
     summary: SentenceSummary
     cases: tuple[SentenceCase, ...]

@@ -27,7 +27,7 @@ class Trial(JsonRecord):
     """A plan that a robot was given, and what came of it."""
 
     WHAT = "a trial of tmd experiment"
-    ANEW = "remove that file, and let the robot act again: --step robot"
+    REMAKE = "remove that file, and let the robot act again: --step robot"
 
     asked: TrialRequest
     status: Literal["done", "recovered", "stopped", "no_plan", "no_scene"] = Field(
@@ -45,6 +45,6 @@ class Skip(JsonRecord):
     """Why there are no trials."""
 
     WHAT = "the reason why there are no trials"
-    ANEW = Trial.ANEW
+    REMAKE = Trial.REMAKE
 
     reason: str

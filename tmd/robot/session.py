@@ -108,7 +108,7 @@ class SimulationSession:
         Args:
             orders: The plan.
             listeners: Who is told how it goes.
-            planner: Mends it.
+            planner: Which planner replans.
             repairs: How often.
             fault: Goes wrong once on the way; where is drawn by the stage's seed.
 

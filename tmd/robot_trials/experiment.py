@@ -158,7 +158,7 @@ def run_experiment(
 
     Args:
         config: The run. A share of one (``config.shard``) is done by :func:`tmd.evaluation.runs.experiment.work`.
-        collect_only: Train nothing: compute everything anew from what is done.
+        collect_only: Train nothing: recompute everything from what is done.
         progress: Is told the number of parts done and of all parts.
 
     Returns:

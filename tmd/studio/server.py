@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 LOCAL = "127.0.0.1"
 _TRIES = 8
 _WINDOWS = 8
-"""So many windows of one browser are told from one another when they come back."""
+"""Number of windows of one browser that are told from one another when they come back."""
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 

@@ -156,7 +156,7 @@ def check_executable(demonstration: Demonstration, world: World) -> None:
             raise TmdError(
                 f"'{demonstration.id}' cannot be executed in {world.name}: {_broken(demonstration, number, world)}",
                 location=demonstration.location,
-                hint="mend the demonstration, or the domain or environment if they are what changed",
+                hint="fix the demonstration, or the domain or environment if they are what changed",
             )
         state = operator.apply(state)
 

@@ -255,7 +255,7 @@ def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> 
     missing = None if goal is None else first_false(goal, state, problem)
     if missing is not None:
         message = f"the goal of '{demonstration.id}' is not reached: {missing.text} does not hold at the end"
-        hint = "mend the goal, or the instructions if it is what the text asks for"
+        hint = "fix the goal, or the instructions if it is what the text asks for"
         fault = TmdError(message, location=Location(_TEXT, 1, 1), hint=hint, code=NOT_REACHED)
         raise _placed(demonstration, fault, message)
 

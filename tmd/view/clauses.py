@@ -18,7 +18,7 @@ from tmd.view.meaning import meanings
 VERB, OBJECT = "verb", "object"
 _SHORTEST_SLIP, _ALIKE = 4, 0.8
 _WIDER = 3
-"""So many words that do not count may stand within a phrase: "the cup of hot coffee"."""
+"""Maximum number of words that do not count within a phrase: "the cup of hot coffee"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ def _verb(tokens: Sequence[Token], verb: str) -> list[int]:
 
 
 def _is_slip(written: str, meant: str) -> bool:
-    """Whether the parser may have read a word as another: it mends typing errors."""
+    """Whether the parser may have read a word as another: it corrects typing errors."""
     shorter = min(len(written), len(meant))
     return shorter >= _SHORTEST_SLIP and SequenceMatcher(None, written, meant).ratio() >= _ALIKE
 
@@ -87,14 +87,16 @@ def _forms(word: str) -> frozenset[str]:
 
 def _words_of(free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:
     """The narrowest run of free places with all of ``words``; with their head alone where there is none."""
-    mended = {place: forms | {w for w in words for form in forms if _is_slip(form, w)} for place, forms in free.items()}
-    for known in (free, mended):
+    corrected = {
+        place: forms | {w for w in words for form in forms if _is_slip(form, w)} for place, forms in free.items()
+    }
+    for known in (free, corrected):
         starts = [place for place, forms in known.items() if forms & set(words)]
         found = (_run_from(start, known, words) for start in starts)
         runs = [run for run in found if len(run) == len(words)]
         if runs:
             return min(runs, key=lambda run: (run[-1] - run[0], run[0]))
-    return [place for place in starts if words[-1] in mended[place]][:1]
+    return [place for place in starts if words[-1] in corrected[place]][:1]
 
 
 def _run_from(start: int, free: Mapping[int, frozenset[str]], words: Sequence[str]) -> list[int]:

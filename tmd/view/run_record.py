@@ -17,7 +17,7 @@ class Ran:
     Attributes:
         status: How it ended: ``done``, ``recovered``, ``stopped`` …; ``unfinished`` where nothing says so.
         reason: Why it stopped.
-        repairs: How often the plan was mended.
+        repairs: How often the executor replanned.
         seconds: Simulated time.
         steps: What was done, in order.
         faults: What was made to go wrong.

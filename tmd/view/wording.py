@@ -31,7 +31,7 @@ from tmd.pddl.writer import format_formula
 _WORDS = frozenset({"a", "i"})
 """Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
 _SHOWN = 3
-"""So many alternatives are told; of the others, how many there are."""
+"""Maximum number of alternatives told; of the others, how many there are."""
 
 
 class Wording:

@@ -81,7 +81,7 @@ def serve(directory: Path, domain: str, *more: str, learned: Path | None = None)
     """A studio of a domain whose problems are copied, so that they may be written to."""
     shutil.copytree(ROOT / "problems" / domain, directory / "problems" / domain)
     saved = ["--learned", str(directory / "learned")] if learned else []
-    if learned:  # a studio that learns anew writes there
+    if learned:  # a studio that learns again writes there
         shutil.copytree(learned / domain, directory / "learned" / domain)
     environ = {**os.environ, "TMD_STUDIO_STATE": str(directory / "drafts"), "OMP_NUM_THREADS": "1"}
     arguments = ["--problems", str(directory / "problems"), "studio", "--domain", domain, "--port", "0", *saved, *more]

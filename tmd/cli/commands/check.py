@@ -41,7 +41,7 @@ def command(
         emit_json(_all_json(report))
     else:
         emit("".join(_text(d) for d in report.diagnostics if notes or d.severity is not Severity.NOTE))
-        emit("".join(f"{file}: mended\n" for file in report.fixed))
+        emit("".join(f"{file}: fixed\n" for file in report.fixed))
         emit(_summary(report, notes))
     count = report.counts
     faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])

@@ -37,7 +37,7 @@ def command(
     """Learn from the demonstrations of DOMAIN, and save it.
 
     `tmd ground` uses what was saved for as long as the domain, its environments and demonstrations, and tmd itself, are
-    what it was learned from; otherwise it learns anew each time. The weights are used when asked for:
+    what it was learned from; otherwise it learns again each time. The weights are used when asked for:
     `tmd ground --weights learned`.
     """
     from tmd.evaluation.learn import learn_domain

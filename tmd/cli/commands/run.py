@@ -79,7 +79,7 @@ def command(
     """Carry out what was said, in simulation.
 
     A text is grounded as by "tmd ground". A PR2 does one instruction after the other; after each, the state is read
-    back from the simulation and compared with what PDDL predicts. Where the two differ, the plan is mended.
+    back from the simulation and compared with what PDDL predicts. Where the two differ, the executor replans.
 
     Ends with 12 where no plan was found, and with 14 where the robot stopped before everything was done.
     """

@@ -29,7 +29,7 @@ from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
 _FACTS = 2
-"""So many confirmed facts are told on a line."""
+"""Maximum number of confirmed facts on a line."""
 
 
 class Telling:

@@ -70,8 +70,8 @@ class Crf:
         config: The model.
         learned: Whether the weights are learned; otherwise they are those of the model.
         proposals: How many plans are looked at for each training example.
-        most_examples: At most so many training examples of each world are learned from, drawn at random.
-        rounds: How often plans are proposed anew.
+        most_examples: Maximum number of training examples of each world are learned from, drawn at random.
+        rounds: How often plans are proposed again.
 
     Attributes:
         journal: Where ``fit`` writes down how far it is, and goes on from; ``None`` until it is set.

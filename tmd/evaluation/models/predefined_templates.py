@@ -63,7 +63,7 @@ class PredefinedTemplates:
         self.libraries_: dict[str, PredefinedLibrary] = {}
 
     def fit(self, examples: Sequence[Example], data: Dataset, random: np.random.Generator) -> Self:
-        """Nothing is learned; the library is read anew.
+        """Nothing is learned; the library is read again.
 
         Raises:
             TmdError: There is none, or it is wrong.

@@ -40,7 +40,7 @@ def outcomes(
 
 
 def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], jobs: int) -> Generator[_Made]:
-    """Call ``work`` with each of ``tasks``, at most so many at once, and yield what comes back in any order.
+    """Call ``work`` with each of ``tasks``, at most ``jobs`` at once, and yield what comes back in any order.
 
     Args:
         work: A function of a module: other processes must find it.

@@ -31,11 +31,11 @@ from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLos
 
 PACKAGE = Path(__file__).resolve().parents[2]
 CONNECT = 20.0
-"""So many seconds a scheduler has to answer, and its first worker to be there."""
+"""Seconds a scheduler has to answer, and its first worker to be there."""
 PATIENCE = 300.0
-"""So many seconds a run waits when all workers are gone."""
+"""Seconds a run waits when all workers are gone."""
 _LOOK = 2.0
-"""So often, in seconds, it is looked whether there still are workers."""
+"""Seconds between two looks at whether there still are workers."""
 _NOISY = ("distributed", "distributed.client", "distributed.core", "distributed.comm", "tornado", "asyncio")
 _ONE_AT_A_TIME = threading.Lock()
 """Worlds are cached and not made for threads, so a worker with several threads does one unit at a time."""
@@ -121,7 +121,7 @@ def remote(config: ExperimentConfig, unit: EvaluationJob, expected: Expected) ->
             raise DataError(
                 f"the worker on {here} has another tmd: {_build(__version__, source_digest())}, and the run has "
                 f"{_build(expected.version, expected.source)}",
-                hint="install the same version everywhere, and start the workers anew",
+                hint="install the same version everywhere, and restart the workers",
             )
         try:
             found = open_dataset(config).fingerprint()
@@ -261,4 +261,4 @@ def _connected(address: str) -> Iterator[None]:
     try:
         yield
     except (OSError, CancelledError):
-        raise MissingToolError(f"the scheduler at {address} is lost", hint=f"start it anew; {GO_ON}") from None
+        raise MissingToolError(f"the scheduler at {address} is lost", hint=f"restart it; {GO_ON}") from None

@@ -328,7 +328,7 @@ def open_dataset(config: ExperimentConfig) -> Dataset:
 
 
 def forget_datasets() -> None:
-    """Read data anew when they are asked for next: a worker may live longer than the files it has read."""
+    """Read data again when they are asked for next: a worker may live longer than the files it has read."""
     _veil.cache_clear()
     _bundled.cache_clear()
 

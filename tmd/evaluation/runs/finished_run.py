@@ -50,7 +50,7 @@ def read_run(directory: Path) -> Run:
     unknown = sorted({line.model for line in lines} ^ set(metrics.models))
     if unknown:
         told = f"{directory}: metrics.json and predictions.jsonl differ on the row '{unknown[0]}'"
-        raise TmdError(told, hint=PredictionRecord.MEND)
+        raise TmdError(told, hint=PredictionRecord.REPAIR)
     folder = directory / "fits"
     files = sorted(folder.glob("*.json")) if folder.is_dir() else []
     return Run(metrics, lines, {file.stem: Fit.from_text(read_text(file), str(file)) for file in files})
@@ -59,7 +59,7 @@ def read_run(directory: Path) -> Run:
 def _text(path: Path) -> str:
     if not path.exists():
         told = f"{path.parent}: holds no finished run: there is no {path.name}"
-        raise TmdError(told, hint=PredictionRecord.MEND)
+        raise TmdError(told, hint=PredictionRecord.REPAIR)
     return read_text(path)
 
 
@@ -92,9 +92,9 @@ def _domain(run: Path) -> str | None:
             f"{run} is no directory of a finished run",
             hint="it has config.json and predictions.jsonl of tmd experiment",
         )
-    config = json_value(read_text(path), str(path), hint=PredictionRecord.MEND)
+    config = json_value(read_text(path), str(path), hint=PredictionRecord.REPAIR)
     if not isinstance(config, dict):
-        raise TmdError(f"{path} is not a JSON object", hint=PredictionRecord.ANEW)
+        raise TmdError(f"{path} is not a JSON object", hint=PredictionRecord.REMAKE)
     if config.get("data", BUNDLED) != BUNDLED:
         raise TmdError(f"{run} is a run on {config['data']}; only plans in bundled environments are exported")
     return config.get("domain")

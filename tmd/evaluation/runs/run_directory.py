@@ -87,14 +87,14 @@ class RunDirectory:
             found = path.read_text(encoding="utf-8") if path.exists() else None
         except (OSError, UnicodeDecodeError):
             found = ""
-        mend = "give another --out, or remove that directory"
+        hint = "give another --out, or remove that directory"
         if found is None and started:
-            raise OutputError(f"{self.path} holds parts of a run, but {path.name} is missing", hint=mend)
+            raise OutputError(f"{self.path} holds parts of a run, but {path.name} is missing", hint=hint)
         text = json.dumps(self.identity, indent=2, ensure_ascii=False) + "\n"
         if found is None:
             write_text(path, text)
         elif found != text:
-            raise OutputError(f"{self.path} holds another run{_difference(found, self.identity)}", hint=mend)
+            raise OutputError(f"{self.path} holds another run{_difference(found, self.identity)}", hint=hint)
 
     def _handler(self, shard: Shard | None) -> logging.Handler:
         path = self.path / (f"log-{shard.number}-of-{shard.of}.txt" if shard else "log.txt")

@@ -163,7 +163,7 @@ _NEVER_OTHERWISE = Or((FALSE,))
 """Stands for what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
 _DEAD = (FALSE, _NEVER_OTHERWISE)
 _MOST_CHOICES = 200
-"""So many ways of choosing two of many things are looked at."""
+"""Maximum number of ways of choosing two of many things."""
 _NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
 """Relations whose nouns must name something."""
 _ELIDED = ("in", "on", "to")

@@ -209,5 +209,5 @@ class _Known:
                 shortened |= len(kept[-1].condition) < len(condition)
         left = tuple(dict.fromkeys(self.open(c) for c in clauses))
         found = GroundAction(action.instruction, left, tuple(kept), action.cost, action.forced)
-        # Shorter conditions may coincide or be empty; then adding wins anew.
+        # Shorter conditions may coincide or be empty; then adding wins again.
         return replace(found, effects=grouped(found.flat())) if shortened else found

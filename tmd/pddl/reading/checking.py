@@ -33,7 +33,7 @@ from tmd.pddl.reading.requirements import missing_requirements
 from tmd.pddl.reading.syntax import Source, nearest
 
 MOST_FAULTS = 250
-"""After so many faults the rest of a problem is not looked at: their places and hints take time."""
+"""Number of faults after which the rest of a problem is not looked at: their places and hints take time."""
 
 
 def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]:

@@ -214,7 +214,7 @@ _SECTIONS = frozenset(
 _MOST_KEPT = 200_000
 """The groups of longer texts, in characters, are not kept for the next reader."""
 _MOST_FAULTS = 100
-"""After so many faults of parentheses the rest of a text tells nothing."""
+"""Number of faults of parentheses after which the rest of a text tells nothing."""
 
 
 @dataclass(slots=True)
@@ -343,7 +343,7 @@ class _Parser:
         if not self.stack and not self.reopen_last(word):
             return
         if word.text.startswith(":"):
-            self.mend_misplaced(word)
+            self.fix_misplaced(word)
         self.stack[-1].parts.append(word)
 
     def reopen_last(self, word: Word) -> bool:
@@ -357,7 +357,7 @@ class _Parser:
         self.outside = True
         return False
 
-    def mend_misplaced(self, word: Word) -> None:
+    def fix_misplaced(self, word: Word) -> None:
         """A keyword deep inside another group shows which parenthesis was left open, or closed too early."""
         opened = self.stack[-1]
         if not opened.parts and len(self.stack) == 1 and self.groups:
@@ -370,9 +370,9 @@ class _Parser:
                 self.pop(word.location)
             self.stack.append(opened)
         elif word.text in _PARTS and opened.parts and not opened.head.startswith(":"):
-            self.mend_part(word)
+            self.fix_part(word)
 
-    def mend_part(self, word: Word) -> None:
+    def fix_part(self, word: Word) -> None:
         """``:effect`` outside its action: the action ended too early, or something in it did not end."""
         opened = self.stack[-1]
         if opened.head == "define":

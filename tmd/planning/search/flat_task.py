@@ -23,7 +23,7 @@ WORD = 62
 
 Ints = list[int]
 MANY = 32
-"""From so many bits on it is quicker to unpack a set than to take its bits one by one."""
+"""Number of bits from which it is quicker to unpack a set than to take its bits one by one."""
 
 
 class Tables(NamedTuple):

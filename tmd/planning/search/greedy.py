@@ -34,7 +34,7 @@ ENTRY = 3
 HEAVIEST = 4
 """The weight of the lower bound where a better plan is looked for; then less and less."""
 MORE = 5_000
-"""So many more states are generated for better plans."""
+"""Number of further states generated for better plans."""
 ORDERS = 1 << 32
 """More than ever stand in a line; a value times this is below the greatest integer of compiled code."""
 

@@ -149,8 +149,8 @@ def careful(task: Task, skills: Skills) -> Task:
 
 
 MOST_REPAIRS = 6
-"""So often a plan is mended before the robot stops."""
-_ANEW = 1000
+"""Maximum number of times the executor replans before the robot stops."""
+_NEW_PLAN_CAP = 1000
 """Generated states after which the search for another plan to the same end gives up."""
 
 
@@ -186,7 +186,7 @@ class Executor:
         problem: The environment.
         observer: Reads the state back.
         performer: Does the instructions.
-        planner: Which planner mends plans.
+        planner: Which planner replans.
         most_repairs: How often.
         watch: Is told each step when it is over.
     """
@@ -238,13 +238,13 @@ class Executor:
             else:
                 tried = waiting[0][0] if waiting else None
             if self._repairs >= self.most_repairs:
-                return self._stopped(f"mended {self._repairs} times, and then {self._last()}", state)
+                return self._stopped(f"replanned {self._repairs} times, and then {self._last()}", state)
             self._repairs += 1
             waiting = [(instruction, False) for instruction, repair in waiting if not repair]
-            mended = self._mend(state, [i for i, _ in waiting], wanted)
-            if isinstance(mended, str):
-                return self._stopped(mended if tried is None else f"after {self._last()}, {mended}", state)
-            waiting = mended
+            repaired = self._replan(state, [i for i, _ in waiting], wanted)
+            if isinstance(repaired, str):
+                return self._stopped(repaired if tried is None else f"after {self._last()}, {repaired}", state)
+            waiting = repaired
         status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
         return Execution(status, "", tuple(self._steps), self._repairs, state)
 
@@ -254,7 +254,7 @@ class Executor:
         return predicted - before <= after and not (before - predicted) & after
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
-        """Whether what is waiting can be executed from here as it is: then there is nothing to mend."""
+        """Whether what is waiting can be executed from here as it is: then nothing is to be replanned."""
         for instruction, _ in waiting:
             if first_broken(instruction, state, self.problem) is not None:
                 return False
@@ -281,7 +281,7 @@ class Executor:
             self.watch(step)
         return step, now
 
-    def _mend(
+    def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | str:
         """What is to be done now, each with whether it is a repair; or why there is no way.
@@ -313,7 +313,7 @@ class Executor:
         for setbacks in dict.fromkeys((question[0], tuple(freed))):
             chances = without(plain, setbacks)
             for rest in dict.fromkeys((question[1], question[1][1:], ())):
-                way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _ANEW)
+                way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
                 if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
                     return _joined(way, rest)
         self._hopeless.add(question)
@@ -364,8 +364,8 @@ def _missing(
     if isinstance(answer, Filled):
         return answer.plan
     if isinstance(answer, Unreachable):
-        return f"the plan cannot be mended: {answer.reason}"
-    return f"no way to mend the plan was found: {answer.limit}"
+        return f"replanning proved that there is no way: {answer.reason}"
+    return f"replanning gave up: {answer.limit}"
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
@@ -377,7 +377,7 @@ def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
 
 
 def _joined(repairs: Sequence[Instruction], rest: Sequence[Instruction]) -> list[tuple[Instruction, bool]]:
-    """What mends a plan and then the rest of it, each with whether it is a repair."""
+    """The repair of a plan and then the rest of it, each with whether it is a repair."""
     return [*((instruction, True) for instruction in repairs), *((instruction, False) for instruction in rest)]
 
 

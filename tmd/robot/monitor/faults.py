@@ -85,7 +85,7 @@ class FaultyPerformer:
         performer: The robot.
         fault: What goes wrong.
         rng: Draws where, and the numbers.
-        plan: What will be performed, apart from what mends it.
+        plan: What will be performed, apart from repairs.
 
     Attributes:
         log: What came about; empty as long as nothing has.
@@ -117,7 +117,7 @@ class FaultyPerformer:
             return self._performer.perform(instruction, gains, attempt)
 
     def _index(self, instruction: Instruction, attempt: int) -> int | None:
-        """Where in the plan an instruction stands; ``None`` for one that mends it."""
+        """Where in the plan an instruction stands; ``None`` for a repair."""
         if attempt and self._next and instruction == self._plan[self._next - 1]:
             return self._next - 1
         if self._next < len(self._plan) and instruction == self._plan[self._next]:

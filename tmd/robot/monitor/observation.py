@@ -50,7 +50,7 @@ class Senses(Protocol):
 
 
 REACH = 1.1
-"""So far, in metres, is near."""
+"""Metres within which things are near."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,6 +12,7 @@ from typing import Protocol
 
 import numpy as np
 
+from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Held, Ignored
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array
@@ -25,17 +26,7 @@ Base = tuple[float, float, float]
 
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
 """How far each joint may move between two checks: 2 to 4 cm at the hand."""
-CLEARANCE = 0.01
-"""Metres that planned motions keep from things, where their start and their goal do."""
-DEEPEST = 0.01
-"""Metres: an arm may be this deep in something where it starts (contacts are soft), never deeper on its way."""
-_NEAR = 2.0
-"""Strides from the ends of a way within which what touches there may touch."""
-_ROUNDED = 0.5
-"""The part of the clearance that may be lost where corners are rounded."""
 _ENDLESS = (4, 6)
-_BRANCHES = 12
-_CHUNK = 8
 
 
 class ArmModel(CollisionModel, Protocol):
@@ -111,10 +102,12 @@ def plan_arm(
         near: Array = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
         return near
 
-    with CollisionChecker(robot, robot.arm_joints[side], arm=side, ignore=ignore, margin=CLEARANCE) as checker:
+    with CollisionChecker(
+        robot, robot.arm_joints[side], arm=side, ignore=ignore, margin=ARM_MOTION.clearance
+    ) as checker:
         # what touches at an end should come off soon; where that is not possible, it may touch all the way
-        for near in (_NEAR * STRIDES, None):
-            if not checker.allow(((first, DEEPEST), (last, 1e-3)), near):
+        for near in (ARM_MOTION.near * STRIDES, None):
+            if not checker.allow(((first, ARM_MOTION.start_penetration), (last, 1e-3)), near):
                 return None
             path = plan(first, last, checker.free, sample, STRIDES, budget=budget)
             if path is not None or not checker.touching():
@@ -122,7 +115,9 @@ def plan_arm(
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng)
-        path = exact(path, robot.arm_groups[side], lambda track: checker.free(track, _ROUNDED * CLEARANCE))
+        path = exact(
+            path, robot.arm_groups[side], lambda track: checker.free(track, ARM_MOTION.rounding * ARM_MOTION.clearance)
+        )
     return [tuple(float(value) for value in row) for row in path[1:]]
 
 
@@ -195,7 +190,7 @@ def plan_poses(
     ) as checker:
         for seed in seeds:
             for collision in checker.collisions(seed):
-                if collision[3] <= DEEPEST:
+                if collision[3] <= ARM_MOTION.start_penetration:
                     checker.allowed[collision[:3]] = collision[3] + 1e-3
             rows = _along(checker, lambda pose, last: kinematics.track(back * pose, height, last), seed, poses)
             if rows is not None:
@@ -214,7 +209,7 @@ def _along(
         if row is None:
             return None
         rows.append(row)
-        if len(rows) - looked_at == _CHUNK or number == len(poses) - 1:
+        if len(rows) - looked_at == ARM_MOTION.chunk or number == len(poses) - 1:
             if not checker.free(np.array(rows[looked_at:])):
                 return None
             looked_at = len(rows)
@@ -231,7 +226,7 @@ def _first_rows(robot: ArmModel, side: str, pose: Pose, base: Base | None, torso
     for row in robot.solve(side, pose, base=base, torso=torso):
         if all(max(abs(a - b) for a, b in zip(row, other, strict=True)) > 0.3 for other in chosen):
             chosen.append(row)
-    return chosen[:_BRANCHES]
+    return chosen[: ARM_MOTION.max_branches]
 
 
 def between(start: Pose, end: Pose, part: float) -> Pose:

@@ -14,6 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
+from tmd.robot.parameters import BASE_MOTION
 from tmd.robot.pr2.collision import CollisionChecker, CollisionModel, Ignored
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.rrt import shorten
@@ -23,28 +24,8 @@ from tmd.robot.pr2.urdf import BASE_JOINTS
 Base = tuple[float, float, float]
 Cell = tuple[int, int, int]
 
-PITCH = 0.1
-"""Metres between neighbours."""
-HEADINGS = 16
 STRIDES = np.array([0.04, 0.04, 0.08])
 """How far the base may move between two checks."""
-CLEARANCE = 0.02
-"""Metres that the way keeps from things, where its start and its goal do."""
-DEEPEST = 0.03
-"""Metres: the robot may be this deep in something where it starts (a door that springs open leans on it)."""
-_NEAR = 3.0
-"""Strides from the ends of a way within which what touches there may touch."""
-_ROUNDED = 0.5
-"""The part of the clearance that may be lost where corners are rounded."""
-_OUTWARDS = (0.0, 0.12, -0.12, 0.25, -0.25, 0.4, -0.4, 0.6, -0.6, 0.9, -0.9, 1.3, -1.3)
-_AWAY = (0.6, 0.4, 0.25)
-_MOST_WAYS_OUT = 3
-_BLOCK = 6
-_ATTEMPTS = 20
-_FEW = 200
-"""So many points are looked at from the start, to see whether one gets away from there at all."""
-_TURN = 0.35
-"""Metres that turning by one radian costs."""
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 
 
@@ -64,7 +45,7 @@ def plan_base(
     ignore: Ignored = (),
     rng: np.random.Generator,
     budget: int = 4000,
-    clearance: float = CLEARANCE,
+    clearance: float = BASE_MOTION.clearance,
 ) -> list[Base] | None:
     """A way for the robot, as its arms are and with what it holds, to a pose of the base.
 
@@ -83,8 +64,8 @@ def plan_base(
     end = np.array([goal[0], goal[1], theta + (goal[2] - theta + pi) % tau - pi])
     start = np.array([x, y, theta])
     with CollisionChecker(robot, BASE_JOINTS, ignore=ignore, margin=clearance) as checker:
-        for near in (_NEAR * STRIDES, None):
-            if not checker.allow(((start, DEEPEST), (end, 1e-3)), near):
+        for near in (BASE_MOTION.near * STRIDES, None):
+            if not checker.allow(((start, BASE_MOTION.start_penetration), (end, 1e-3)), near):
                 return None
             path = _search(checker, start, end, budget)
             if path is not None or not checker.touching():
@@ -92,7 +73,7 @@ def plan_base(
         if path is None:
             return None
         path = shorten(path, checker.free, STRIDES, rng, tries=100)
-        path = exact(path, robot.base_group, lambda track: checker.free(track, _ROUNDED * clearance))
+        path = exact(path, robot.base_group, lambda track: checker.free(track, BASE_MOTION.rounding * clearance))
     return [(float(a), float(b), float(c)) for a, b, c in path[1:]]
 
 
@@ -103,8 +84,8 @@ def _search(checker: CollisionChecker, start: Array, end: Array, budget: int) ->
     if path is not None:
         return path
     ways_out = [start] if checker.apart(start[None])[0] else [*_ways_out(checker, start), start]
-    for out in ways_out[:_MOST_WAYS_OUT]:
-        path = _Lattice(checker, out, end).search(budget // len(ways_out[:_MOST_WAYS_OUT]))
+    for out in ways_out[: BASE_MOTION.max_ways_out]:
+        path = _Lattice(checker, out, end).search(budget // len(ways_out[: BASE_MOTION.max_ways_out]))
         if path is not None:
             return path if out is start else np.vstack([start[None], path])
     return None
@@ -113,9 +94,9 @@ def _search(checker: CollisionChecker, start: Array, end: Array, budget: int) ->
 def _ways_out(checker: CollisionChecker, start: Array) -> list[Array]:
     """Places that are reached straight from the start, backwards first; the farthest free one each way."""
     found = []
-    for turn in _OUTWARDS:
+    for turn in BASE_MOTION.ways_out:
         angle = start[2] + pi + turn
-        for away in _AWAY:
+        for away in BASE_MOTION.ways_out_lengths:
             out = start + np.array([away * np.cos(angle), away * np.sin(angle), 0.0])
             if free_line(checker, start, out):
                 found.append(out)
@@ -142,7 +123,9 @@ class _Lattice:
     def pose(self, cell: Cell) -> Array:
         """x, y, theta; the heading is counted on, not wrapped."""
         i, j, k = cell
-        result: Array = self._goal + np.array([i * PITCH, j * PITCH, k * tau / HEADINGS])
+        result: Array = self._goal + np.array(
+            [i * BASE_MOTION.grid_pitch, j * BASE_MOTION.grid_pitch, k * tau / BASE_MOTION.grid_headings]
+        )
         return result
 
     def straight(self) -> Array | None:
@@ -166,7 +149,7 @@ class _Lattice:
         if self._enclosed(entries):  # wedged in: a search from the goal would look at the whole room in vain
             return None
         # the search looks at points only; what lies between them is looked at once a way is found
-        for _ in range(_ATTEMPTS):
+        for _ in range(BASE_MOTION.max_attempts):
             cells = self._astar(entries, budget)
             if cells is None:
                 return None
@@ -179,7 +162,7 @@ class _Lattice:
     def _enclosed(self, entries: set[Cell]) -> bool:
         """Whether few points can be reached from the start, and the goal is none of them."""
         reached, waiting = set(entries), sorted(entries)
-        while waiting and len(reached) < _FEW:
+        while waiting and len(reached) < BASE_MOTION.escape_points:
             for neighbour, _ in self._neighbours(waiting.pop()):
                 if neighbour not in reached and self._free(neighbour):
                     reached.add(neighbour)
@@ -217,7 +200,11 @@ class _Lattice:
         return None
 
     def _entries(self) -> Iterator[Cell]:
-        i, j, k = (self._start - self._goal) / [PITCH, PITCH, tau / HEADINGS]
+        i, j, k = (self._start - self._goal) / [
+            BASE_MOTION.grid_pitch,
+            BASE_MOTION.grid_pitch,
+            tau / BASE_MOTION.grid_headings,
+        ]
         for a in (int(np.floor(i)), int(np.ceil(i))):
             for b in (int(np.floor(j)), int(np.ceil(j))):
                 for c in (int(np.floor(k)), int(np.ceil(k))):
@@ -226,16 +213,16 @@ class _Lattice:
     def _left(self, cell: Cell) -> float:
         """A lower bound on the cost from a point to the start, slightly raised: fewer points, hardly longer ways."""
         away = np.abs(self.pose(cell) - self._start)
-        return 1.2 * (hypot(away[0], away[1]) + _TURN * float(away[2]))
+        return 1.2 * (hypot(away[0], away[1]) + BASE_MOTION.turn_cost * float(away[2]))
 
     @staticmethod
     def _neighbours(cell: Cell) -> Iterator[tuple[Cell, float]]:
         i, j, k = cell
         for dx, dy in _MOVES:
-            yield (i + dx, j + dy, k), PITCH * hypot(dx, dy)
+            yield (i + dx, j + dy, k), BASE_MOTION.grid_pitch * hypot(dx, dy)
         for turn in (-1, 1):
-            if abs(k + turn) <= HEADINGS:
-                yield (i, j, k + turn), _TURN * tau / HEADINGS
+            if abs(k + turn) <= BASE_MOTION.grid_headings:
+                yield (i, j, k + turn), BASE_MOTION.turn_cost * tau / BASE_MOTION.grid_headings
 
     def _free(self, cell: Cell) -> bool:
         if cell not in self._known:
@@ -246,8 +233,12 @@ class _Lattice:
 
     def _screen(self, cell: Cell) -> None:
         """Compare boxes for a block of places with one heading: many at once cost little more than one."""
-        i, j, k = cell[0] // _BLOCK * _BLOCK, cell[1] // _BLOCK * _BLOCK, cell[2]
-        cells = [(i + a, j + b, k) for a in range(_BLOCK) for b in range(_BLOCK)]
+        i, j, k = (
+            cell[0] // BASE_MOTION.block * BASE_MOTION.block,
+            cell[1] // BASE_MOTION.block * BASE_MOTION.block,
+            cell[2],
+        )
+        cells = [(i + a, j + b, k) for a in range(BASE_MOTION.block) for b in range(BASE_MOTION.block)]
         verdicts = self._checker.apart(np.array([self.pose(each) for each in cells]))
         self._screened.update(zip(cells, verdicts, strict=True))
 

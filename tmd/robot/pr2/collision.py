@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Protocol, TypeAlias
 
 import numpy as np
 
+from tmd.robot.parameters import CONTACT
 from tmd.robot.pr2.kinematics import Array, Tree, motion, origin
 from tmd.robot.pr2.urdf import TOOL, RobotDescription
 from tmd.robot.sim.pose import Pose, Vector
@@ -27,10 +28,6 @@ Collision: TypeAlias = tuple[str, int, int, float]
 """The robot's link (a tool frame stands for what that hand holds), what it touches (body, link), and how deep."""
 Ignored: TypeAlias = Collection[tuple[int, int | None]]
 """Bodies and links that may be touched; None: all links of the body."""
-TOUCH = 1e-4
-"""Metres: surfaces that are not deeper in each other than this do not collide."""
-_APART = 0.003
-"""Metres that what touched at an end of a way is apart once it has got away from there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -242,13 +239,13 @@ class CollisionChecker:
             if near is not None:
                 self._ends.append((end, near, found))
             for pair, depth in found.items():
-                elsewhere = depth if near is None else min(depth, -_APART)
+                elsewhere = depth if near is None else min(depth, -CONTACT.apart)
                 self.allowed[pair] = max(self.allowed.get(pair, -np.inf), elsewhere)
         return True
 
     def touching(self) -> bool:
         """Whether anything at the ends of a way, as given to :meth:`allow`, is nearer than it should be elsewhere."""
-        return any(depth > -_APART for _, _, pairs in self._ends for depth in pairs.values())
+        return any(depth > -CONTACT.apart for _, _, pairs in self._ends for depth in pairs.values())
 
     # checks
 
@@ -341,7 +338,7 @@ class CollisionChecker:
             else:
                 points = self._sim.closest(self._robot.body, body, self._margin, self._robot.index[name], link)
             depth = max((-point.distance for point in points), default=-np.inf)
-            if depth > allowed.get((name, body, link), TOUCH - self._margin) + closer:
+            if depth > allowed.get((name, body, link), CONTACT.touch - self._margin) + closer:
                 found.append((name, body, link, float(depth)))
                 if not every:
                     break

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from tmd.robot.pr2.collision import TOUCH, Ignored, box_of, moved
+from tmd.robot.parameters import CONTACT
+from tmd.robot.pr2.collision import Ignored, box_of, moved
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.urdf import TOOL
 from tmd.robot.sim.pose import Pose
@@ -91,4 +92,4 @@ class HandChecker:
                 assert self._held is not None
                 points = sim.closest(self._held.body, body, 0.0, other_link=link)
             deepest = max(deepest, *(-point.distance for point in points), 0.0)
-        return deepest if deepest > TOUCH else 0.0
+        return deepest if deepest > CONTACT.touch else 0.0

@@ -16,25 +16,13 @@ from typing import Any
 
 import numpy as np
 
+from tmd.robot.parameters import IK
 from tmd.robot.pr2.kinematics import Array, Tree, motion
 from tmd.robot.pr2.urdf import ARM, TOOL
 from tmd.robot.sim.pose import Pose
 
-ROLLS = 48
-STARTS = 64
-MARGIN = 0.01
-"""Radians that solutions keep from the limits, where a motor would push against the stop."""
-ACCURACY = (1e-4, 1e-3)
-"""Metres and radians between the pose asked for and the one reached."""
-_ROUNDS = 60
-_DAMPING = 0.03
-_STRIDE = 0.4
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
-_LEAP = 0.5
-"""Radians that a joint may move between two poses of a motion."""
-_SMOOTH = 0.25
-"""Radians that it may move without another roll being looked at."""
 _ENDLESS = (4, 6)
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
@@ -60,7 +48,7 @@ class ArmKinematics:
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
         self._fits: bool | None = None
-        self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * MARGIN) / (ROLLS - 1)
+        self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * IK.margin) / (IK.rolls - 1)
 
     def tool(self, torso: float, arms: Array) -> Array:
         """The tool frame in ``base_link``: (n, 4, 4) for arms (n, 7)."""
@@ -89,7 +77,7 @@ class ArmKinematics:
             result[:, joint] -= tau * np.round((result[:, joint] - seed[joint]) / tau)
         return result
 
-    def inside(self, arms: Array, margin: float = MARGIN) -> Array:
+    def inside(self, arms: Array, margin: float = IK.margin) -> Array:
         """Which of (n, 7) keep the limits: (n,) of bool."""
         kept: Array = np.all((arms >= self.lower + margin) & (arms <= self.upper - margin), axis=1)
         return kept
@@ -131,9 +119,9 @@ class ArmKinematics:
         closed = None if numeric else _closed_form(self.side)
         start = np.asarray(seed, dtype=float)
         if closed is None:
-            return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), _LEAP)
+            return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), IK.leap)
         # the same roll as before first: mostly it will do
-        for rolls, most in ((_DETOURS[:1], _SMOOTH), (_DETOURS, _LEAP)):
+        for rolls, most in ((_DETOURS[:1], IK.smooth), (_DETOURS, IK.leap)):
             arms = self.near(self._closed(closed, tool, torso, seed[_ROLL] + rolls), seed)
             found = _next_to(start, arms[self.inside(arms)], most)
             if found is not None and self._reaches(found, tool, torso):
@@ -151,11 +139,13 @@ class ArmKinematics:
         arms = self.near(arms, seed)
         arms = arms[self.inside(arms)]
         away = np.abs(_error(tool.homogeneous(), self.tool(torso, arms)))
-        result: Array = arms[(away[:, :3].max(axis=1) < ACCURACY[0]) & (away[:, 3:].max(axis=1) < ACCURACY[1])]
+        result: Array = arms[(away[:, :3].max(axis=1) < IK.accuracy[0]) & (away[:, 3:].max(axis=1) < IK.accuracy[1])]
         return result
 
     def _grid(self, closed: Callable[..., Any], tool: Pose, torso: float, shift: float) -> Array:
-        rolls = np.linspace(self.lower[_ROLL] + MARGIN, self.upper[_ROLL] - MARGIN, ROLLS) + shift * self._pitch
+        rolls = (
+            np.linspace(self.lower[_ROLL] + IK.margin, self.upper[_ROLL] - IK.margin, IK.rolls) + shift * self._pitch
+        )
         return self._closed(closed, tool, torso, rolls)
 
     def _closed(self, closed: Callable[..., Any], tool: Pose, torso: float, rolls: Array) -> Array:
@@ -170,25 +160,25 @@ class ArmKinematics:
         return arms - tau * np.round((arms - middle) / tau)
 
     def _numeric(self, tool: Pose, torso: float, seed: Sequence[float]) -> Array:
-        lower = np.where(np.isinf(self.lower), -pi, self.lower + MARGIN)
-        upper = np.where(np.isinf(self.upper), pi, self.upper - MARGIN)
-        starts = lower + (upper - lower) * _halton(STARTS - 1)
+        lower = np.where(np.isinf(self.lower), -pi, self.lower + IK.margin)
+        upper = np.where(np.isinf(self.upper), pi, self.upper - IK.margin)
+        starts = lower + (upper - lower) * _halton(IK.starts - 1)
         return self._descend(np.vstack([np.asarray(seed, dtype=float), starts]), tool, torso)
 
     def _descend(self, arms: Array, tool: Pose, torso: float) -> Array:
         """Damped least squares from every row at once, always within the limits."""
         target = tool.homogeneous()
-        for _ in range(_ROUNDS):
+        for _ in range(IK.rounds):
             frame, jacobian = self._tool_and_jacobian(torso, arms)
             error = _error(target, frame)
             turned = np.swapaxes(jacobian, 1, 2)
-            damped = jacobian @ turned + _DAMPING**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
+            damped = jacobian @ turned + IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
                 :, None, None
             ] * np.eye(6)
             damped += 1e-10 * np.eye(6)
             step = (turned @ np.linalg.solve(damped, error[:, :, None]))[:, :, 0]
-            step *= np.minimum(1.0, _STRIDE / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-12))
-            arms = np.clip(arms + step, self.lower + MARGIN + 1e-9, self.upper - MARGIN - 1e-9)
+            step *= np.minimum(1.0, IK.stride / np.maximum(np.abs(step).max(axis=1, keepdims=True), 1e-12))
+            arms = np.clip(arms + step, self.lower + IK.margin + 1e-9, self.upper - IK.margin - 1e-9)
         return arms
 
 

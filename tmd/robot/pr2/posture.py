@@ -8,6 +8,7 @@ from typing import Protocol
 
 import numpy as np
 
+from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_line
 from tmd.robot.pr2.collision import Collision
 from tmd.robot.sim.pose import Pose
@@ -21,20 +22,7 @@ TUCKED = {
 Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
 lie across each other, and one in the way of the other.
 """
-_THERE = 0.03
-"""Radians: an arm that is this near to its posture need not move."""
-_SHIFTS = (-0.1, 0.1, -0.2, 0.2, -0.3, 0.3)
-_SHIFTED = 6
-_MOST_FOLDED = 2
-"""Where an arm cannot be tucked as usual, one of its first joints is turned by so many radians; so many are tried."""
-_FRONT = ((0.3, 0.56), (-0.05, 0.4), (0.9, 1.35))
-"""Where a tool with something in it may be for driving, in the base's frame: ahead, to its side, up."""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
-_YAWS = 8
-_MOST_CARRIED = 12
-"""So many places are tried: an arm that gets to none of them is wedged in where it is."""
-TUCK_BUDGET = 300
-"""Samples for the path of an arm that is tucked; a third of it for each place that something held is brought to."""
 
 
 class PostureModel(ArmModel, Protocol):
@@ -62,7 +50,7 @@ class PostureModel(ArmModel, Protocol):
         """For many positions of one arm, whether they touch nothing."""
 
 
-def tuck(robot: PostureModel, budget: int = TUCK_BUDGET) -> bool:
+def tuck(robot: PostureModel, budget: int = ARM_MOTION.tuck_samples) -> bool:
     """Fold both arms, each along a collision-free path; an arm that is in the other's way is moved first.
 
     Args:
@@ -87,7 +75,7 @@ def _tuck_arm(robot: PostureModel, side: str, budget: int) -> bool:
 def _fold(robot: PostureModel, side: str, budget: int) -> bool:
     for goal in _folded(robot, side):
         (near,) = robot.arm_kinematics[side].near(np.array([robot.arm(side)]), goal)
-        if np.max(np.abs(near - goal)) < _THERE:
+        if np.max(np.abs(near - goal)) < ARM_MOTION.there:
             return True
         path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
         if path is not None:
@@ -100,11 +88,15 @@ def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
     usual = TUCKED[side]
     others = [
         tuple(value + shift * (joint == number) for number, value in enumerate(usual))
-        for shift in _SHIFTS
-        for joint in range(_SHIFTED)
+        for shift in ARM_MOTION.tuck_shifts
+        for joint in range(ARM_MOTION.max_shifted)
     ]
     free, *rest = robot.clear(side, [usual, *others])
-    return [usual] if free else [other for other, clear in zip(others, rest, strict=True) if clear][:_MOST_FOLDED]
+    return (
+        [usual]
+        if free
+        else [other for other, clear in zip(others, rest, strict=True) if clear][: ARM_MOTION.max_folded]
+    )
 
 
 def _carry(robot: PostureModel, side: str, budget: int) -> bool:
@@ -122,7 +114,7 @@ def _carry(robot: PostureModel, side: str, budget: int) -> bool:
             if path is not None:
                 return robot.move_arm(side, path)
             failed += 1
-            if failed == _MOST_CARRIED:
+            if failed == ARM_MOTION.max_carried:
                 return False
     return False
 
@@ -132,14 +124,14 @@ def _in_front(robot: PostureModel, side: str) -> bool:
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     x, y, z = (base.inverse() * robot.tool(side)).position
     inside = (x, -y if side == "right" else y, z)
-    return all(low <= value <= high for value, (low, high) in zip(inside, _FRONT, strict=True))
+    return all(low <= value <= high for value, (low, high) in zip(inside, ARM_MOTION.carrying_region, strict=True))
 
 
 def _tool_places(now: Pose, side: str) -> Iterator[Pose]:
     """Tool frames in the base's frame, compact ones first; at each place the least turning first."""
     for x, y, z in _PLACES:
-        for index in range(_YAWS):
-            yaw = (index + 1) // 2 * tau / _YAWS * (1 if index % 2 else -1)
+        for index in range(ARM_MOTION.carrying_yaws):
+            yaw = (index + 1) // 2 * tau / ARM_MOTION.carrying_yaws * (1 if index % 2 else -1)
             turn = Pose.flat(0.0, 0.0, yaw=(yaw + pi) % tau - pi)
             yield Pose(
                 (x, -y if side == "right" else y, z), (turn * Pose((0.0, 0.0, 0.0), now.orientation)).orientation

@@ -19,10 +19,11 @@ from pathlib import Path
 import numpy as np
 
 from tmd.robot.assets.colours import robot_colour
+from tmd.robot.parameters import ARM_MOTION, MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.posture import TUCK_BUDGET, TUCKED, tuck
+from tmd.robot.pr2.posture import TUCKED, tuck
 from tmd.robot.pr2.trajectory import unwound
 from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
 from tmd.robot.pr2.urdf import BASE_JOINTS, FINGERS, HEAD, TOOL, TORSO, prepare
@@ -30,12 +31,8 @@ from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 
 ARMS = ("right", "left")
-FULL_GAP = 0.09
-GRIP_FORCE = 30.0
 _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
-_FINGER_SPEED = 0.8
-_FINGER_LAG = 0.04
 _TIP_OFFSET = 0.0336
 """Metres between the frames of the finger tips when their surfaces meet."""
 _TOUCHING = 0.002
@@ -115,7 +112,7 @@ class Pr2:
         self.head_group = group(HEAD, 3.0, 100.0, 0.2, 0.02)
         self.arm_groups = {side: group(self.arm_joints[side], 2.0, 500.0, 0.1, 0.01) for side in ARMS}
         fingers = {side: [f"{side[0]}_{name}" for name in FINGERS] for side in ARMS}
-        self.finger_groups = {side: group(fingers[side], _FINGER_SPEED, 60.0, 0.05, 0.03) for side in ARMS}
+        self.finger_groups = {side: group(fingers[side], MOTOR.finger_speed, 60.0, 0.05, 0.03) for side in ARMS}
 
     def _set_up(self, pose: tuple[float, float, float]) -> None:
         starts: list[tuple[JointGroup, Sequence[float]]] = [
@@ -226,7 +223,7 @@ class Pr2:
         """Open a hand until its tips are ``gap`` apart; True if they are."""
         return self._go(self.finger_groups[side], [(finger_angle(gap),) * 4])
 
-    def close_gripper(self, side: str, force: float = GRIP_FORCE) -> float:
+    def close_gripper(self, side: str, force: float = MOTOR.grip_force) -> float:
         """Close a hand until both fingers meet something, or each other.
 
         Args:
@@ -239,7 +236,7 @@ class Pr2:
         group = self.finger_groups[side]
         angles = np.array(self._where(group))
         left, right = np.array([True, False, True, False]), np.array([False, True, False, True])
-        stride = 0.02 if self.kinematic else _FINGER_SPEED / 240
+        stride = 0.02 if self.kinematic else MOTOR.finger_speed / 240
         stopped = {"l": False, "r": False}
         while not all(stopped.values()):
             for finger, mask in (("l", left), ("r", right)):
@@ -274,7 +271,7 @@ class Pr2:
             return True
         if not self.kinematic:
             actual = np.array(self._where(self.finger_groups[side]))
-            return bool((actual - angles)[mask][0] > _FINGER_LAG)
+            return bool((actual - angles)[mask][0] > MOTOR.finger_lag)
         links = [self.index[f"{side[0]}_gripper_{finger}_finger{part}_link"] for part in ("", "_tip")]
         others = [body for body in self.sim.bodies() if body != self.body]
         return any(self.sim.closest(self.body, body, 0.0, link) for body in others for link in links)
@@ -312,7 +309,7 @@ class Pr2:
         for side, (body, _, grip) in sorted(self._held.items()):
             self.sim.set_pose(body, self.tool(side) * grip)
 
-    def tuck(self, budget: int = TUCK_BUDGET) -> bool:
+    def tuck(self, budget: int = ARM_MOTION.tuck_samples) -> bool:
         """Fold the arms for driving; a hand that holds something brings it to the front as upright as it is held.
 
         Args:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from tmd.robot.parameters import CONTACT
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.urdf import TOOL
 from tmd.robot.sim.pose import Pose
@@ -21,8 +22,6 @@ if TYPE_CHECKING:
     from tmd.robot.pr2.pr2 import Pr2
 
 _ELBOW = 3
-_SLACK = 0.005
-"""Metres: what rounding could refuse wrongly."""
 
 
 class ReachBounds:
@@ -49,8 +48,8 @@ class ReachBounds:
         upper, fore = float(np.linalg.norm(elbow - lift)), float(np.linalg.norm(wrist - elbow))
         self.hand = float(np.linalg.norm(tool - wrist))
         bent = min(abs(float(kinematics.lower[_ELBOW])), np.pi)
-        self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - _SLACK
-        self.farthest = upper + fore + _SLACK
+        self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - CONTACT.slack
+        self.farthest = upper + fore + CONTACT.slack
 
     def holds(self, wrists: Array, torso: float) -> Array:
         """Which of the wrists (n, 3), in ``base_link``, are in reach: (n,) of bool."""

@@ -13,14 +13,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.trajectory import dense
 
 Free = Callable[[Array], bool]
 """Whether all of (n, k) configurations are free."""
-REACH = 10.0
-"""The longest edge, in strides."""
-SHORTCUTS = 60
 
 
 @dataclass
@@ -76,7 +74,9 @@ def plan(
     return None
 
 
-def shorten(path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = SHORTCUTS) -> Array:
+def shorten(
+    path: Array, free: Free, strides: Array, rng: np.random.Generator, tries: int = ARM_MOTION.rrt_shortcuts
+) -> Array:
     """The path with random pieces replaced by straight lines where these are free; never longer."""
     for _ in range(tries):
         if len(path) < 3:
@@ -105,7 +105,9 @@ def _extend(tree: _Tree, target: Array, free: Free, strides: Array) -> int | Non
     near = tree.nearest(target, strides)
     step = (target - tree.nodes[near]) / strides
     length = float(np.linalg.norm(step))
-    point = target if length <= REACH else tree.nodes[near] + step * strides * REACH / length
+    point = (
+        target if length <= ARM_MOTION.rrt_edge else tree.nodes[near] + step * strides * ARM_MOTION.rrt_edge / length
+    )
     return tree.add(point, near) if _clear(tree.nodes[near], point, free, strides) else None
 
 

@@ -7,17 +7,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from tmd.robot.parameters import MOTOR
 from tmd.robot.pr2.kinematics import Array
 from tmd.robot.pr2.trajectory import dense, timed
 from tmd.robot.sim.simulator import STEPS_PER_SECOND, Simulator
-
-GAIN = 0.2
-"""The part of a position error that a motor removes in one step."""
-_YIELDING = 0.1
-_LOOKED_AT = 8
-"""Steps between two checks of a track."""
-STALLED = 120
-"""Steps without getting nearer after which a motion is given up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +36,7 @@ class JointGroup:
 
 def exact(path: Array, group: JointGroup, free: Callable[[Array], bool]) -> Array:
     """The path with a rest at each corner, if what comes of rounding them under physics is not free."""
-    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[::_LOOKED_AT]
+    track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)[:: MOTOR.check_every]
     if len(path) == 2 or free(track):
         return path
     return np.repeat(path, [1, *[2] * (len(path) - 2), 1], axis=0)
@@ -52,7 +45,7 @@ def exact(path: Array, group: JointGroup, free: Callable[[Array], bool]) -> Arra
 def hold(sim: Simulator, body: int, group: JointGroup, positions: Sequence[float]) -> None:
     """Let the motors keep the joints where ``positions`` says."""
     zeros = [0.0] * len(group.joints)
-    sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, GAIN)
+    sim.drive_joints(body, group.joints, list(positions), zeros, group.forces, MOTOR.gain)
 
 
 def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
@@ -68,7 +61,7 @@ def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
     track = timed(path, group.speeds, STEPS_PER_SECOND, group.window)
     speeds = np.diff(np.vstack([path[:1], track]), axis=0) * STEPS_PER_SECOND
     for position, speed in zip(track.tolist(), speeds.tolist(), strict=True):
-        sim.drive_joints(body, group.joints, position, speed, group.forces, GAIN)
+        sim.drive_joints(body, group.joints, position, speed, group.forces, MOTOR.gain)
         sim.step()
     goal = track[-1]
     hold(sim, body, group, goal.tolist())
@@ -79,7 +72,7 @@ def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
         if away <= group.tolerance and np.max(np.abs(velocities)) <= 10 * group.tolerance:
             return True
         best, since = (away, 0) if away < best - 1e-4 else (best, since + 1)
-        if since > STALLED:
+        if since > MOTOR.stalled_after:
             break
         sim.step()
     positions, _ = sim.joint_states(body, group.joints)
@@ -91,7 +84,7 @@ def run(sim: Simulator, body: int, group: JointGroup, path: Array) -> bool:
 
 def _yield(sim: Simulator, body: int, group: JointGroup) -> None:
     """Let what is in the way push back for a moment, then stay there: no motor pushes on after a failure."""
-    weak = replace(group, forces=tuple(_YIELDING * force for force in group.forces))
+    weak = replace(group, forces=tuple(MOTOR.yielding_share * force for force in group.forces))
     for _ in range(STEPS_PER_SECOND // 4):
         hold(sim, body, weak, sim.joint_states(body, group.joints)[0])
         sim.step()

@@ -142,7 +142,7 @@ def _lacks(kind: str, names: list[str]) -> str:
 
 
 def repair(root: ET.Element, meshes: dict[str, str]) -> None:
-    """Mend a parsed URDF in place.
+    """Repair a parsed URDF in place.
 
     Frames that carry nothing are left out, except the tool frames: fewer links are faster. What remains without
     ``<inertial>`` gets a gram. The base gets joints: x and y slide, theta turns.

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import copysign, cos, pi, sin
 
 from tmd.robot.assets.fittings import TIP
+from tmd.robot.parameters import ARTICULATION
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.scene.scene import Handle
 from tmd.robot.sim.pose import Pose, Vector
@@ -15,27 +16,6 @@ from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
 
-BEFORE = 0.09
-TRAVEL = 0.012
-"""Metres that a finger goes on beyond the surface of a button."""
-_ROUND = 0.02
-"""Metres from the fingers to the lid between them."""
-PRESSED = 0.5
-"""A button is pressed from this share of its way on."""
-_WAYPOINTS = 8
-_PUSHES = ((0.5, 1.0), (0.75, 1.0), (0.3, 1.0), (1.0, 1.0), (0.0, 0.5))
-"""How a flap, or a door that is to be shut, is pushed."""
-_OPEN = (1.0, 0.8, 0.65)
-"""How far a door is opened, as a part of its way."""
-_PIECES = (0.4, 0.25)
-"""How far it is moved where it cannot be moved all the way at once."""
-_STAGES = 4
-_PULLS = ((0.0, 1.0), (0.0, 0.5), (0.0, 0.0), (0.5, 1.0), (1.0, 1.0), (0.5, 0.5))
-"""How a handle is held: at which part of its way the hand is square to it, and how far it keeps its heading."""
-_LIFTS = ((0.0, 0.0), (0.5, 0.3), (0.5, 0.6), (0.0, 1.0), (1.0, 1.0))
-"""The same for a lid: best is a hand that turns with it, for then nothing rubs on what nobody holds."""
-_STRUCK = 0.004
-"""Metres that a lid may be in a hand on its way."""
 _PULLED, _PUSHED = 0, 1
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
@@ -43,8 +23,6 @@ _SIDES = (
     Pose((0.0, 0.0, 0.0), (0.5, -0.5, -0.5, 0.5)),
 )
 """A lid's tab is taken from the front, or from a side: then the hand points along the hinge, and only rolls."""
-_ASIDE = 0.45
-"""Radians off its front from which a door is opened: it comes towards the robot."""
 
 
 def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
@@ -55,7 +33,7 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     """
     if not cell.free():
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
-    for _ in range(_STAGES):
+    for _ in range(ARTICULATION.stages):
         _swing_somehow(cell, name, attempt, _goals(cell, name, opened))
         if cell.is_open(name) == opened:
             return cell.how_open(name)
@@ -84,9 +62,16 @@ def _goals(cell: Cell, name: str, opened: bool) -> list[tuple[float, ...]]:
     """
     now, door = cell.way(name), _handle(cell, name).kind == "door"
     if not opened:
-        return [(0.0,), *([tuple(now - piece for piece in _PIECES if now > piece)] if door else [])]
-    wide: list[tuple[float, ...]] = [(part,) for part in _OPEN]
-    return [*wide, tuple(now + piece for piece in _PIECES if now + piece < _OPEN[2])] if door else wide
+        return [(0.0,), *([tuple(now - piece for piece in ARTICULATION.partial_shares if now > piece)] if door else [])]
+    wide: list[tuple[float, ...]] = [(part,) for part in ARTICULATION.open_shares]
+    return (
+        [
+            *wide,
+            tuple(now + piece for piece in ARTICULATION.partial_shares if now + piece < ARTICULATION.open_shares[2]),
+        ]
+        if door
+        else wide
+    )
 
 
 def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
@@ -114,7 +99,7 @@ def _aside(cell: Cell, name: str, handle: Handle) -> float | None:
         return front
     x, y, _ = (a - b for a, b in zip(_closed_grasp(cell, name, handle), handle.origin, strict=True))
     across = -sin(front) * x + cos(front) * y
-    return front + copysign(_ASIDE, across)
+    return front + copysign(ARTICULATION.bearing, across)
 
 
 def _closed_grasp(cell: Cell, name: str, handle: Handle) -> Vector:
@@ -157,7 +142,7 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
         ways = list(_ways(handle, tools, goal - start))
         if handle.kind == "door" and part < cell.way(name):
             pushed = {share: tool * Pose((-TIP, 0.0, 0.0)) for share, tool in tools.items()}
-            ways += _ways(handle, pushed, goal - start, _PUSHES)
+            ways += _ways(handle, pushed, goal - start, ARTICULATION.pushes)
         found = [Option(side, poses, ignore, spot, part) for spot, poses in ways for side in hands]
         options += _beside(cell, handle, goal, found) if handle.kind == "lid" else found
     return options
@@ -169,11 +154,13 @@ def _beside(cell: Cell, handle: Handle, goal: float, options: Sequence[Option]) 
     kept = list(options)
     for side in sorted({option.side for option in options}):
         checker = HandChecker(cell.robot, side, only=(handle.body, handle.index))
-        for number in range(_WAYPOINTS + 1):
-            cell.sim.set_joint(handle.body, handle.index, start + number / _WAYPOINTS * (goal - start))
+        for number in range(ARTICULATION.waypoints + 1):
+            cell.sim.set_joint(handle.body, handle.index, start + number / ARTICULATION.waypoints * (goal - start))
             mine = [option for option in kept if option.side == side]
             depths = checker.depth([option.poses[1 + number] for option in mine])
-            struck = [option for option, depth in zip(mine, depths, strict=True) if depth > _STRUCK]
+            struck = [
+                option for option, depth in zip(mine, depths, strict=True) if depth > ARTICULATION.lid_penetration
+            ]
             kept = [option for option in kept if all(option is not other for other in struck)]
     cell.sim.set_joint(handle.body, handle.index, start)
     return kept
@@ -190,22 +177,22 @@ def _ways(
     """Tool poses that move a handle, each with whether it is pushed: before it, at it, and along."""
     pushes = handle.kind == "flap" or headings is not None
     if headings is None:
-        headings = _PUSHES if pushes else _PULLS if handle.turns else _PULLS[:1]
+        headings = ARTICULATION.pushes if pushes else ARTICULATION.pulls if handle.turns else ARTICULATION.pulls[:1]
     held = (
-        [(side, heading) for heading in _LIFTS for side in _SIDES]
+        [(side, heading) for heading in ARTICULATION.lifts for side in _SIDES]
         if handle.kind == "lid"
         else [(_SIDES[0], heading) for heading in headings]
     )
     for side, (lead, follows) in held:
         turned = [_turned(tool * side, handle, (share - lead) * way * follows, pushes) for share, tool in tools.items()]
-        yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-BEFORE, 0.0, 0.0)), *turned)
+        yield _PUSHED if pushes else _PULLED, (turned[0] * Pose((-ARTICULATION.approach, 0.0, 0.0)), *turned)
 
 
 def _tools(cell: Cell, name: str, handle: Handle, start: float, goal: float) -> dict[float, Pose]:
     """The tool at the handle for shares of the way, if the hand turned with it."""
     found = {}
-    for number in range(_WAYPOINTS + 1):
-        share = number / _WAYPOINTS
+    for number in range(ARTICULATION.waypoints + 1):
+        share = number / ARTICULATION.waypoints
         cell.sim.set_joint(handle.body, handle.index, start + share * (goal - start))
         found[share] = _handle(cell, name).grasp
     cell.sim.set_joint(handle.body, handle.index, start)
@@ -230,7 +217,7 @@ def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
             follow(cell, side, option.poses[2:], option.ignore)
         return
     if handle.kind == "lid":  # on a thing that nothing holds: the fingers stand round its edge and do not press
-        if cell.gap(side, name) > _ROUND:
+        if cell.gap(side, name) > ARTICULATION.lid_gap:
             raise SkillError(SkillPhase.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
     else:
         cell.robot.close_gripper(side)
@@ -255,7 +242,10 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     ignore: Links = frozenset({(handle.body, handle.index)})
     touch = handle.grasp
-    before, beyond = touch * Pose((-BEFORE, 0.0, 0.0)), touch * Pose((TRAVEL, 0.0, 0.0))
+    before, beyond = (
+        touch * Pose((-ARTICULATION.approach, 0.0, 0.0)),
+        touch * Pose((ARTICULATION.button_overtravel, 0.0, 0.0)),
+    )
     options = [
         Option(side, (_rolled(before, roll), _rolled(touch, roll)), ignore) for roll in (0.0, pi / 2) for side in hands
     ]
@@ -275,7 +265,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     cell.retire(chosen.side, ignore)
     if not touched:
         raise SkillError(SkillPhase.CONTACT, f"the finger does not touch {name}")
-    if farthest.share < PRESSED:
+    if farthest.share < ARTICULATION.pressed_share:
         raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
     return f"{name} went down {100 * farthest.share:.0f} % of its way"
 
@@ -311,7 +301,7 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
     options = []
     for number, roll in enumerate((0.0, pi)):
         poses = [_rolled(tool, roll) for tool in tools.values()]
-        before = poses[0] * Pose((-BEFORE, 0.0, 0.0))
+        before = poses[0] * Pose((-ARTICULATION.approach, 0.0, 0.0))
         options += [Option(side, (before, *poses), ignore, number) for side in hands]
     for side in hands:
         cell.robot.open_gripper(side, handle.opening)

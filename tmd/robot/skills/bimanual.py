@@ -25,11 +25,11 @@ _STRIDE = 29
 """Places that follow each other are not alike."""
 _POSTURES = 4
 _MOST_ASKED = 16
-"""So many places are thought through at one stand."""
+"""Maximum number of places thought through at one stand."""
 _STANDS = ((0.0, 0.0), *product((0.4, 0.6, 0.0), (pi / 2, -pi / 2, pi, 0.0)))
 """Metres that the robot goes back, and radians that it turns."""
 _MOST_HERE, _MOST = 4, 24
-"""So many places are tried from one stand, and in all."""
+"""Maximum number of places tried from one stand, and in all."""
 
 
 def reach_for(
@@ -51,7 +51,7 @@ def reach_for(
         options: Makes them for where it is now.
         focus: Where to stand round, if it is not held.
         attempt: How often it was tried before.
-        stop: Go only to so many of the poses.
+        stop: Number of poses to go to.
         front: The heading of the side it is reached from; None: that of what it is a part of.
         accept: As for :func:`tmd.robot.skills.stance_search.reach`; what is held out is not asked about.
 

@@ -7,26 +7,17 @@ from itertools import product
 from math import atan2, cos, degrees, sin
 
 from tmd.robot.monitor.observation import REACH
+from tmd.robot.parameters import BASE_MOTION, STANCE
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.pick_and_place import pick_options
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
-from tmd.robot.skills.stance_search import DISTANCES, Base, candidates, get_to, stances
+from tmd.robot.skills.stance_search import Base, candidates, get_to, stances
 
-_MOST_STANCES = 8
-_BACKWARDS = (0.0, 0.1, 0.2, 0.3, 0.45, 0.6)
-"""Metres that a robot steps back."""
-_ASIDE = (0.0, 0.6, -0.6, 1.2, -1.2)
-"""Radians off straight back."""
-_MOST_LOOKOUTS = 8
-_BRIEFLY = 2000
-"""What looking for a place from which a thing can be taken may cost: it may be taken from another one later."""
-_HEAD = 0.45
-"""Metres round the eye in which there is nothing but the robot."""
 _SHIFTS = (0.15, 0.3, 0.45)
 _SIDES = ((1, 0), (-1, 0), (0, 1), (0, -1), (0.7, 0.7), (-0.7, 0.7), (0.7, -0.7), (-0.7, -0.7))
-_FARTHER = (*DISTANCES, 1.1)
+_FARTHER = (*STANCE.distances, 1.1)
 
 
 def look(cell: Cell, name: str) -> str:
@@ -76,14 +67,14 @@ def _lookouts(cell: Cell, name: str, point: Vector) -> Iterator[tuple[Base, floa
                 break
         else:
             hidden.append((base, low))
-        if found == _MOST_LOOKOUTS:
+        if found == BASE_MOTION.max_lookouts:
             return
-    yield from hidden[: _MOST_LOOKOUTS - found]  # the robot itself may have been in the way of a ray
+    yield from hidden[: BASE_MOTION.max_lookouts - found]  # the robot itself may have been in the way of a ray
 
 
 def _past_robot(eye: Vector, spot: Vector) -> Vector:
     """Where a ray begins: not at the eye, for the robot stands elsewhere now, and may stand there."""
-    share = min(_HEAD / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
+    share = min(BASE_MOTION.head_radius / max(Pose(eye).distance(Pose(spot)), 1e-6), 0.9)
     x, y, z = (a + share * (b - a) for a, b in zip(eye, spot, strict=True))
     return (x, y, z)
 
@@ -118,12 +109,16 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     options = pick_options(cell, name) if cell.scene.is_item(name) and cell.free() else []
     found = [
         c
-        for c, _ in zip(candidates(cell, options, focus, cell.front(name), _BRIEFLY), range(2 + attempt), strict=False)
+        for c, _ in zip(
+            candidates(cell, options, focus, cell.front(name), BASE_MOTION.brief_budget),
+            range(2 + attempt),
+            strict=False,
+        )
     ]
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
     here = cell.robot.torso()
     clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
-    places += [(base, here) for base, _ in zip(clear, range(_MOST_STANCES), strict=False)]
+    places += [(base, here) for base, _ in zip(clear, range(BASE_MOTION.max_stances), strict=False)]
     for base, torso in places:
         try:
             get_to(cell, base, torso)
@@ -140,7 +135,9 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
 def step_back(cell: Cell, door: str) -> None:
     """Make room for a door that is about to open, as little as is needed, if there is any behind the robot."""
     x, y, theta = cell.robot.base()
-    for away, turn in dict.fromkeys((away, turn if away else 0.0) for away, turn in product(_BACKWARDS, _ASIDE)):
+    for away, turn in dict.fromkeys(
+        (away, turn if away else 0.0) for away, turn in product(BASE_MOTION.steps_back, BASE_MOTION.steps_aside)
+    ):
         base = (x - away * cos(theta + turn), y - away * sin(theta + turn), theta)
         if (away and cell.robot.collides(base=base)) or cell.sweeps(door, base):
             continue

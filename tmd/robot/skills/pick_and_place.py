@@ -7,30 +7,11 @@ from dataclasses import replace
 from itertools import product
 from math import pi
 
-from tmd.robot.pr2.pr2 import FULL_GAP
+from tmd.robot.parameters import GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
-
-BEFORE = 0.10
-"""Metres from which a hand goes straight to what it takes."""
-OUTSIDE = 0.18
-"""The same for what is in a niche or a cupboard."""
-_PASSING = 0.3
-"""Fingers that open more along a direction than this do not pass a thing in it."""
-_AWAY = 0.06
-"""Metres that a hand should get straight away from what it has put down."""
-_ALONG = 0.85
-"""The cosine of the angle within which a hand points the way that it goes in."""
-LIFT = 0.10
-"""Metres that a thing is lifted, or drawn out, before the arm moves freely."""
-CLEAR = (0.006, 0.03)
-"""Metres above a surface at which a thing is let go of, best first: the fingers do not fit into every slot."""
-_TALL = 0.12
-"""Metres from which a thing is not a small one."""
-_TURNS = 8
-"""So many headings are tried for a thing that is put down."""
 
 
 def pick(cell: Cell, item: str, attempt: int) -> str:
@@ -68,7 +49,7 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
     links = _links(cell, item)
     _, high = cell.scene.size(item)
     # a vessel or a bottle is taken from the side before from above, for it will be tipped; a small thing from above
-    upright = 1.0 if cell.scene.holds_contents(item) or high[2] > _TALL else -1.0
+    upright = 1.0 if cell.scene.holds_contents(item) or high[2] > GRASP.tall else -1.0
     ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
     poses = [here * grasp.tool.pose() for grasp in ordered]
     entry = _sideways(cell, item)
@@ -89,12 +70,12 @@ def _sideways(cell: Cell, item: str) -> Vector | None:
 
 def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
     """Where a hand begins to go straight to a thing: outside of what that is in if the fingers pass it, or close."""
-    close = tool * Pose((-BEFORE, 0.0, 0.0))
+    close = tool * Pose((-GRASP.approach, 0.0, 0.0))
     if entry is None:
         return [close]
     across = sum(a * b for a, b in zip(tool.rotate((0.0, 1.0, 0.0)), entry, strict=True))
-    outside = _moved(tool, tuple(-OUTSIDE * value for value in entry))
-    return [close] if abs(across) > _PASSING else [outside, close]
+    outside = _moved(tool, tuple(-GRASP.approach_in_niche * value for value in entry))
+    return [close] if abs(across) > GRASP.max_opening_along else [outside, close]
 
 
 def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> str:
@@ -131,7 +112,9 @@ def _reach_best(
     """
     fitting = with_room(cell, options)
     again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
-    away = [replace(option, poses=(*option.poses, option.poses[-1] * Pose((-_AWAY, 0.0, 0.0)))) for option in again]
+    away = [
+        replace(option, poses=(*option.poses, option.poses[-1] * Pose((-GRASP.retreat, 0.0, 0.0)))) for option in again
+    ]
     for chosen in (away, again, fitting):
         try:
             reach(cell, chosen, focus, cell.front(target), attempt, stop=2)
@@ -145,12 +128,12 @@ def _reach_best(
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
     """Ways to put an item down with the hand that holds it."""
     grip = cell.in_tool(side, item).inverse()
-    back = tuple(-value * BEFORE for value in cell.scene.entry(target, relation))
+    back = tuple(-value * GRASP.approach for value in cell.scene.entry(target, relation))
     links = _links(cell, item)
     found = []
     spots = cell.scene.support(target, relation, item, cell.in_hand.values())[:6]
-    for fall, (number, spot), turn in product(CLEAR, enumerate(spots), range(_TURNS)):
-        stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / _TURNS)
+    for fall, (number, spot), turn in product(GRASP.release_heights, enumerate(spots), range(GRASP.headings)):
+        stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / GRASP.headings)
         tool = stood * grip
         found.append(Option(side, (_moved(tool, back), tool), links, number))
     return found
@@ -166,7 +149,7 @@ def _to_be_taken_again(cell: Cell, item: str, options: Sequence[Option], entry: 
         stood = option.poses[-1] * cell.in_tool(option.side, item)
         return max(sum(a * b for a, b in zip(stood.rotate(each), entry, strict=True)) for each in grasps)
 
-    return [option for option in options if along(option) > _ALONG]
+    return [option for option in options if along(option) > GRASP.min_alignment]
 
 
 def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
@@ -195,7 +178,7 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
 def _release(cell: Cell, side: str, item: str) -> None:
     cell.robot.let_go(side)
     cell.in_hand.pop(side, None)
-    cell.robot.open_gripper(side, FULL_GAP)  # a finger that still touches it would drag it along
+    cell.robot.open_gripper(side, MOTOR.gripper_gap)  # a finger that still touches it would drag it along
     cell.settle(item)
 
 
@@ -214,9 +197,11 @@ def _leave(cell: Cell, side: str, away: Vector | None, ignore: Links) -> None:
     here = cell.robot.tool(side)
     for share in (1.0, 0.5):
         goal = (
-            here * Pose((-BEFORE * share, 0.0, 0.0))
+            here * Pose((-GRASP.approach * share, 0.0, 0.0))
             if away is None
-            else _moved(here, (away[0] * LIFT * share, away[1] * LIFT * share, away[2] * LIFT * share))
+            else _moved(
+                here, (away[0] * GRASP.lift * share, away[1] * GRASP.lift * share, away[2] * GRASP.lift * share)
+            )
         )
         try:
             follow(cell, side, (goal,), ignore)

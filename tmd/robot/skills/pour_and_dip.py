@@ -7,44 +7,12 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import acos, cos, degrees, hypot, pi, sin
 
+from tmd.robot.parameters import POURING
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, with_room
-
-ABOVE = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.02), (0.03, 0.03), (0.01, 0.03))
-"""Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth on the
-hand's side. The best is first: under a spout there is little room."""
-TIPPED = (1.8, 1.3)
-"""Radians by which a thing is tipped, best first; a right angle is 1.57."""
-_SHAKEN = 0.5
-"""Radians by which what hangs from the hand is swung."""
-_ABOVE = (0.05, 0.02)
-"""Metres above a rim from which a spoon goes down."""
-DEEP = 0.02
-"""Metres that a spoon goes below a rim."""
-_WET = 0.005
-"""Metres from which it is in."""
-_INWARDS = 0.01
-"""Metres from where it pours to the middle of its head."""
-_LEANS = (0.9, 0.6, 0.3, 1.2, 0.0)
-"""Radians by which a spoon is dipped with its end down, best first."""
-_GRAZED = 0.003
-"""Metres that it may be in the rim."""
-_POURED = (0.6, 0.8, 1.0)
-"""How far an open thing is tipped before a niche, as a part of the whole: a half full one keeps what is in it."""
-_ENOUGH = 1.2
-"""Radians from which contents run out."""
-_RIM = 0.85
-"""The height of a rim, as a part of the height of the vessel with its handle."""
-_OUTSIDE = 0.18
-"""Metres in front of a niche."""
-_BESIDE = 0.04
-"""Metres that the mouth may be beside the rim of what it is held over."""
-_ENOUGH_WAYS = 6
-_HEADINGS = 8
-_STAGES = 4
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +47,7 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
         hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
         if hangs:
             return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
-        top = high[2] * (_RIM if cell.scene.holds_contents(item) else 1.0)
+        top = high[2] * (POURING.rim_height_share if cell.scene.holds_contents(item) else 1.0)
         return [_rim(low, high, top, axis) for axis in _axes(tool, middle)]
     far = high if tool.position[longest] < middle[longest] else low
     at, turn = list(middle), [0.0, 0.0, 0.0]
@@ -116,13 +84,13 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
 
     def options() -> list[Option]:
         found: list[Option] = []
-        for room in ABOVE:
+        for room in POURING.heights:
             found += with_room(cell, tip_options(cell, item, target, known, *room, closed=squeezed))
-            if len(found) >= _ENOUGH_WAYS:
+            if len(found) >= POURING.max_ways:
                 break
         return found
 
-    chosen = reach_for(cell, target, options, Pose(_over(cell, target, ABOVE[0][0])), attempt)
+    chosen = reach_for(cell, target, options, Pose(_over(cell, target, POURING.heights[0][0])), attempt)
     how = known[chosen.spot]
     if squeezed:
         cell.robot.close_gripper(side, _SQUEEZE)
@@ -133,7 +101,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
     said = (
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
-    if tilt < _ENOUGH or beside > _BESIDE:
+    if tilt < POURING.runs_out_from or beside > POURING.mouth_offset:
         raise SkillError(SkillPhase.EFFECT, said)
     return said.replace("its mouth 0.0 cm beside the rim of", "its mouth over")
 
@@ -150,17 +118,21 @@ def tip_options(
     grip = cell.in_tool(side, item).inverse()
     over = _over(cell, target, height)
     options = []
-    for angle, (index, how), number in product(TIPPED, enumerate(known), range(_HEADINGS)):
-        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+    for angle, (index, how), number in product(POURING.tilts, enumerate(known), range(POURING.headings)):
+        stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
         x, y, _ = stood.rotate(how.at)
         nearer = near / max(hypot(x, y), 0.01)
         at = (over[0] - x * nearer, over[1] - y * nearer, over[2])
-        for turned in (angle, -angle) if how.both else (angle if how.out[2] > 0 else _SHAKEN,):
-            poses = tuple(_over_rim(stood, how, at, turned * k / _STAGES) * grip for k in range(_STAGES + 1))
+        for turned in (angle, -angle) if how.both else (angle if how.out[2] > 0 else POURING.swing,):
+            poses = tuple(
+                _over_rim(stood, how, at, turned * k / POURING.stages) * grip for k in range(POURING.stages + 1)
+            )
             outside = before(cell, target, poses[0])
             options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
             if outside:
-                inside = [_over_rim(stood, how, at, turned * k) * grip for k in ((1.0,) if closed else _POURED)]
+                inside = [
+                    _over_rim(stood, how, at, turned * k) * grip for k in ((1.0,) if closed else POURING.outside_shares)
+                ]
                 (end,) = before(cell, target, inside[0])
                 start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
                 options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
@@ -179,7 +151,7 @@ def before(cell: Cell, target: str, first: Pose) -> tuple[Pose, ...]:
     if abs(z) > 0.5:
         return ()
     a, b, c = first.position
-    return (Pose((a - x * _OUTSIDE, b - y * _OUTSIDE, c), first.orientation),)
+    return (Pose((a - x * POURING.approach_in_niche, b - y * POURING.approach_in_niche, c), first.orientation),)
 
 
 _SQUEEZE = 40.0
@@ -192,13 +164,13 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
     how = _head(cell, item, _side(cell, item))
-    focus = Pose(_over(cell, target, _ABOVE[0]))
+    focus = Pose(_over(cell, target, POURING.dip_heights[0]))
     chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
     at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
     beside, below = _beside(cell, at, target), cell.top(target) - at[2]
     _go_back(cell, chosen)
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
-    if below < _WET or beside > 0.0:
+    if below < POURING.dipped_from or beside > 0.0:
         raise SkillError(SkillPhase.EFFECT, said)
     return said
 
@@ -208,7 +180,7 @@ def _head(cell: Cell, item: str, side: str) -> Mouth:
     mouth = mouths(cell, item, side)[0]
     low, _ = cell.scene.size(item)
     x, y, _ = mouth.at
-    short = 1.0 - _INWARDS / max(hypot(x, y), _INWARDS)
+    short = 1.0 - POURING.head_offset / max(hypot(x, y), POURING.head_offset)
     return replace(mouth, at=(x * short, y * short, low[2]))
 
 
@@ -218,20 +190,22 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
     ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
     inside = [
-        _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -DEEP), 0.0)
-        for lean, number in product(_LEANS, range(_HEADINGS))
+        _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -POURING.dip_depth), 0.0)
+        for lean, number in product(POURING.dip_leans, range(POURING.headings))
     ]
     touched = _depths(cell, item, target, inside)
     options = []
-    for height, (number, there) in product(_ABOVE, enumerate(inside)):
-        if touched[number] <= _GRAZED:
-            poses = tuple(_moved_up(pose * grip, by) for pose, by in ((there, height + DEEP), (there, 0.0)))
+    for height, (number, there) in product(POURING.dip_heights, enumerate(inside)):
+        if touched[number] <= POURING.rim_penetration:
+            poses = tuple(
+                _moved_up(pose * grip, by) for pose, by in ((there, height + POURING.dip_depth), (there, 0.0))
+            )
             options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
     return options
 
 
 def _heading(number: int) -> Pose:
-    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / _HEADINGS)
+    return Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
 
 
 def _depths(cell: Cell, item: str, target: str, poses: Sequence[Pose]) -> list[float]:

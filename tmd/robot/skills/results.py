@@ -73,7 +73,7 @@ class SkillStatus(StrEnum):
     DONE = "done"
     """Every instruction was done, and every effect confirmed."""
     RECOVERED = "recovered"
-    """Something was not as predicted, the plan was mended if need be, and every effect that it is for is confirmed."""
+    """Something was not as predicted, the executor replanned if needed, and every effect is confirmed."""
     STOPPED = "stopped"
     """It could not be done; the reason says why."""
 
@@ -86,7 +86,7 @@ class Execution:
         status: How it ended.
         reason: Why it stopped; empty where it did not.
         steps: One for each instruction that was tried, in order.
-        repairs: How often the plan was mended.
+        repairs: How often the executor replanned.
         state: The last state that was observed.
     """
 

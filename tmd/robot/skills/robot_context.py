@@ -11,6 +11,7 @@ from math import cos, hypot, sin
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
+from tmd.robot.parameters import ARTICULATION, BASE_MOTION, GRASP
 from tmd.robot.pr2.arm_motion import plan_line
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
@@ -19,27 +20,11 @@ from tmd.robot.scene.scene import Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.sim.simulator import WELD_FORCE, Simulator
 
-OPEN_SHARE = 0.6
-"""A joint is open from this share of its way on."""
-_SETTING_SHARE = 0.25
-"""A knob is at a setting when it is not farther from it than this share of the way to the next one."""
-
-_BACK = (0.1, 0.05, 0.025)
-"""Metres that a hand is drawn back from what it worked, best first."""
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
 """Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
 _LONG = 2000
 """Samples for a way of the arm where there is no other place to tuck it."""
-_STEPS_BACK = (0.12, 0.25, 0.4)
-"""Metres that the base goes back where the arms have no room."""
 _NEARBY = 300
-_SWEEP, _SWEEP_MARGIN = 0.05, 0.015
-"""A door is looked at every so many radians (a drawer: metres), and must stay so many metres away: its edge then
-passes nothing unseen, not even a spoon in the other hand."""
-_LIGHTLY = 1.0
-"""Newtons that the lid of a thing is lifted with, so that what it is on neither slides nor tips over."""
-_PINS = 0.015
-"""Metres from the middle of a knob to the two points that the fingers hold it at."""
 
 
 @dataclass(eq=False)
@@ -85,7 +70,7 @@ class Cell:
         handle = self.scene.handle(name)
         if handle is None or handle.kind in ("knob", "button"):
             return None
-        return self.way(name) >= OPEN_SHARE
+        return self.way(name) >= ARTICULATION.open_from
 
     def way(self, name: str) -> float:
         """How far a joint is on its way from closed (0) to open (1)."""
@@ -103,7 +88,7 @@ class Cell:
         angles = sorted(handle.settings.values())
         step = min((b - a for a, b in itertools.pairwise(angles)), default=1.0)
         name_, angle = min(handle.settings.items(), key=lambda pair: (abs(pair[1] - at), pair[0]))
-        return name_ if abs(angle - at) <= _SETTING_SHARE * step else None
+        return name_ if abs(angle - at) <= ARTICULATION.setting_share * step else None
 
     def reach(self, name: str) -> float:
         """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres.
@@ -159,7 +144,7 @@ class Cell:
             return True
         x, y, theta = self.robot.base()
         pressed = {(body, link) for _, body, link, _ in self.robot.collides() if body != self.robot.body}
-        for away in _STEPS_BACK:
+        for away in BASE_MOTION.tuck_steps_back:
             back = (x - away * cos(theta), y - away * sin(theta), theta)
             path = plan_base(self.robot, back, ignore=pressed, rng=self.rng, budget=_NEARBY)
             if path is not None and self.robot.drive(path) and self.robot.tuck():
@@ -172,7 +157,7 @@ class Cell:
         A hand that let go of a ``lid`` may as well leave it across: any other way would take along what it stands on.
         """
         here = self.robot.tool(side)
-        back: list[tuple[Vector, Ignored]] = [((-away, 0.0, 0.0), ignore) for away in _BACK]
+        back: list[tuple[Vector, Ignored]] = [((-away, 0.0, 0.0), ignore) for away in ARTICULATION.retreats]
         across: list[tuple[Vector, Ignored]] = [(away, ()) for away in _PAST]  # without pushing the lid
         for away, touched in (*back[:2], *(across if lid else ()), *back[2:]):
             path = plan_line(self.robot, side, here, here * Pose(away), ignore=touched)
@@ -189,10 +174,10 @@ class Cell:
                 yield
             return
         palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
-        apart = (-_PINS, _PINS) if handle.kind == "knob" else (0.0,)
+        apart = (-GRASP.knob_pin_offset, GRASP.knob_pin_offset) if handle.kind == "knob" else (0.0,)
         points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
         loose = handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
-        force = _LIGHTLY if loose else WELD_FORCE
+        force = GRASP.lid_force if loose else WELD_FORCE
         pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point, force) for point in points]
         try:
             yield
@@ -271,10 +256,10 @@ class Cell:
         helds = [held for held in self.robot.helds() if held.side != side]
         with self.robot.as_if(base):
             try:
-                for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / _SWEEP)):
+                for share in np.linspace(0.0, 1.0, 2 + int(abs(end - start) / ARTICULATION.sweep_step)):
                     self.sim.set_joint(handle.body, handle.index, start + float(share) * (end - start))
                     for body in (self.robot.body, *(held.body for held in helds)):
-                        near = self.sim.closest(body, handle.body, _SWEEP_MARGIN, other_link=handle.index)
+                        near = self.sim.closest(body, handle.body, ARTICULATION.sweep_margin, other_link=handle.index)
                         if any(body != self.robot.body or each.link not in own for each in near):
                             return True
             finally:

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 from itertools import chain, islice, pairwise, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
-from tmd.robot.pr2.arm_motion import DEEPEST, between, plan_arm, plan_poses
+from tmd.robot.parameters import ARM_MOTION, STANCE
+from tmd.robot.pr2.arm_motion import between, plan_arm, plan_poses
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
@@ -24,36 +25,11 @@ Base = tuple[float, float, float]
 Links = frozenset[tuple[int, int | None]]
 Accept = Callable[["Option", Base], bool]
 
-DISTANCES = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90, 1.0)
-"""Metres from the base to what is to be reached, best first."""
-SWINGS = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
-"""Radians off the front."""
-TURNS = (0.0, 0.35, -0.35)
-"""Radians that the base is turned away from what it faces, so that a shoulder does."""
-_FINE_DISTANCES = (0.44, 0.51, 0.58, 0.66, 0.74, 0.82, 0.90, 0.98)
 _FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
-_FINE_TURNS = (0.0, 0.35, -0.35, 0.7, -0.7)
-"""Of the places that are looked at where furniture leaves little room."""
-ABOVE_HAND = (0.10, 0.32, -0.1)
-"""Metres from the hand's height to the shoulder's, best first."""
-PATIENCE = 6000
-"""What a search may cost before it ends: about so many milliseconds."""
-_PRICES = (3, 15, 40)
-"""Of asking about a pose that has no posture, one whose postures touch something, and a motion."""
-_ALIKE = 0.15
-"""Metres between places that are as good as one."""
-MOST_TRIES = 6
-"""So many stances are driven to before a skill gives up."""
-_WAYS = ((0.05, 1.0), (0.02, 0.4), (0.008, 0.4))
-"""Metres that the base keeps from things, best first, and its pace there: where it keeps less, it drives exactly."""
 _COARSE = 4.0
 _SHORT, _LONG = 300, 2000
 """Samples for a way of the arm: where there are other stances to try, and where there is none."""
-_POSTURES = 8
-"""So many postures of one pose are looked at."""
 _SHOULDER_HEIGHT = 0.790675
-_RISE = 0.04
-"""Metres that the torso moves between two checks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -103,7 +79,7 @@ def reach(
         focus: What is to be reached.
         front: The heading of the side it is reached from, where it has one.
         attempt: How often this was tried before; later tries begin farther down the list.
-        stop: Go only to so many of the poses; the others must be possible from there.
+        stop: Number of poses to go to; the others must be possible from there.
         stay: Neither the base nor the torso may move.
         accept: Says of an option from a base whether it will do.
 
@@ -136,7 +112,7 @@ def reach(
                 failed.append(candidate)
             else:
                 return candidate.option
-        if len(failed) + len(closed) >= MOST_TRIES:
+        if len(failed) + len(closed) >= STANCE.max_tries:
             break
     if last.stage is SkillPhase.PATH and failed:
         return _insist(cell, failed[0], stop)
@@ -159,7 +135,7 @@ def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
         if key not in checkers:
             checkers[key] = HandChecker(cell.robot, *key)
         depths = checkers[key].depth(option.poses)
-        if not depths[-1] and max(depths) <= DEEPEST:
+        if not depths[-1] and max(depths) <= ARM_MOTION.start_penetration:
             found.append(option)
     return found
 
@@ -169,7 +145,7 @@ def candidates(
     options: Sequence[Option],
     focus: Pose,
     front: float | None,
-    patience: int = PATIENCE,
+    patience: int = STANCE.search_budget,
     *,
     stay: bool = False,
     accept: Accept | None = None,
@@ -205,7 +181,7 @@ def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
     here = cell.robot.base()
     usual = list(stances(cell, focus, front))
     yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
-    closer = list(_round(cell, focus, front, _FINE_DISTANCES, _FINE_SWINGS, _FINE_TURNS))
+    closer = list(_round(cell, focus, front, STANCE.fine_distances, _FINE_SWINGS, STANCE.fine_turns))
     yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
@@ -215,17 +191,19 @@ def _alike(one: StanceCandidate, other: StanceCandidate) -> bool:
 
 
 def _close(one: Base, other: Base) -> bool:
-    return hypot(one[0] - other[0], one[1] - other[1]) < _ALIKE
+    return hypot(one[0] - other[0], one[1] - other[1]) < STANCE.alike
 
 
-def stances(cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = DISTANCES) -> Iterator[Base]:
+def stances(
+    cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = STANCE.distances
+) -> Iterator[Base]:
     """Where to stand: here, then round the focus."""
     x, y, _ = focus.position
     here = cell.robot.base()
     if hypot(here[0] - x, here[1] - y) < 1.05:
         yield here
-    swings = SWINGS if front is not None else (*SWINGS, 1.6, -1.6, 2.2, -2.2, pi)
-    yield from _round(cell, focus, front, distances, swings, TURNS)
+    swings = STANCE.bearings if front is not None else (*STANCE.bearings, 1.6, -1.6, 2.2, -2.2, pi)
+    yield from _round(cell, focus, front, distances, swings, STANCE.turns)
 
 
 def _round(
@@ -267,7 +245,7 @@ def _drive(cell: Cell, base: Base) -> None:
     Raises:
         SkillError: There is no way, or the robot did not get there.
     """
-    for away, pace in _WAYS:
+    for away, pace in STANCE.clearances:
         path = plan_base(cell.robot, base, rng=cell.rng, clearance=away)
         if path is None:
             continue
@@ -288,9 +266,11 @@ def _lift(cell: Cell, torso: float) -> None:
 def _sticks(cell: Cell, torso: float) -> bool:
     """Whether the arms, or what they hold, would be in something on the way of the torso."""
     here = cell.robot.torso()
-    steps = ceil(abs(torso - here) / _RISE)
+    steps = ceil(abs(torso - here) / STANCE.torso_step)
     heights = [here + (torso - here) * step / steps for step in range(1, steps + 1)]
-    return any(depth > DEEPEST for height in heights for *_, depth in cell.robot.collides(torso=height))
+    return any(
+        depth > ARM_MOTION.start_penetration for height in heights for *_, depth in cell.robot.collides(torso=height)
+    )
 
 
 def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
@@ -332,21 +312,21 @@ def _take(cell: Cell, option: Option, stop: int | None, budget: int = _SHORT) ->
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:
     """Whether there is a posture for the last pose, and a motion through all of them; and what it cost to ask."""
     robot, side = cell.robot, option.side
-    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[:_POSTURES]
+    found = robot.solve(side, option.poses[-1], base=base, torso=torso)[: STANCE.max_postures]
     if not found:
-        return False, _PRICES[0]
+        return False, STANCE.prices[0]
     if not any(robot.clear(side, found, base=base, torso=torso, ignore=option.ignore)):
-        return False, _PRICES[1]
+        return False, STANCE.prices[1]
     poses = dense(option.poses, _COARSE)  # what lies in between is looked at once the robot is there
     rows = plan_poses(robot, side, poses, ignore=option.ignore, base=base, torso=torso)
-    return rows is not None, _PRICES[2]
+    return rows is not None, STANCE.prices[2]
 
 
 def _heights(cell: Cell, hand: float) -> list[float]:
     """Torso heights: as it is, then those that suit a hand at a height."""
     here = cell.robot.torso()
     found = [here]
-    for above in ABOVE_HAND:
+    for above in STANCE.shoulder_above_hand:
         height = min(max(hand + above - _SHOULDER_HEIGHT, 0.012), 0.3)
         if all(abs(height - other) > 0.04 for other in found):
             found.append(height)

@@ -29,7 +29,7 @@ _END = 0.5
 _PASSED_OVER = 1.5
 """What it costs to leave a clause without steps and go on to the next."""
 _PRIOR = 5.0
-"""So many instructions must a verb have been shown with to count as much as all verbs together."""
+"""Number of instructions that a verb must have been shown with to count as much as all verbs together."""
 _NEVER = -1e9
 
 

@@ -160,7 +160,7 @@ class Correction:
         """The first step that does not apply; ``None`` where all do."""
         return self._played(self.steps)[1]
 
-    def mend(self) -> tuple[Instruction, ...]:
+    def repair(self) -> tuple[Instruction, ...]:
         """Let the planner put in what is missing before the first step that does not apply.
 
         Returns:

@@ -33,7 +33,7 @@ _FORM = 1
 """The number of this form of draft."""
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _LARGEST = 1_000_000
-"""No draft has so many bytes."""
+"""Bytes that no draft has."""
 
 
 def place(corpus: Corpus) -> Path:

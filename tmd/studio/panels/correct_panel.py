@@ -128,7 +128,7 @@ class CorrectPanel:
 
     def _mend(self) -> None:
         with self._visitor.holding():
-            added = self._going().mend()
+            added = self._going().repair()
             self._refresh()
         said = ", ".join(str(instruction) for instruction in added)
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")

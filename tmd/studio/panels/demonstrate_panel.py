@@ -23,11 +23,11 @@ OWN = "(own words)"
 NONE = "(no object)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
 NUMBERED = 9
-"""So many of the instructions that apply have a hot key: 1 to 9."""
+"""Number of the instructions that apply with a hot key: 1 to 9."""
 _LOOK = 1.0
 """Seconds between two looks at learning that is under way."""
 _FEW = 4
-"""So many instructions of an action get a button each, those of the object itself before those of its parts."""
+"""Maximum number of instructions of an action with a button each; the object itself comes before its parts."""
 
 
 class DemonstratePanel:
@@ -74,7 +74,7 @@ class DemonstratePanel:
             self._when = gui.add_checkbox("Save the time as well", False)
             gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
             gui.add_button("Throw away").on_click(guarded(self.discard))
-        gui.add_button("Learn everything anew").on_click(guarded(self._retrain))
+        gui.add_button("Learn everything again").on_click(guarded(self._retrain))
         self._look_for_draft()
 
     def _texts(self) -> list[str]:
@@ -116,7 +116,7 @@ class DemonstratePanel:
             self._reel = Reel(visitor.setting)
             for handle in (self._edit, self._do, self._keep):
                 handle.visible = True
-            self._begin.label = "Begin anew"
+            self._begin.label = "Start over"
             self._resume.visible = False
             self.refresh()
 
@@ -301,6 +301,6 @@ class DemonstratePanel:
         def follow() -> None:
             while not training.wait(_LOOK):
                 visitor.tell(f"Learning from all demonstrations: {training.share:.0%}. Go on meanwhile.")
-            visitor.tell("Everything was learned anew; the next text uses it.", aloud=True)
+            visitor.tell("Everything was learned again; the next text uses it.", aloud=True)
 
         Thread(target=visitor.guarded(follow), args=(None,), daemon=True).start()

@@ -15,7 +15,7 @@ from tmd.studio.object_info import About
 from tmd.view.goals import ShownGoal
 
 MOST = 60
-"""So many instructions that do not apply are listed."""
+"""Maximum number of instructions listed that do not apply."""
 
 STYLE = """<style>
 .tmd-panel{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}

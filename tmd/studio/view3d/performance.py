@@ -81,8 +81,8 @@ class _Audience:
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
-        mend = "to mend the plan: " if title.repair else ""
-        self._tell(f"The robot, step {title.number} of {title.of}: {mend}{title.instruction}")
+        repair = "repair: " if title.repair else ""
+        self._tell(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: what it changed is seen."""
