@@ -1,4 +1,4 @@
-"""Tables of what was executed: in a terminal, and as Markdown for ``docs/execution.md``."""
+"""Tables of what was executed: in a terminal, and as Markdown for ``docs/results/execution.md``."""
 
 from __future__ import annotations
 

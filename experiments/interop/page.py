@@ -1,4 +1,4 @@
-"""The matrix as tables of ``docs/interop.md``."""
+"""The matrix as tables of ``docs/results/interop.md``."""
 
 from __future__ import annotations
 

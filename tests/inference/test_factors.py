@@ -32,6 +32,12 @@ def test_differences_count_states_that_only_one_can_have() -> None:
     assert shared(FULL, OTHER) == 1
 
 
+def test_every_factor_has_words_for_people() -> None:
+    titles = [energy.title(name) for name in energy.NAMES]
+    assert len(set(titles)) == len(titles)
+    assert not set(titles) & set(energy.NAMES)
+
+
 def test_delta_env_is_the_mean_over_variables() -> None:
     case = instantiation({"?z1": FULL, "?z2": FULL}, {"?z1": EMPTY, "?z2": FULL})
     assert energy.delta_env(case) == pytest.approx((2 / 3 + 0) / 2)

@@ -132,6 +132,32 @@ NAMES = (
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
 OURS = ("cover", "words", "generated", "unasked")
+_TITLES = {
+    "env": "environment distance",
+    "nl": "clause distance",
+    "sim": "parameter similarity",
+    "pcc": "parameter cardinality",
+    "dscpl": "description length",
+    "inpr": "instruction prior",
+    "para": "parameter prior",
+    "trim": "trimming",
+    "cons": "inconsistent end",
+    "cover": "objects not touched",
+    "words": "language model (-log P)",
+    "generated": "policy proposal",
+    "unasked": "changes not asked for",
+    "latent_dscpl": "latent description length",
+    "latent_inpr": "latent instruction prior",
+    "latent_para": "latent parameter prior",
+    "latent_cons": "latent inconsistent end",
+}
+
+
+def title(name: str) -> str:
+    """What people read for a factor; files and JSON have its name."""
+    return _TITLES.get(name, name)
+
+
 """Those of them that are not in the paper."""
 _RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
 

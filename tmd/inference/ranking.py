@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from tmd.goals.clause_goal import Refused
+from tmd.inference.energy import title
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
 
@@ -199,4 +200,4 @@ def why_lost(plan: RankedPlan, best: RankedPlan) -> str:
     clause = next((number for number, (ours, theirs) in pairs if ours.steps != theirs.steps), 0)
     if gap <= 0:
         return f"equal energy; another way for clause {clause}"
-    return f"energy {plan.energy - best.energy:+.4g}: {name} {gap:+.4g}, first for clause {clause}"
+    return f"energy {plan.energy - best.energy:+.4g}: {title(name)} {gap:+.4g}, first for clause {clause}"

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
+from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan
 from tmd.language.clause import Clause, Condition, Mood, Parsed, print_clause
 from tmd.pddl.model import Problem
@@ -146,6 +147,6 @@ def _plan_text(number: int, plan: RankedPlan, verdict: Verdict) -> str:
     for place, step in enumerate(plan.steps, start=1):
         origin = f"clause {step.clause + 1}{', latent' if step.latent else ''}"
         lines.append(f"  {place:>3}. {step.instruction!s:<{width}}  {origin}")
-    factors = ", ".join(f"{name} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
+    factors = ", ".join(f"{title(name)} {value:.4f}" for name, value in plan.factors.items() if rounded(value))
     lines.append(f"  energy by factor: {factors or 'nothing'}")
     return "\n".join(lines) + "\n"

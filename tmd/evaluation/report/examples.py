@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmd.evaluation.report.alignment import Mark, align
+from tmd.inference.energy import title
 from tmd.records.prediction import PredictedClause, PredictionRecord
 
 SHOWN = 10
@@ -121,7 +122,7 @@ def shown(line: PredictionRecord) -> Shown:
 
 def _clause(number: int, clause: PredictedClause, longest: float) -> ShownClause:
     bars = tuple(
-        Bar(name, value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
+        Bar(title(name), value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
     )
     total = sum(clause.factors.values()) if clause.factors else None
     return ShownClause(number, clause.text, clause.verb, clause.source, total, bars, len(clause.factors) - len(bars))

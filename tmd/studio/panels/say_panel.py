@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from tmd.diagnostics import TmdError
 from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
+from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan, Refusal
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.panels.context import PanelContext
@@ -53,7 +54,7 @@ def _factors(plans: Sequence[RankedPlan]) -> str:
         return ""
     head = "".join(f"<th scope='col'>plan {index}</th>" for index in range(1, len(plans) + 1))
     rows = [("energy", [f"<b>{number(plan.energy)}</b>" for plan in plans])]
-    rows += [(name, [number(plan.factors.get(name, 0.0)) for plan in plans]) for name in factors_of(plans)]
+    rows += [(title(name), [number(plan.factors.get(name, 0.0)) for plan in plans]) for name in factors_of(plans)]
     rows.append(("steps", [str(len(plan.steps)) for plan in plans]))
     body = "".join(
         f"<tr><th scope='row'>{escape(name)}</th>{''.join(f'<td>{value}</td>' for value in values)}</tr>"
@@ -76,7 +77,7 @@ def _choices(plan: RankedPlan) -> str:
     lines = []
     owners = [goal.clause for goal in plan.goals] or range(len(plan.choices))
     for owner, choice in zip(owners, plan.choices, strict=True):
-        parts = [f"{name} {number(value)}" for name, value in choice.factors.items() if round(value, 2)]
+        parts = [f"{title(name)} {number(value)}" for name, value in choice.factors.items() if round(value, 2)]
         source = choice.source if choice.source is not None else "no template"
         told = f"<b>{number(choice.energy)}</b> {escape(', '.join(parts))}<br>from {escape(source)}"
         lines.append(f"<li value='{owner + 1}'>{told}</li>")
