@@ -39,7 +39,7 @@ _FEWEST_WORDS = 3
 _ADVERB = 5
 """Longer words that end in *ly* are adverbs."""
 _FILLERS = (
-    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "be", "modals", "ensure",
+    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "interjections", "be", "modals", "ensure",
     "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
 )  # fmt: skip
 _JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])

@@ -20,6 +20,7 @@ _TAGS = frozenset(
      "all of them", "the lot", "all of it", "at the end", "in the end"}
 )  # fmt: skip
 """What may stand between commas, or at the end, and adds nothing to what shall be done."""
+_WOULD = frozenset({"would", "could", "can", "do"})
 _LIMITS = frozenset({"not more than", "no more than", "at most"})
 _KEEPING = frozenset(
     {"leave", "keep", "leaving", "keeping", "with", "find", "if", "when", "once", "until", "unless", "while"}
@@ -124,6 +125,26 @@ def _could_do_with(tokens: list[Token]) -> list[Token]:
         if [t.text for t in tokens[at : at + 3]] == ["could", "do", "with"] and tokens[at - 1].text in SPEAKERS:
             would, like = replace(tokens[at], text="would"), replace(tokens[at + 1], text="like")
             return [*tokens[:at], would, like, *tokens[at + 3 :]]
+    return tokens
+
+
+def _how_would(tokens: list[Token]) -> list[Token]:
+    """Read "how would you bring me a tea?" as "bring me a tea"."""
+    words = [t.text for t in tokens[:4]]
+    if words[:1] != ["how"] or words[1:2] == [] or words[1] not in _WOULD:
+        return tokens
+    at = 3 if words[2:3] == ["you"] else 2
+    verb = builtin().verb(words[at]) if at < len(words) else None
+    return tokens[at:] if verb is not None and verb[1] == "base" else tokens
+
+
+def _enough_of(tokens: list[Token]) -> list[Token]:
+    """Read "enough of the soup" as "the soup": how much that is, nobody said."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 2):
+        for lead in (["enough", "of"], ["plenty", "of"]):
+            if words[at : at + 2] == lead:
+                return [*tokens[:at], *_enough_of(tokens[at + 2 :])]
     return tokens
 
 
@@ -528,6 +549,8 @@ def named_where_taken_up(tokens: list[Token]) -> list[Token]:
 
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
+    _how_would,
+    _enough_of,
     _plain_copula,
     _whatever_is_so,
     _whatever,

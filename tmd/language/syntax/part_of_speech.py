@@ -27,6 +27,7 @@ _PERSONS = frozenset({"me", "us", "him", "her", "you"})
 _NARRATORS = frozenset({"he", "she", "they", "i", "we", "you"})
 _SERIAL = frozenset({"go", "come", "run", "help", "hurry"})
 """Verbs that only lead to the next one: "go get the cup"."""
+_SERVING = frozenset({"serve", "keep", "eat", "drink"})
 _DEGREES = frozenset({"really", "very", "quite", "too", "extremely"})
 _COLOURS = frozenset({"red", "blue", "green", "yellow", "orange", "pink", "brown", "black", "white", "grey", "gray"})
 
@@ -154,6 +155,12 @@ class Neighbours:
         """The adjectives before it belong to a verb: "is full"."""
         before = (t.kind for t in reversed(self.tokens[max(0, self.at - 4) : self.at]))
         return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
+
+    @property
+    def paired_state(self) -> bool:
+        """A state stands before the conjunction before it."""
+        before = [t.kind for t in self.tokens[max(0, self.at - 2) : self.at - 1]]
+        return before in ([Kind.PARTICIPLE], [Kind.ADJ])
 
     @property
     def later_verb(self) -> bool:
@@ -297,8 +304,8 @@ MODIFIERS = (
          lambda w: w.determined and _modifies(w) and w.text in ("upstairs", "downstairs"),
          "Open the *upstairs* window."),
     Rule(V, "first, and an object follows",
-         lambda w: w.token.kind is ADJ and w.token.form == "base" and w.sure > 1 and w.first and w.article,
-         "*Separate* the eggs."),
+         lambda w: w.token.kind is ADJ and w.token.form == "base" and w.sure > 1 and w.first
+         and (w.article or (w.particle and w.beyond.kind in _ARTICLES)), "*Separate* the eggs."),
     Rule(V, "somebody tells what was done",
          lambda w: w.token.kind is ADJ and w.token.form == "ed" and w.token.stem != ""
          and (w.left.kind is SUBJECT or (w.first and w.article)), "She *closed* the door."),
@@ -315,6 +322,7 @@ MODIFIERS = (
          "Wipe the *inside*."),
     Rule(N, "before a noun: which of several",
          lambda w: w.token.kind is ADV and w.among("keep_adjectives") and _modifies(w)
+         and not (w.left.kind is V and w.lexicon.particle(w.left.stem, w.text) is not None)  # "put back soap"
          and (w.text != "right" or w.right.text in section("keep_adjectives")
               or (w.left.kind in (P, V, CC, COMMA, N) and w.right.kind is WORD)), "Put the cup on *right* shelf."),
 )
@@ -365,6 +373,9 @@ ING_FORM = (
     Rule(N, "a noun follows: what kind that is",
          lambda w: w.left.kind in {STOP, CC, MOD} | _HEADS and w.noun_next
          and (w.among("ing_modifiers") or w.sure < 3), "Take the green *watering* can."),
+    Rule(N, "the kind of something in a list",
+         lambda w: w.left.kind is COMMA and w.noun_next and w.among("ing_modifiers") and w.sentence.verb,
+         "Mix the flour, *baking* soda and salt."),
     Rule(ING, "where a clause can begin, or behind the noun that it is said of",
          lambda w: w.left.kind in _ENDS | _HEADS | {MOD}, "The robot *holding* the cup."),
     Rule(N, "anything else is a noun", _always, "Take two *painting* brushes."),
@@ -405,6 +416,10 @@ THIRD_PERSON = (
     Rule(N, "a plural", _always, "Take the *slices*."),
 )
 BASE_FORM = (
+    Rule(ADJ, "the second of two states",
+         lambda w: w.left.kind is CC and w.sure < 3 and w.right.kind in _ENDS and w.paired_state
+         and not w.lexicon.is_noun(w.text),
+         "Stir it until it is blended and *smooth*."),
     # where only a verb can stand
     Rule(V, "behind a subject or a negation",
          lambda w: w.left.kind in (SUBJECT, Kind.NEG), "Do not *touch* the stove."),
@@ -432,6 +447,8 @@ BASE_FORM = (
     Rule(N, "what the verb of another clause acts on",
          lambda w: w.left.kind in (FINITE, ING, PARTICIPLE, ADJ), "While heating *water*, open the bag."),
     # behind let
+    Rule(V, "right behind *let*, and no noun follows",
+         lambda w: w.left.kind is LET and w.sure >= 2 and w.right.kind in _ENDS | {P, SUB, MOD}, "Let *cool* for an hour."),
     Rule(V, "the verb that *let* waits for",
          lambda w: w.sentence.let and w.left.kind in _HEADS | {TO} and (w.person or w.sure >= 2 or not w.opener),
          "Let the tea *steep*."),
@@ -439,6 +456,12 @@ BASE_FORM = (
     Rule(V, "behind *help me*", lambda w: w.sure >= 2 and w.helped != [], "Help me *fold* the towels."),
     Rule(V, "behind *go* and the like",
          lambda w: w.left.kind is V and w.left.stem in _SERIAL and w.sure >= 2, "Go *get* the cup."),
+    Rule(V, "a sure verb with an object, behind a verb without one",
+         lambda w: w.left.kind is V and w.left.strength > 1 and w.sure == 3 and w.right.text in ("the", "it", "them")
+         and not w.lexicon.is_noun(w.text), "Stir *wash* the pan."),
+    Rule(ADV, "in what state something is served",
+         lambda w: w.left.kind is V and w.left.stem in _SERVING and w.among("drop_adjectives")
+         and w.right.kind in _ENDS | {P}, "Serve *warm* with cream."),
     Rule(N, "what the verb before it acts on", lambda w: w.left.kind is V, "Add *water*."),
     # at the start of a sentence
     Rule(V, "a likely verb that comes first",
@@ -455,6 +478,11 @@ BASE_FORM = (
          lambda w: w.left.kind in (CC, COMMA) and w.right.kind is P
          and w.lexicon.particle(w.token.stem, w.right.text) is True,
          "Take the remote and *switch* on the tv."),
+    Rule(V, "behind *then* only an instruction can come",
+         lambda w: w.left.kind is CC and w.left.text == "then" and w.sure >= 2, "Boil the milk, then *reduce* heat."),
+    Rule(V, "a noun that is a verb here: *with* says what it is done with",
+         lambda w: w.left.kind is CC and w.right.text == "with" and w.among("with_verbs") and w.sentence.verb,
+         "Spread jam over the cake and *top* with cream."),
     Rule(V, "up, down or out follows, and then an object",
          lambda w: w.left.kind in (CC, COMMA) and w.right.text in ("up", "down", "out") and w.beyond.kind in _ARTICLES,
          "Take the cloth and *dust* down the shelf."),
@@ -474,6 +502,12 @@ BASE_FORM = (
     Rule(N, "behind a preposition", lambda w: w.left.kind in (P, TO), "Fill the cup with *water*."),
     # right behind an object, with no sign between: "open the oven put the pan inside"
     Rule(V, "an object follows", lambda w: w.object and not w.person, "Open the oven *put* the pan inside."),
+    Rule(N, "a known noun, and where: the second word of the object",
+         lambda w: w.left.kind is N and w.right.kind in (P, TO) and w.lexicon.is_noun(w.text)
+         and w.token.stem not in section("intransitive"), "Place the cheese *slice* on the plate."),
+    Rule(V, "a sure verb that needs no object, and nothing that it could belong to",
+         lambda w: w.sure == 3 and w.right.kind in _ENDS and w.left.kind is N
+         and w.token.stem in section("intransitive") and not w.lexicon.is_noun(w.text), "Turn to the left *go* straight."),
     Rule(V, "a sure verb without an object, and where, how long or how many",
          lambda w: w.sure == 3 and not w.person and not (w.among("drop_adjectives") and w.right.kind is P)
          and (w.right.kind in (P, NUM, ADJ) or (w.right.kind is MOD and w.right.form == "duration")

@@ -124,8 +124,10 @@ def _verb(stem: str, *sources: Token) -> Token:
 def _wish(tokens: list[Token]) -> list[Token]:
     """Read "I'd like some tea", "Grandma would like some tea", "can I have some tea" as "have some tea"."""
     for cut in range(len(tokens) - 2, 0, -1):  # "open the door, but I'd like the window shut"
-        joint = tokens[cut - 1].kind in (Kind.CC, Kind.COMMA) and tokens[cut].text in _SPEAKERS
-        if joint and any(t.kind in (Kind.V, Kind.LET) for t in tokens[:cut]):
+        joint = tokens[cut - 1].kind in (Kind.CC, Kind.COMMA)
+        wished = tokens[cut].text in _SPEAKERS and any(t.kind in (Kind.V, Kind.LET) for t in tokens[:cut])
+        asked = tokens[cut].text in _MAY and tokens[cut + 1].text in _SPEAKERS  # "tea is fine, can I have one?"
+        if joint and (wished or asked):
             return [*_wish(tokens[:cut]), *_wish(tokens[cut:])]
     for at, token in enumerate(tokens):
         lead = [t for t in tokens[:at] if t.kind not in (Kind.ADV, Kind.FILLER)]

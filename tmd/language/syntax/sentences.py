@@ -15,6 +15,7 @@ _ASKING = frozenset({"can", "could", "may", "should", "shall"})
 _NOTHING = {"any": "no", "anything": "nothing", "a": "no", "an": "no"}
 _POSTURES = frozenset({"left", "lying", "standing", "sitting", "around", "about", "remaining"})
 _STANDING = frozenset({"lies", "stands", "sits", "hangs", "lying", "standing", "sitting", "hanging"})
+_SURE = frozenset({"sure", "ensure", "certain", "that"})
 _PLACING = frozenset({"in", "on", "under", "next_to", "next", "inside", "beside", "behind", "at", "near", "by"})
 _BEHIND_LEFT = frozenset({"of", "alone", "untouched", "where", "as"})
 """Behind which *left* is a side, or says that nothing is done."""
@@ -171,6 +172,13 @@ def _with_copulas(tokens: list[Token]) -> list[Token]:
         stem = token.text.removesuffix("'s")
         follows = after.text if after is not None and after.kind is Kind.WORD else ""
         ends = at + 2 >= len(tokens) or tokens[at + 2].kind in BREAKS or tokens[at + 2].text in JOINTS
+        ensured = token.text in ("it's", "they're") and result[-2:-1] != [] and result[-2].text in _SURE
+        if ensured:  # "make sure it's empty"
+            cut = token.span.start + len(token.text.split("'")[0])
+            subject, copula = ("it", "is") if token.text == "it's" else ("they", "are")
+            result[-1:] = [replace(token, text=subject, span=token.span._replace(end=cut))]
+            result.append(Token(Kind.WORD, copula, token.span._replace(start=cut)))
+            continue
         verbal = follows.endswith("ing") and (ends or follows not in section("nouns") | section("ing_modifiers"))
         plain = stem != token.text and token.text not in section("be") | section("let_verbs") and stem != "let"
         if plain and (verbal or follows in _IS_BEFORE | section("prepositions")):

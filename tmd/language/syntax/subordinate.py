@@ -207,6 +207,8 @@ class _Folder:
         while scan < len(self.tokens):
             token = self.tokens[scan]
             if token.kind is Kind.SUBJECT:
+                if scan and self.tokens[scan - 1].text in section("modals") and self.tokens[scan - 1].kind is Kind.FILLER:
+                    return None  # "can you find the cup": asked, not told
                 verb = self._peek(scan, _AFTER_SUBJECT)
                 noticing = verb < len(self.tokens) and self.tokens[verb].stem in section("noticing")
                 lead = self._peek(verb)
@@ -244,8 +246,15 @@ class _Folder:
             verb = token.kind is Kind.V and self.tokens[end - 1].kind not in (Kind.TO, Kind.AUX, Kind.NEG)
             if verb or (token.kind in (Kind.CC, Kind.COMMA) and follows in (Kind.V, Kind.SUBJECT, Kind.SUB)):
                 break
+            if token.kind is Kind.COMMA and self._asks(end + 1):
+                break
             end += 1
         return end
+
+    def _asks(self, at: int) -> bool:
+        """Tell whether a question begins here: "…, could you bring one"."""
+        modal = self._kind(at) is Kind.AUX and self.tokens[at].text in section("modals")
+        return modal and self._kind(at + 1) in (Kind.SUBJECT, Kind.PRON)
 
     def _condition(self, at: int) -> int:
         token = self.tokens[at]

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from itertools import pairwise
 from typing import NamedTuple
@@ -120,6 +120,9 @@ _UNMARKED = {
 }  # fmt: skip
 """Contractions as people write them in a hurry."""
 
+_CLITICS = frozenset({"s", "n't"})
+"""What stands by itself where contractions were cut in two."""
+
 _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
@@ -140,6 +143,12 @@ def tokenise(text: str) -> list[Token]:
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
         word = _UNMARKED.get(word, word)
+        if word in _CLITICS and tokens and tokens[-1].kind is Kind.WORD and text[span.start - 1] in "'\u2019 ":
+            before = tokens[-1]  # "let 's", "do n't": cut by a program
+            apart = before.text + ("'" if word == "s" else "") + word
+            if word != "s" or text[span.start - 1] != " ":
+                tokens[-1] = replace(before, text=apart, span=Span(before.span.start, span.end))
+                continue
         if word in _DONE and len(tokens) > 1 and tokens[-1].text == "its" and tokens[-2].text in _WHEN:
             its = tokens.pop().span  # as people write it: "when its done"
             tokens += [
@@ -294,6 +303,7 @@ CLASSES = (
     ClassRule(Kind.ADJ, "its superlative", _is_superlative, "dirtiest"),
     ClassRule(Kind.ADJ, "its comparative", _is_comparative, "louder"),
     ClassRule(Kind.P, "a preposition", _in("prepositions"), "under"),
+    ClassRule(Kind.ADV, "an interjection", _in("interjections"), "okay"),
     ClassRule(Kind.ADV, "an adverb, and no verb", lambda w: w in section("adverbs") - section("verbs"), "slowly"),
     ClassRule(Kind.WORD, "its neighbours decide (part_of_speech.py)", lambda _: True, "cup"),
 )
@@ -310,7 +320,8 @@ def _words(*names: str) -> str:
 # atomic groups, not possessive quantifiers: these Python 3.11.2 matches wrongly around alternatives
 _LEAD = f"(?>(?:{_words('before_measure')})*)"
 _NUMBER = rf"(?:\d[^ ]*(?<!st)(?<!nd)(?<!rd)(?<!th) |{_words('numbers')})"
-_NUMBERS = f"(?>(?:{_NUMBER})+)(?>(?:(?<=half )an? )?)"
+_NUMBERS = f"(?>(?:{_NUMBER})+)(?>(?:(?:to|or|-|\u2013) (?:{_NUMBER})+)?)(?>(?:(?<=half )an? )?)"
+"""Also "3 to 5"."""
 _FRACTION = r"(?:\d[^ ]*/[^ ]*|half|quarters?|thirds?) "
 _FEW = "(?![^ ]+ of )(?>(?:(?:more|full) (?!$))?)"
 """Not "two minutes of it"; but "two more minutes"."""
@@ -363,7 +374,7 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     tagged: list[Token] = []
     position = 0
     while position < len(tokens):
-        merged, used = _phrase(tokens, position)
+        merged, used = _phrase(tokens, position, lexicon)
         if merged is None:
             merged, used = _run(tokens, position)
         if merged is None:
@@ -403,11 +414,13 @@ def _misspelt_from(tokens: list[Token]) -> None:
             token.kind, token.text, token.stem, token.strength = Kind.P, "from", "", 0
 
 
-def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
+def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Token | None, int]:
     best: tuple[Token | None, int] = (None, 0)
     for name, kind in _PHRASES:
         for words in phrases(name).get(tokens[at].text, ()):
             run = tokens[at : at + len(words)]
+            if words == ("on", "to") and _infinitive_follows(tokens, at + 2, lexicon):
+                continue
             measured = kind is Kind.ADV and tokens[at + len(words) :][:1] and tokens[at + len(words)].text == "of"
             if measured:
                 continue
@@ -416,6 +429,13 @@ def _phrase(tokens: list[Token], at: int) -> tuple[Token | None, int]:
                 token.text = _SPELLING.get(token.text, token.text)
                 best = token, len(words)
     return best
+
+
+def _infinitive_follows(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
+    """Tell "put the kettle on to boil" from "put the book on to the shelf"."""
+    verb = lexicon.verb(tokens[at].text) if at < len(tokens) else None
+    ends = at + 1 >= len(tokens) or tokens[at + 1].kind in (Kind.STOP, Kind.COMMA)
+    return verb is not None and verb[1] == "base" and (verb[2] == 3 or (verb[2] == 2 and ends))
 
 
 def _run(tokens: list[Token], at: int) -> tuple[Token | None, int]:
@@ -446,6 +466,8 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
         token.form = NAME
     if token.kind in (Kind.WORD, Kind.ADJ):
         reading = lexicon.verb(word)
+        if reading is None and "_" in word and lexicon.particle(*word.split("_", 1)) is not None:
+            reading = word, "base", 3  # "pick-up the plate"
         if reading is None and "_" in word:
             # "deep-fry", "hard-boil": what stands before the hyphen says how
             last = lexicon.verb(word.rpartition("_")[2])
