@@ -1,4 +1,4 @@
-"""Measure which tools take our exports, and write the tables of docs/results/interop.md: ``python -m experiments.interop``.
+"""Measure which tools take our exports, and write docs/results/interop.md: ``python -m experiments.interop``.
 
 The tools stand in ``requirements.txt`` beside this file; ``--python`` names the interpreter that has them. What was
 measured is kept in the working directory; remove it to measure again.

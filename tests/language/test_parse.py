@@ -188,6 +188,26 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("Put the pen in the chest, no wait, in the crate.", ["(put, [pen, crate], in: pen -> crate)"]),
         ("Put the pen, I mean the rope, in the chest.", ["(put, [rope, chest], in: rope -> chest)"]),
         ("Tidy the shed: put the rake on the hook.", ["(put, [rake, hook], on: rake -> hook)"]),
+        ("How would you fetch me a rope?", ["(fetch, [me, rope], to: rope -> me)"]),
+        ("Rope is the best thing, can I have some rope?", ["(have, [rope])"]),
+        ("Can you find the rake and hang it on the hook?", ["(find, [rake])", "(hang, [it, hook], on: it -> hook)"]),
+        ("Alright, let 's oil the hinge.", ["(oil, [hinge])"]),
+        ("Hang the pastry slice on the hook.", ["(hang, [pastry_slice, hook], on: pastry_slice -> hook)"]),
+        ("Mix the sand, baking powder and gravel.", ["(mix, [sand, baking_powder, gravel])"]),
+        (
+            "Turn to the left go straight then turn to the right.",
+            ["(turn, [left], to: -> left)", "(go, [])", "(turn, [right], to: -> right)"],
+        ),
+        ("Turn around and face the shed.", ["(turn_around, [])", "(face, [shed])"]),
+        ("Soak the rope for 3 to 5 hours.", ["(soak, [rope])"]),
+        ("Take two or three ropes.", ["(take, [rope])"]),
+        ("Put back rope.", ["(put_back, [rope])"]),
+        ("Put the pan on to boil.", ["(put_on, [pan])"]),
+        ("Stir the paint until it is blended and smooth.", ["(stir, [paint])"]),
+        ("Let dry for an hour.", ["(dry, [])"]),
+        ("Clean the pane, then polish glass.", ["(clean, [pane])", "(polish, [glass])"]),
+        ("pick-up rope", ["(pick_up, [rope])"]),
+        ("Oil the <b>hinge</b> &amp; the lock \U0001f642.", ["(oil, [hinge, lock])"]),
     ],
 )
 def test_requests_are_read_in_whatever_form_they_come(text: str, expected: list[str]) -> None:
@@ -554,3 +574,85 @@ def test_segment_marks_change_nothing(text: str) -> None:
 def test_a_long_text_gives_every_clause() -> None:
     parsed = parse("Take the cup and put it on the table. " * 1300)
     assert len(parsed.clauses) == 2600
+
+
+@pytest.mark.parametrize(
+    ("text", "forbidden"),
+    [
+        ("Refrain from touching the saw.", "(touch, [saw])"),
+        ("Stop watering the fern.", "(water, [fern])"),
+        ("No climbing on the shed.", "(climb, [shed], on: -> shed)"),
+        ("Hands off the saw!", "(touch, [saw])"),
+        ("Under no circumstances open the shed.", "(open, [shed])"),
+        ("Use neither the saw nor the drill.", "(use, [saw, drill])"),
+        ("Take care that you don't break the pane.", "(break, [pane])"),
+    ],
+)
+def test_what_is_forbidden_is_no_instruction(text: str, forbidden: str) -> None:
+    parsed = parse(text)
+    assert not parsed.clauses
+    assert [print_clause(c) for c in parsed.constraints] == [forbidden]
+    assert all(c.mood is Mood.AVOID for c in parsed.constraints)
+
+
+@pytest.mark.parametrize("text", ["You needn't oil the saw.", "You don't have to oil the saw."])
+def test_what_need_not_be_done_is_neither_done_nor_forbidden(text: str) -> None:
+    parsed = parse(text)
+    assert not parsed.clauses and not parsed.constraints
+    assert [piece.reason for piece in parsed.skipped] == ["says what need not be done"]
+
+
+def test_signs_that_are_no_words_are_told() -> None:
+    parsed = parse("Oil the <b>saw</b> \U0001f642")
+    assert [piece.text for piece in parsed.skipped] == ["<b>", "</b> \U0001f642"]
+    assert {piece.reason for piece in parsed.skipped} == {"a sign, not a word"}
+
+
+_THING = st.sampled_from(["cup", "red box", "rope", "saw", "garden chair", "bottle", "old lamp", "book"])
+_PLACE = st.sampled_from(["in the shed", "on the shelf", "under the bench", "into the crate", "next to the door"])
+_DEED = st.sampled_from(["wash", "take", "put away", "clean", "bring", "close", "move", "switch off"])
+
+
+def _printed(text: str) -> list[str]:
+    return [print_clause(clause) for clause in parse(text).clauses]
+
+
+@given(_DEED, _THING, _THING)
+def test_politeness_and_case_change_nothing(deed: str, thing: str, other: str) -> None:
+    plain = _printed(f"{deed} the {thing} and the {other}")
+    assert plain
+    for text in (f"Please {deed} the {thing} and the {other}.", f"{deed} the {thing} and the {other} please",
+                 f"Could you {deed} the {thing} and the {other}?", f"{deed} THE {thing} AND the {other}".upper(),
+                 f"okay, now {deed} the {thing} and the {other}!"):  # fmt: skip
+        assert _printed(text) == plain, text
+
+
+@given(_THING, _THING, _PLACE)
+def test_swapped_conjuncts_swap_the_objects(thing: str, other: str, place: str) -> None:
+    first, second = (
+        parse(f"Put the {thing} and the {other} {place}."),
+        parse(f"Put the {other} and the {thing} {place}."),
+    )
+    assert set(first.clauses[0].objects) == set(second.clauses[0].objects)
+    assert set(first.clauses[0].relations) == set(second.clauses[0].relations)
+
+
+@given(_DEED, _THING, st.sampled_from(["Do not", "Don't", "Never", "Please do not", "You must not", "You mustn't"]))
+def test_a_negation_turns_an_instruction_into_a_constraint(deed: str, thing: str, negation: str) -> None:
+    said, denied = parse(f"{deed} the {thing}."), parse(f"{negation} {deed} the {thing}.")
+    assert not denied.clauses
+    assert [print_clause(c) for c in denied.constraints] == [print_clause(c) for c in said.clauses]
+
+
+@given(_DEED, _THING, st.sampled_from(["except", "but", "apart from", "except for"]))
+def test_an_exception_adds_what_is_excepted_and_nothing_else(deed: str, thing: str, word: str) -> None:
+    name = parse(f"{deed} the {thing}").clauses[0].objects[0]
+    (clause,) = parse(f"{deed} everything {word} the {thing}.").clauses
+    assert clause.objects == ("everything", name)
+    assert [tuple(relation)[1:] for relation in clause.relations] == [("everything", name)]
+
+
+@given(_DEED, _THING, _THING)
+def test_a_condition_stays_with_its_instruction(deed: str, thing: str, other: str) -> None:
+    (clause,) = parse(f"If the {other} is dirty, {deed} the {thing}.").clauses
+    assert clause.condition and print_clause(clause) == _printed(f"{deed} the {thing}")[0]

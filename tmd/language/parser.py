@@ -22,7 +22,7 @@ from tmd.language.syntax.pronouns import resolve
 from tmd.language.syntax.requests import rewrite_requests
 from tmd.language.syntax.sentences import drop_headings, drop_taken_back, rewrite_words
 from tmd.language.syntax.subordinate import fold_subordinates, read_prohibitions, read_subordinates
-from tmd.language.syntax.tokens import Kind, Token, drop_repeats, tag, tokenise
+from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tag, tokenise
 
 _DEEPEST = 3
 """So deep may subordinate clauses stand in one another."""
@@ -39,8 +39,8 @@ _FEWEST_WORDS = 3
 _ADVERB = 5
 """Longer words that end in *ly* are adverbs."""
 _FILLERS = (
-    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "interjections", "be", "modals", "ensure",
-    "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
+    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "interjections", "be", "modals",
+    "ensure", "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
 )  # fmt: skip
 _JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
 
@@ -66,7 +66,9 @@ def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
 
 
 def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
-    kept, repeated = drop_repeats(tokenise(text))
+    cut = tokenise(text)
+    markup = [t for t in cut if t.note]
+    kept, repeated = drop_repeats([t for t in cut if not t.note])
     kept, taken_back = drop_taken_back(kept)
     kept, headings = drop_headings(kept)
     for token in repeated:
@@ -94,7 +96,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
         read_subordinates(found, words, read)
     clauses = resolve(found, text, [t for t in folded if t.kind is Kind.SKIP])
     constraints, understood = read_prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
-    rest = [t for t in (*folded, *repeated, *taken_back, *headings) if t not in understood]
+    rest = [t for t in (*folded, *markup, *repeated, *taken_back, *headings) if t not in understood]
     return Parsed(text, clauses, _skipped(text, clauses, rest), constraints)
 
 
@@ -173,7 +175,7 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         if not noted and (token.kind in (Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC) or _all_filler(token)):
             continue
         reason = token.note or NO_VERB
-        if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span):
+        if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
             pieces[-1] = (Span(pieces[-1][0].start, token.span.end), reason)
         else:
             pieces.append((token.span, reason))
@@ -184,9 +186,9 @@ def _all_filler(token: Token) -> bool:
     return token.kind is not Kind.MOD and all(is_filler(word) for word in token.text.split())
 
 
-def _adjacent(text: str, before: Span, after: Span) -> bool:
+def _adjacent(text: str, before: Span, after: Span, reason: str) -> bool:
     between = text[before.end : after.start]
-    return not any(sign in between for sign in ".!?;")
+    return not between.strip() if reason == MARKUP else not any(sign in between for sign in ".!?;")
 
 
 def _merge(spans: list[Span]) -> list[Span]:

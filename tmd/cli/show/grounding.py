@@ -8,7 +8,7 @@ from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan
-from tmd.language.clause import Clause, Condition, Mood, Parsed, print_clause
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, print_clause
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula, format_problem
@@ -44,6 +44,7 @@ def _notes(clause: Clause) -> list[str]:
     """What else was said: what pronouns mean, the state that something shall be in, when and how."""
     return [
         *(f"{name} = {' + '.join(clause.meant(name))}" for name in clause.antecedents if name),
+        *(f"no {name}" for name, phrase in clause.phrases.items() if phrase.quantifier is Quantifier.NONE),
         *([f"state: {clause.result}"] if clause.result else []),
         *(["or"] if clause.alternative else []),
         *(["otherwise"] if clause.otherwise else []),

@@ -20,6 +20,11 @@ _TAGS = frozenset(
      "all of them", "the lot", "all of it", "at the end", "in the end"}
 )  # fmt: skip
 """What may stand between commas, or at the end, and adds nothing to what shall be done."""
+_FORBIDDING = {
+    "refrain from": "ing", "stop": "ing", "quit": "ing", "no": "ing",
+    "under no circumstances": "base", "on no account": "base", "at no time": "base",
+}  # fmt: skip
+"""What forbids the verb behind it, and the form of that."""
 _WOULD = frozenset({"would", "could", "can", "do"})
 _LIMITS = frozenset({"not more than", "no more than", "at most"})
 _KEEPING = frozenset(
@@ -55,10 +60,43 @@ _BEHIND = section("prepositions") | JOINTS
 
 def _none_of(tokens: list[Token]) -> list[Token]:
     """Read "none of the lamps should be on" as "no lamps should be on"."""
-    if [t.text for t in tokens[:2]] != ["none", "of"]:
+    at = next((i for i in range(len(tokens) - 2) if [t.text for t in tokens[i : i + 2]] == ["none", "of"]), None)
+    if at is None:
         return tokens
-    determined = tokens[2:3] != [] and tokens[2].text in section("determiners")
-    return [replace(tokens[0], text="no"), *tokens[3 if determined else 2 :]]
+    determined = tokens[at + 2].text in section("determiners")
+    return [*tokens[:at], replace(tokens[at], text="no"), *tokens[at + (3 if determined else 2) :]]
+
+
+def _neither(tokens: list[Token]) -> list[Token]:
+    """Read "use neither the knife nor the fork" as "do not use the knife or the fork"."""
+    words = [t.text for t in tokens]
+    for at in range(1, len(words) - 3):
+        verb = builtin().verb(words[at - 1])
+        if words[at] == "neither" and "nor" in words[at:] and verb is not None and verb[1] == "base":
+            lead = [replace(tokens[at - 1], text=word) for word in ("do", "not")]
+            rest = [replace(t, text="or") if t.text == "nor" else t for t in tokens[at + 1 :]]
+            return [*tokens[: at - 1], *lead, tokens[at - 1], *rest]
+    return tokens
+
+
+def _forbidden(tokens: list[Token]) -> list[Token]:
+    """Read "refrain from touching it", "stop touching it", "no touching", "hands off it" as "do not touch it"."""
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1):
+        if at and tokens[at - 1].kind not in BREAKS and words[at - 1] not in JOINTS | {"please", "and"}:
+            continue
+        count = next((n for n in (3, 2, 1) if " ".join(words[at : at + n]) in _FORBIDDING), 0)
+        verb = builtin().verb(words[at + count]) if count and at + count < len(words) else None
+        if count and verb is not None and verb[1] in (_FORBIDDING[" ".join(words[at : at + count])], "base"):
+            if verb[1] == "base" and words[at] in ("no", "stop", "quit", "refrain"):
+                continue
+            lead = [replace(tokens[at], text=word) for word in ("do", "not")]
+            rest = tokens[at + count :]
+            return [*tokens[:at], *lead, replace(rest[0], text=verb[0]), *rest[1:]]
+        if words[at : at + 2] == ["hands", "off"] and at + 2 < len(words):
+            lead = [replace(tokens[at], text=word) for word in ("do", "not", "touch")]
+            return [*tokens[:at], *lead, *tokens[at + 2 :]]
+    return tokens
 
 
 def _but_there(tokens: list[Token]) -> list[Token]:
@@ -550,6 +588,8 @@ def named_where_taken_up(tokens: list[Token]) -> list[Token]:
 IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
     _without_tags,
     _how_would,
+    _forbidden,
+    _neither,
     _enough_of,
     _plain_copula,
     _whatever_is_so,

@@ -448,7 +448,8 @@ BASE_FORM = (
          lambda w: w.left.kind in (FINITE, ING, PARTICIPLE, ADJ), "While heating *water*, open the bag."),
     # behind let
     Rule(V, "right behind *let*, and no noun follows",
-         lambda w: w.left.kind is LET and w.sure >= 2 and w.right.kind in _ENDS | {P, SUB, MOD}, "Let *cool* for an hour."),
+         lambda w: w.left.kind is LET and w.sure >= 2 and w.right.kind in _ENDS | {P, SUB, MOD},
+         "Let *cool* for an hour."),
     Rule(V, "the verb that *let* waits for",
          lambda w: w.sentence.let and w.left.kind in _HEADS | {TO} and (w.person or w.sure >= 2 or not w.opener),
          "Let the tea *steep*."),
@@ -507,7 +508,8 @@ BASE_FORM = (
          and w.token.stem not in section("intransitive"), "Place the cheese *slice* on the plate."),
     Rule(V, "a sure verb that needs no object, and nothing that it could belong to",
          lambda w: w.sure == 3 and w.right.kind in _ENDS and w.left.kind is N
-         and w.token.stem in section("intransitive") and not w.lexicon.is_noun(w.text), "Turn to the left *go* straight."),
+         and w.token.stem in section("intransitive") and not w.lexicon.is_noun(w.text),
+         "Turn to the left *go* straight."),
     Rule(V, "a sure verb without an object, and where, how long or how many",
          lambda w: w.sure == 3 and not w.person and not (w.among("drop_adjectives") and w.right.kind is P)
          and (w.right.kind in (P, NUM, ADJ) or (w.right.kind is MOD and w.right.form == "duration")

@@ -18,6 +18,7 @@ from tmd.language.syntax.tokens import Kind, Token, fold
 
 REMINDER = "names a thing, and not what to do with it"
 NEGATED = "says what not to do"
+UNNEEDED = "says what need not be done"
 STATEMENT = "a statement, not an instruction"
 RELATIVE = "relative"
 """The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
@@ -26,6 +27,7 @@ ADDRESS = "addresses somebody"
 
 _NOMINAL = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.P, Kind.ADV, Kind.MOD})
 _WHITHER = frozenset({"to", "into", "onto", "off", "out_of"})
+_DO_NOT = frozenset({"don't", "dont", "doesn't", "not"})
 _NAMING = frozenset({"call", "name", "label", "mark", "title"})
 _AFTER_SUBJECT = frozenset({Kind.AUX, Kind.ADV, Kind.SUBJECT})
 _INSIDE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON, Kind.ADV, Kind.CC})
@@ -207,7 +209,11 @@ class _Folder:
         while scan < len(self.tokens):
             token = self.tokens[scan]
             if token.kind is Kind.SUBJECT:
-                if scan and self.tokens[scan - 1].text in section("modals") and self.tokens[scan - 1].kind is Kind.FILLER:
+                if (
+                    scan
+                    and self.tokens[scan - 1].text in section("modals")
+                    and self.tokens[scan - 1].kind is Kind.FILLER
+                ):
                     return None  # "can you find the cup": asked, not told
                 verb = self._peek(scan, _AFTER_SUBJECT)
                 noticing = verb < len(self.tokens) and self.tokens[verb].stem in section("noticing")
@@ -389,7 +395,9 @@ class _Folder:
             if contrast and follows in (Kind.V, Kind.SUBJECT, Kind.SUB):
                 break
             end += 1
-        return self._fold(at, end, Kind.SKIP, NEGATED)
+        words = [t.text for t in self.tokens[at : at + 3]]
+        unneeded = words[0] == "needn't" or (words[0] in _DO_NOT and words[1:3] in (["have", "to"], ["need", "to"]))
+        return self._fold(at, end, Kind.SKIP, UNNEEDED if unneeded else NEGATED)
 
     def _ing(self, at: int) -> int:
         token, before = self.tokens[at], self.out[-1] if self.out else None

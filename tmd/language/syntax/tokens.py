@@ -102,7 +102,7 @@ class Token:
 
 
 _TOKEN = re.compile(
-    r"(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
+    r"(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
     r"|(?P<word>[^\W\d_]+(?:['\u2019\-_][^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
@@ -120,6 +120,8 @@ _UNMARKED = {
 }  # fmt: skip
 """Contractions as people write them in a hurry."""
 
+MARKUP = "a sign, not a word"
+"""Why HTML, entities and pictures are skipped."""
 _CLITICS = frozenset({"s", "n't"})
 """What stands by itself where contractions were cut in two."""
 
@@ -140,8 +142,15 @@ def tokenise(text: str) -> list[Token]:
         kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
             match.lastgroup or "", Kind.WORD
         )
+        if match.lastgroup == "markup" and word != "&amp;":
+            tokens.append(Token(Kind.SKIP, word, span, note=MARKUP))
+            continue
+        if word == "&amp;":
+            kind, word = Kind.CC, "&"
         if len(word) > _LONG_WORD:
             word = word[:_LONG_WORD]
+        if kind is Kind.NUM:
+            word = word.replace(",", ".")  # a name of a thing has no comma
         word = _UNMARKED.get(word, word)
         if word in _CLITICS and tokens and tokens[-1].kind is Kind.WORD and text[span.start - 1] in "'\u2019 ":
             before = tokens[-1]  # "let 's", "do n't": cut by a program
@@ -381,6 +390,9 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
             merged, used = tokens[position], 1
             if merged.kind is Kind.WORD:
                 _tag_word(merged, lexicon)
+            if merged.kind is Kind.NUM and _range(tokens, position, tagged):
+                merged, used = fold(tokens[position : position + 3], Kind.NUM), 3
+                merged.text = merged.inner[0].text  # "two or three eggs": as few as will do
             starts = not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC)
             if merged.kind is Kind.SUB and merged.text in lexicon.verbs and starts:
                 # "Till the bed": the domain has such a verb
@@ -429,6 +441,19 @@ def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Token | Non
                 token.text = _SPELLING.get(token.text, token.text)
                 best = token, len(words)
     return best
+
+
+def _is_open(word: str) -> bool:
+    """Tell whether no list of closed classes has a word."""
+    return next(rule.tag for rule in CLASSES if rule.when(word)) in (Kind.WORD, Kind.ADJ)
+
+
+def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
+    """Tell "take two or three eggs" and "3-4 plates" from "take cup 1 or 2"."""
+    words = [t.text for t in tokens[at + 1 : at + 4]]
+    spoken = not before or before[-1].kind is not Kind.WORD or before[-1].strength == 3
+    joined = len(words) == 3 and words[0] in ("or", "to", "-", "\u2013") and _is_number(words[1])
+    return joined and spoken and tokens[at + 3].kind is Kind.WORD and _is_open(words[2])
 
 
 def _infinitive_follows(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
