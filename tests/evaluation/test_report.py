@@ -165,7 +165,7 @@ def test_predictions_are_shown_step_by_step(page: str) -> None:
     ]
     energy = Reader(shown[shown.index('class="energy"') :][:900]).said()
     assert "energy 3.75" in energy
-    assert re.search(r"env 3\.25 nl 0\.5 1 factor is 0", energy)
+    assert re.search(r"environment distance 3\.25 clause distance 0\.5 1 factor is 0", energy)
 
 
 def test_a_page_with_texts_of_others_says_so(tmp_path: Path) -> None:

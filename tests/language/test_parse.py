@@ -207,6 +207,17 @@ def test_a_question_may_be_a_condition(text: str, condition: str | None, otherwi
         ("Let dry for an hour.", ["(dry, [])"]),
         ("Clean the pane, then polish glass.", ["(clean, [pane])", "(polish, [glass])"]),
         ("pick-up rope", ["(pick_up, [rope])"]),
+        ("Fe\u200btch the ro\u00adpe.", ["(fetch, [rope])"]),
+        ("I'm looking for a rope.", ["(have, [rope])"]),
+        ("We're in the mood for cider", ["(have, [cider])"]),
+        ("I could use a rope.", ["(have, [rope])"]),
+        ("I'm tired and you should oil the hinge.", ["(oil, [hinge])"]),
+        ("I'm finished with the rake, hang it on the hook.", ["(hang, [it, hook], on: it -> hook)"]),
+        (
+            "Put crates, ropes and rakes on it.",
+            ["(put, [crate, rope, rake, it], on: crate -> it, on: rope -> it, on: rake -> it)"],
+        ),
+        ("Fetch a rope and an opener.", ["(fetch, [rope, opener])"]),
         ("Oil the <b>hinge</b> &amp; the lock \U0001f642.", ["(oil, [hinge, lock])"]),
     ],
 )
@@ -400,6 +411,7 @@ def test_folds(text: str, field: str, value: str) -> None:
         ("возьми чашку и поставь", FOREIGN),
         ("cups", NO_VERB),
         ("The cup is on the table.", "a statement, not an instruction"),
+        ("I'm cold.", "a statement, not an instruction"),
     ],
 )
 def test_no_clause_but_a_reason(text: str, reason: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from tests.view.reading import Reader
 from tmd.grounded import Grounded
+from tmd.inference.energy import title
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.view.candidates import candidates, factors_of, grouped
@@ -21,7 +22,7 @@ def test_plans_have_their_energies_factors_and_reasons(grounded: Grounded) -> No
         assert ranked.why in reader.text
         assert all(f"{choice.energy:.2f}" in reader.text for choice in ranked.choices)
     for name in factors_of(grounded.plans):
-        assert name in reader.text
+        assert title(name) in reader.text
     assert all(refusal.reason in reader.text for refusal in grounded.refusals)
 
 

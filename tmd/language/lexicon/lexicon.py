@@ -173,7 +173,7 @@ class Lexicon:
         swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
         if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
             return swapped[0]
-        if word.endswith("s") and (stem := self.correct(word[:-1])):
+        if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
             return stem + "s"
         group = self._by_initial.get(word[0], ())
         near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from tmd.language.lexicon.lexicon import builtin, section
 from tmd.language.syntax.attachment import is_number
@@ -20,6 +21,7 @@ _TAGS = frozenset(
      "all of them", "the lot", "all of it", "at the end", "in the end"}
 )  # fmt: skip
 """What may stand between commas, or at the end, and adds nothing to what shall be done."""
+_TAG_OPENERS = frozenset(tag.split()[0] for tag in _TAGS)
 _FORBIDDING = {
     "refrain from": "ing", "stop": "ing", "quit": "ing", "no": "ing",
     "under no circumstances": "base", "on no account": "base", "at no time": "base",
@@ -154,15 +156,29 @@ def _not_done_yet(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
+_WISHING = frozenset(
+    ["could do with", "could use", "feel like", "wish for", "hope for", "long for", "hoping for"]
+    + [
+        f"{be} {wish}"
+        for be in ("am", "are", "i'm", "we're")
+        for wish in ("after", "looking for", "in the mood for", "dying for", "hoping for")
+    ]
+)
+"""What wishes are said by, behind "I" and "we"."""
+
+
 def _could_do_with(tokens: list[Token]) -> list[Token]:
     """Read "I could do with a tea", "how about a tea" as "I would like a tea"."""
     if [t.text for t in tokens[:2]] in (["how", "about"], ["what", "about"]) and len(tokens) > 2:
         lead = [replace(tokens[0], text="i"), replace(tokens[0], text="would"), replace(tokens[1], text="like")]
         return [*lead, *tokens[2:]]
-    for at in range(1, len(tokens) - 3):
-        if [t.text for t in tokens[at : at + 3]] == ["could", "do", "with"] and tokens[at - 1].text in SPEAKERS:
+    words = [t.text for t in tokens]
+    for at in range(len(words) - 1):
+        length = next((n for n in range(5, 1, -1) if " ".join(words[at : at + n]) in _WISHING), 0)
+        if length and (at == 0 or words[at - 1] in SPEAKERS or words[at].startswith(("i'", "we'"))):
+            said = [] if at and words[at - 1] in SPEAKERS else [replace(tokens[at], text="i")]
             would, like = replace(tokens[at], text="would"), replace(tokens[at + 1], text="like")
-            return [*tokens[:at], would, like, *tokens[at + 3 :]]
+            return [*tokens[:at], *said, would, like, *tokens[at + length :]]
     return tokens
 
 
@@ -263,7 +279,8 @@ def _without_tags(tokens: list[Token]) -> list[Token]:
     result: list[Token] = []
     at = 0
     while at < len(tokens):
-        length = next((n for n in (4, 3, 2, 1) if " ".join(t.text for t in tokens[at : at + n]) in _TAGS), 0)
+        ahead = [t.text for t in tokens[at : at + 4]] if tokens[at].text in _TAG_OPENERS else []
+        length = next((n for n in range(len(ahead), 0, -1) if " ".join(ahead[:n]) in _TAGS), 0)
         end = at + length
         begins = not result or result[-1].kind in BREAKS
         ends = end >= len(tokens) or tokens[end].kind in BREAKS or tokens[end].text in ("and", "but")
@@ -585,40 +602,68 @@ def named_where_taken_up(tokens: list[Token]) -> list[Token]:
     return tokens
 
 
-IDIOMS: tuple[Callable[[list[Token]], list[Token]], ...] = (
-    _without_tags,
-    _how_would,
-    _forbidden,
-    _neither,
-    _enough_of,
-    _plain_copula,
-    _whatever_is_so,
-    _whatever,
-    _same_noun,
-    _at_most,
-    _all_but_one,
-    _bare_ordinal,
-    _one_of_them,
-    _last_state,
-    _none_of,
-    _in_with,
-    _but_there,
-    _needing,
-    _not_done_yet,
-    _could_do_with,
-    _one_of_many,
-    _so_should,
-    _with_them,
-    _everything_else,
-    _coming_off,
-    _heat,
-    _left_out,
-    _as_low_as_it_goes,
-    _another_of,
-    _listed_adjectives,
-    _which_goes,
-    _swapped,
-    _another,
-    _gets,
+class Idiom(NamedTuple):
+    """How sentences with certain words are put plainly.
+
+    Attributes:
+        read: From the tokens of a sentence to those that are read instead.
+        words: A sentence without any of these is left as it is; empty for all sentences.
+    """
+
+    read: Callable[[list[Token]], list[Token]]
+    words: frozenset[str] = frozenset()
+
+
+def _on(read: Callable[[list[Token]], list[Token]], *words: str) -> Idiom:
+    return Idiom(read, frozenset(words))
+
+
+IDIOMS = (
+    _on(_without_tags, *_TAG_OPENERS),
+    _on(_how_would, "how"),
+    _on(_forbidden, "refrain", "stop", "quit", "no", "hands"),
+    _on(_neither, "neither"),
+    _on(_enough_of, "enough", "plenty"),
+    _on(_plain_copula, "is", "are", "happens", "happen", "end", "wind", "lie", "stand", "sit", *_LYING),
+    _on(_whatever_is_so, "whatever", "everything", "anything"),
+    _on(_whatever, "whatever"),
+    _on(_same_noun, "other", "empty", "free"),
+    _on(_at_most, "more", "most"),
+    _on(_all_but_one, "all"),
+    _on(_bare_ordinal, *_ORDINALS),
+    _on(_one_of_them, "one"),
+    _on(_last_state, *_CLOSING),
+    _on(_none_of, "none"),
+    _on(_in_with, "with"),
+    _on(_but_there, "there"),
+    _on(_needing, "needs", "need"),
+    _on(_not_done_yet, "been"),
+    _on(_could_do_with, "about", *{word for phrase in _WISHING for word in phrase.split()} - {"for", "the", "in"}),
+    _on(_one_of_many, "of"),
+    _on(_so_should, "so"),
+    _on(_with_them, "with"),
+    _on(_everything_else, "else", "rest"),
+    _on(_coming_off, "come"),
+    _on(_heat, "heat"),
+    _on(_left_out, "out", *_OMITTING),
+    _on(_as_low_as_it_goes, "as"),
+    _on(_another_of, "of"),
+    _on(_listed_adjectives, ","),
+    _on(_which_goes, "which"),
+    _on(_swapped, "swap", "exchange"),
+    _on(_another, "another"),
+    _on(_gets, "gets", "get"),
 )
 """What is done with each sentence, in this order."""
+
+
+def put_plainly(sentence: list[Token], idioms: Sequence[Idiom]) -> list[Token]:
+    """Read a sentence by all idioms that its words call for, one after the other."""
+    words = {t.text for t in sentence}
+    for idiom in idioms:
+        if idiom.words and idiom.words.isdisjoint(words):
+            continue
+        read = idiom.read(sentence)
+        if read is not sentence:
+            sentence, words = read, {t.text for t in read}
+    return sentence

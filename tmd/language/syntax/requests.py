@@ -76,7 +76,7 @@ def _telegram(tokens: list[Token]) -> list[Token]:
         verb = _unspoken(part)
         after = result[-1] if result else token
         listed = after is not None and after.kind is Kind.COMMA
-        plain = part[:1] != [] and part[0].kind not in (Kind.DET, Kind.NUM)
+        plain = part[:1] != [] and part[0].kind not in (Kind.DET, Kind.NUM) and not _goes_on_listing(result, part)
         again = len(result) > 1 and {result[-1].text, result[-2].text} & _SIDES  # "the tv on and the lamp off"
         fronted = not result and token is not None and any(t.text in ("into", "onto") for t in part)
         state = verb is not None and verb.stem in _SWITCHED.values() and not result and not spoken
@@ -85,6 +85,17 @@ def _telegram(tokens: list[Token]) -> list[Token]:
         result += part if token is None else [*part, token]
         part = []
     return result
+
+
+def _goes_on_listing(result: list[Token], part: list[Token]) -> bool:
+    """Whether a part ends a list: "put the plates, cups and spoons *in the box*", and not "…, lamp in the box"."""
+    before = result[:-1]
+    start = max((i + 1 for i, t in enumerate(before) if t.kind in (Kind.COMMA, Kind.STOP)), default=0)
+    verb = next((t for t in before[start:] if t.kind is Kind.V), None)
+    places = any(t.kind in (Kind.P, Kind.TO) for t in before[start:])
+    joined = any(t.kind is Kind.CC for t in part)
+    listed = joined or (verb is not None and verb.stem in section("placing") | section("moving"))
+    return listed and not places and (verb is not None or len(before) > 0)
 
 
 def _accompanied(part: list[Token]) -> bool:

@@ -6,7 +6,17 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.lexicon.lexicon import builtin, section
-from tmd.language.syntax.idioms import BREAKS, IDIOMS, JOINTS, PRONOUNS, SPEAKERS, asked_and_told, named_where_taken_up
+from tmd.language.syntax.idioms import (
+    BREAKS,
+    IDIOMS,
+    JOINTS,
+    PRONOUNS,
+    SPEAKERS,
+    Idiom,
+    asked_and_told,
+    named_where_taken_up,
+    put_plainly,
+)
 from tmd.language.syntax.subordinate import STATEMENT
 from tmd.language.syntax.tokens import Kind, Token, fold
 
@@ -41,6 +51,7 @@ _CORRECTIONS = frozenset(
     {"no wait", "wait no", "no sorry", "sorry no", "no actually", "actually no", "scratch that", "no hang on",
      "on second thought", "on second thoughts", "forget that", "no i mean", "i mean"}
 )  # fmt: skip
+_CORRECTING = frozenset(phrase.split()[0] for phrase in _CORRECTIONS)
 _SUMMARIES = frozenset({"clear", "tidy", "clean", "sort", "set", "arrange", "organise", "organize"})
 _MODALS = frozenset({"should", "must", "may", "can", "shall"})
 _END_STATES = frozenset({"open", "closed", "shut", "on", "off", "locked", "unlocked", "full", "empty", "lit", "clean"})
@@ -57,7 +68,7 @@ def drop_taken_back(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
     """
     words = [t.text for t in tokens]
     for at in range(1, len(tokens) - 2):
-        end = _correction(words, at)
+        end = _correction(words, at) if words[at] in _CORRECTING or words[at] in (",", "-", "–") else 0
         if not end or tokens[at - 1].kind not in (*BREAKS, Kind.COMMA) or end + 1 >= len(tokens):
             continue
         stops = [i + 1 for i in range(at - 1) if tokens[i].kind is Kind.STOP]
@@ -124,9 +135,7 @@ def rewrite_words(tokens: list[Token]) -> list[Token]:
         if asked is not None:
             tokens = asked
             continue
-        sentence = tokens[start:end]
-        for rewrite in _SENTENCES:
-            sentence = rewrite(sentence)
+        sentence = put_plainly(tokens[start:end], _SENTENCES)
         tokens = [*tokens[:start], *sentence, *tokens[end:]]
     tokens = _noun_there(tokens)
     for before, token, after in zip(tokens, tokens[1:], [*tokens[2:], None], strict=False):
@@ -217,22 +226,30 @@ def _of_oneself(tokens: list[Token]) -> list[Token]:
         return tokens
     if asks or _speaks_of_oneself(tokens):
         begin = 0
-    breaks = (i for i in range(begin, len(tokens)) if tokens[i].kind in BREAKS or words[i] in ("so", "but"))
+    breaks = (
+        i
+        for i in range(begin, len(tokens))
+        if tokens[i].kind in BREAKS
+        or words[i] in ("so", "but")
+        or (words[i] == "and" and words[i + 1 : i + 2] in (["you"], ["please"], ["can"], ["could"]))
+    )
     end = len(tokens) - 1 if asks else next(breaks, len(tokens))
     said = fold(tokens[begin:end], Kind.SKIP, " ")
     said.note = STATEMENT
-    said.inner = [t for t in said.inner if t.text not in ("go", "gone")]  # "where did the mug go": no "mug go"
+    said.inner = [
+        t for t in said.inner if t.text not in _WE_ARE | {"go", "gone", "done", "finished"}
+    ]  # "where did the mug go": no "mug go"
     return [*tokens[:begin], said, *tokens[end:]]
 
 
 def _speaks_of_oneself(tokens: list[Token]) -> bool:
     words = [t.text for t in tokens[:4]]
     start = 2 if words[:2] in (["i", "am"], ["we", "are"]) else 1 if words[:1] and words[0] in _WE_ARE else 0
-    going = start > 0 and words[start : start + 2] in (["going", "to"], ["about", "to"])
+    being = start > 0 and len(words) > start  # "I'm thirsty", "I'm going to make pasta"
     unable = len(words) > 1 and words[0] in SPEAKERS and words[1] in _UNABLE
     indifferent = len(words) > 2 and words[0] in SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
     getting = words[:2] in (["it's", "getting"], ["its", "getting"]) or words[:3] == ["it", "is", "getting"]
-    return going or unable or indifferent or getting  # "it's getting cold in here"
+    return being or unable or indifferent or getting  # "it's getting cold in here"
 
 
 def _absent(tokens: list[Token]) -> list[Token]:
@@ -512,15 +529,15 @@ def _complement(tokens: list[Token]) -> int:
 
 
 _SENTENCES = (
-    _passive_question,
+    Idiom(_passive_question, frozenset({"be"})),
     *IDIOMS,
-    _absent,
-    _negative_state,
-    _coordinated_states,
-    _unwanted,
-    _lovely,
-    _given,
-    _not_about,
-    _of_oneself,
+    Idiom(_absent, frozenset({"nothing", "no", "none"})),
+    Idiom(_negative_state),
+    Idiom(_coordinated_states, frozenset({"be"})),
+    Idiom(_unwanted, frozenset({"want"})),
+    Idiom(_lovely, frozenset({"would"})),
+    Idiom(_given, frozenset({"give"})),
+    Idiom(_not_about, frozenset({"leave"})),
+    Idiom(_of_oneself),
 )
 """What is done with each sentence, in this order."""

@@ -10,6 +10,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import lru_cache
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -103,7 +104,7 @@ class Token:
 
 _TOKEN = re.compile(
     r"(?P<markup></?[a-z][^<>]*>|&(?:[a-z]+|#\d+);|[\U0001F000-\U0001FAFF\u2600-\u27BF\uFE0F\u200D]+)|(?P<ordinal>\d+(?:st|nd|rd|th)\b)|(?P<num>\d+(?:[.,/:]\d+)*)"
-    r"|(?P<word>[^\W\d_]+(?:['\u2019\-_][^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
+    r"|(?P<word>[^\W\d_]+(?:['\u2019\-_\u00ad\u200b-\u200d\u2060\ufeff]+[^\W\d_]+)*['\u2019]?)|(?P<stop>[.!?;:…]+)|(?P<comma>[,\u2013\u2014()\[\]/]|-)"
     r"|(?P<cc>[&+])|(?P<unit>[%°])",
     re.UNICODE | re.IGNORECASE,
 )
@@ -129,6 +130,8 @@ _RUN = 3
 """Repeated runs of at least this many words are slips."""
 _LONGEST_RUN = 120
 
+_UNSEEN = {0x2019: "'"} | dict.fromkeys((0xAD, 0x200B, 0x200C, 0x200D, 0x2060, 0xFEFF))
+"""Signs that only a printer sees, such as a soft hyphen, are no part of a word."""
 _LONG_WORD = 60
 _TITLE_SHARE = 0.4
 """A text with more capitals than this says nothing by them."""
@@ -138,7 +141,7 @@ def tokenise(text: str) -> list[Token]:
     """Cut a text into tokens. Everything between them is blank or a sign without meaning here."""
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
-        span, word = Span(*match.span()), match.group().lower().replace("\u2019", "'")
+        span, word = Span(*match.span()), match.group().lower().translate(_UNSEEN)
         kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
             match.lastgroup or "", Kind.WORD
         )
@@ -369,6 +372,8 @@ RUNS = (
 )
 """Runs of words that say how long, how much or when."""
 _PATTERNS = tuple((rule.form, re.compile(rule.pattern)) for rule in RUNS)
+_MEASURING = section("before_measure") | section("before_time") | section("numbers") | {"a", "an", "at", "by", "half"}
+"""What :data:`RUNS` begin with, beside figures."""
 _LONGEST_PHRASE = 8
 
 
@@ -431,6 +436,8 @@ def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Token | Non
     for name, kind in _PHRASES:
         for words in phrases(name).get(tokens[at].text, ()):
             run = tokens[at : at + len(words)]
+            if words[:2] == ("take", "care") and [t.text for t in tokens[at + 2 : at + 3]] == ["of"]:
+                continue
             if words == ("on", "to") and _infinitive_follows(tokens, at + 2, lexicon):
                 continue
             measured = kind is Kind.ADV and tokens[at + len(words) :][:1] and tokens[at + len(words)].text == "of"
@@ -443,9 +450,15 @@ def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Token | Non
     return best
 
 
+@lru_cache(maxsize=1 << 14)
+def _first_class(word: str) -> Kind:
+    """The class that the first row of :data:`CLASSES` that holds gives a word."""
+    return next(rule.tag for rule in CLASSES if rule.when(word))
+
+
 def _is_open(word: str) -> bool:
     """Tell whether no list of closed classes has a word."""
-    return next(rule.tag for rule in CLASSES if rule.when(word)) in (Kind.WORD, Kind.ADJ)
+    return _first_class(word) in (Kind.WORD, Kind.ADJ)
 
 
 def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
@@ -465,6 +478,9 @@ def _infinitive_follows(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
 
 def _run(tokens: list[Token], at: int) -> tuple[Token | None, int]:
     """Fold what :data:`RUNS` has: "for about 3 minutes", "to 180 degrees", "at 6 pm"."""
+    first = tokens[at].text
+    if not (first[0].isdigit() or first in _MEASURING):
+        return None, 0
     words = "".join(f"{token.text.replace(' ', '_')} " for token in tokens[at : at + _LONGEST_PHRASE])
     for form, pattern in _PATTERNS:
         if match := pattern.match(words):
@@ -484,7 +500,7 @@ def _tag_word(token: Token, lexicon: Lexicon) -> None:
         return
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
     word = token.text = (corrected or word).replace("-", "_")
-    token.kind = next(rule.tag for rule in CLASSES if rule.when(word))
+    token.kind = _first_class(word)
     if token.kind is Kind.WORD and word.endswith("ly") and len(word) > 5 and not lexicon.is_noun(word):
         token.kind = Kind.ADV
     if token.capital and token.kind is Kind.WORD and not lexicon.knows(singular(word)):
