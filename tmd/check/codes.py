@@ -95,6 +95,7 @@ _WARNINGS = {
     "ambiguous-domain": "several domains have the name that a problem gives",
     "unserved-verb": "a verb that no action and no demonstration serves",
     "unknown-target": "a noun that leads to nothing in the domain",
+    "unread-noun": "a name of a class that is not read as a noun where it is said",
     "impossible-goal": "a goal of a verb, or an adjective, that nothing in any environment can fulfil",
     "domain-not-found": "the domain of a problem is not there to check it against",
 }

@@ -11,6 +11,9 @@ from typing import Protocol
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Findings
 from tmd.diagnostics import Location, TmdError
+from tmd.language import parse, print_clause
+from tmd.language.lexicon.file import read_lexicon
+from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.pddl.model import Domain, Problem, State
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
@@ -113,6 +116,28 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
     folder.__dict__["classes"] = classes
     for _ in derive_rules(folder):
         pass
+    _check_nouns(source, classes, read_lexicon(folder.lexicon_path, folder.kinds))
+
+
+def _check_nouns(source: YamlSource, classes: Classes, lexicon: Lexicon) -> None:
+    """Each name of a class, part or substance must be read as the object of a plain instruction."""
+    entries = classes.entries
+    relations = section("prepositions") | section("particles")
+    named: dict[str, tuple[str | int, ...]] = {
+        name: ("substances",) for name in entries.substances if name not in relations
+    }
+    for name, entry in entries.classes.items():
+        named[name] = ("classes", name)
+        named |= {part: ("classes", name, "parts", part) for part in entry.parts}
+    for name, path in named.items():
+        words = name.rstrip("0123456789").replace("-", "_").strip("_").split("_")
+        read = parse(f"Take the {' '.join(words)}.", lexicon).clauses
+        heads = {o.rpartition("_")[2] for clause in read for o in clause.objects}
+        if len(read) != 1 or read[0].verb != "take" or not heads & {words[-1], singular(words[-1])}:
+            message = f"'{' '.join(words)}' is not read as a thing: \"Take the {' '.join(words)}.\" gives "
+            message += ", ".join(print_clause(clause) for clause in read) or "no clause"
+            hint = "give it another name, or list it under `nouns` of lexicon.yaml"
+            source.fault(source.error(path, message, hint, "unread-noun"))
 
 
 def check_compiled(folder: DomainFolder) -> None:

@@ -15,7 +15,7 @@ from typing import NoReturn
 import yaml
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.lexicon.lexicon import Declared, Lexicon, singular
+from tmd.language.lexicon.lexicon import Declared, Lexicon, section, singular
 
 KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
@@ -97,7 +97,13 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
         TmdError: The file cannot be read, is not valid YAML, has an unknown key or a value of the wrong kind.
     """
     lexicon = Lexicon() if path is None else _read(Path(path))
-    return replace(lexicon, kinds=frozenset(name.replace("-", "_").rpartition("_")[2] for name in kinds))
+    named = [tuple(name.lower().replace("-", "_").split("_")) for name in kinds]
+    between = section("particles") | section("prepositions")
+    return replace(
+        lexicon,
+        kinds=frozenset(words[-1] for words in named),
+        compounds=frozenset(words for words in named if between & {*words[:-1]} and words[-1] not in between),
+    )
 
 
 def _read(path: Path) -> Lexicon:

@@ -74,7 +74,8 @@ class Lexicon:
         attributes: What adjectives mean, as conditions of ``?x``.
         groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
         source: The file it came from.
-        kinds: Names of types and constants of the domain: what is called so is a noun, be it a verb as well.
+        kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
+        compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
     """
 
     verbs: frozenset[str] = frozenset()
@@ -86,10 +87,23 @@ class Lexicon:
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     source: str = ""
     kinds: frozenset[str] = frozenset()
+    compounds: frozenset[tuple[str, ...]] = frozenset()
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
         return self.verb_synonyms.get(verb, self.phrasal.get(verb, verb))
+
+    def names_thing(self, word: str) -> bool:
+        """Whether the domain has things that are called so."""
+        return word in self.kinds or word in self.nouns or word in self.groups
+
+    @cached_property
+    def compound_lengths(self) -> dict[str, tuple[int, ...]]:
+        """For the first word of each name of several words, how many words such names have."""
+        found: dict[str, set[int]] = {}
+        for words in self.compounds:
+            found.setdefault(words[0], set()).add(len(words))
+        return {first: tuple(sorted(lengths, reverse=True)) for first, lengths in found.items()}
 
     @cached_property
     def goal_verbs(self) -> frozenset[str]:

@@ -404,13 +404,24 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
                 merged.kind, merged.stem, merged.form, merged.strength = Kind.WORD, merged.text, "base", 2
         tagged.append(merged)
         position += used
-    _compounds(tagged)
+    _compounds(tagged, lexicon)
     _misspelt_from(tagged)
     return tagged
 
 
-def _compounds(tokens: list[Token]) -> None:
-    """Keep the first word of "light bulb", which is dropped elsewhere, and of names ("Canada Dry")."""
+def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
+    """Keep the first word of "light bulb", which is dropped elsewhere, and all of names ("Canada Dry")."""
+    for before, token, after in zip(tokens, tokens[1:], [*tokens[2:], None], strict=False):
+        ends = after is None or after.kind not in (Kind.WORD, Kind.N, Kind.ADJ)
+        if before.kind is Kind.DET and ends and token.kind is not Kind.WORD and lexicon.names_thing(token.text):
+            token.kind, token.stem, token.strength = Kind.N, "", 0  # "lock the safe", "open the till"
+    texts = [t.text for t in tokens]
+    for at in range(len(texts) if lexicon.compounds else 0):
+        for length in lexicon.compound_lengths.get(texts[at], ()):
+            words = (*texts[at : at + length - 1], singular(texts[min(at + length, len(texts)) - 1]))
+            if words in lexicon.compounds:
+                for token in tokens[at : at + length]:
+                    token.kind, token.stem, token.strength = Kind.N, "", 0
     for before, first, second in zip(tokens, tokens[1:], tokens[2:], strict=False):
         if before.kind is Kind.DET and first.text in ("third", "quarter") and second.kind is Kind.WORD:
             first.kind, first.stem, first.strength = Kind.N, "", 0  # "the third burner" is no fraction
