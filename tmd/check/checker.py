@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -129,11 +130,13 @@ class Checker:
         domains: The directory of all domains; the usual one by default.
         domain: The file of the domain of all problems, where it shall not be looked for.
         problems: The directory of all problems; the usual one by default.
+        given: Files that are checked together: a problem that nothing else has a domain for is of one of these.
     """
 
     domains: Path | None = None
     domain: Path | None = None
     problems: Path | None = None
+    given: Sequence[Path] = ()
     findings: Findings = field(default_factory=Findings)
     files: dict[Path, None] = field(default_factory=dict)
     _checked: dict[Path, CheckedDomain | None] = field(default_factory=dict)
@@ -216,6 +219,8 @@ class Checker:
     def _problem(self, file: Path, text: str) -> None:
         name = domain_name(text)
         found = FoundDomain(self.domain) if self.domain else find_domain_file(file, name, self.domains)
+        if found.file is None and not found.others:
+            found = FoundDomain(self._meant(name))
         path = found.file
         checked = self._domain(path) if path else None
         result = check_problem_text(text, str(file), checked)
@@ -226,6 +231,20 @@ class Checker:
         if path is not None and result.problem is not None and not faulty and checked is not None and checked.sound:
             self._problems.setdefault(path.resolve(), []).append(result.problem)
         self._read[file.resolve()] = None if faulty or checked is None else result.problem
+
+    def _meant(self, name: str) -> Path | None:
+        """The domain among the files given that a problem means that names none of them, if there is only one such."""
+        named: dict[str, Path] = {}
+        for file in self.given:
+            if file.suffix == ".pddl" and file.is_file():
+                with file.open("rb") as opened:
+                    kind, found = kind_and_name(opened.read(_HEAD).decode("utf-8", errors="replace"))
+                if kind == "domain":
+                    named.setdefault(found, file)
+        if name in named or len(named) == 1:
+            return named.get(name) or next(iter(named.values()))
+        close = get_close_matches(name, sorted(named), n=1)
+        return named[close[0]] if close else None
 
     def problem(self, file: Path) -> Problem | None:
         """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
@@ -266,12 +285,20 @@ class Checker:
             return None
 
     def _add_all(self, faults: list[TmdError], file: Path) -> None:
-        for fault in faults[:MOST_SHOWN]:
-            self.findings.add(fault, Location(str(file), 1, 1))
+        start = Location(str(file), 1, 1)
+        by_weight = sorted(faults, key=_weight)
+        for fault in by_weight[:MOST_SHOWN]:
+            self.findings.add(fault, start)
         if len(faults) > MOST_SHOWN:
-            place = faults[MOST_SHOWN].location or Location(str(file), 1, 1)
-            message = "this file has more problems; the others are not shown"
-            self.findings.add(TmdError(message, location=place, hint="fix the first ones", code="too-many"), place)
+            place = max((fault.location for fault in by_weight[:MOST_SHOWN] if fault.location), default=start)
+            message = f"this file has {len(faults) - MOST_SHOWN} more problems; they are not shown"
+            self.findings.add(TmdError(message, location=place, hint="mend these first", code="too-many"), place)
+
+
+def _weight(fault: TmdError) -> int:
+    """Errors before what is not supported, and that before warnings: the first ones of many are shown."""
+    severity = SEVERITY.get(fault.code, Severity.ERROR)
+    return 2 if severity is not Severity.ERROR else int(fault.code == "not-supported")
 
 
 def _drop_compiled_in(checked: CheckedDomain, file: Path) -> None:

@@ -72,17 +72,21 @@ _ERRORS = {
     "wrong-arity": "too many or too few arguments",
     "wrong-type": "an argument of the wrong type",
     "domain-mismatch": "a problem that names another domain",
-    "too-many": "a file has more problems than are shown",
     "contradictory-init": "an atom that holds and does not hold at the start",
 }
 _WARNINGS = {
     "missing-requirement": "something is used without its requirement",
     "unsupported-requirement": "a requirement for what tmd does not support",
     "odd-name": "a name that PDDL does not have, and planners accept",
+    "glued-variable": "no blank before a variable",
+    "type-twice": "a type that is declared twice",
+    "undeclared-parent": "a parent of a type that is not declared itself",
+    "variable-twice": "a variable that stands twice in the declaration of a predicate",
     "glued-dash": "no space between a dash and its type",
     "parent-after-child": "a type before its parent",
     "empty-condition": "() for an empty condition",
     "nested-when": 'a "when" within a "when"',
+    "said-twice": "a fact or condition that stands twice",
     "contradictory-effects": "an action adds and deletes the same atom",
     "unused-predicate": "a predicate that no action speaks of",
     "unused-parameter": "a parameter that its action does not speak of",
@@ -102,6 +106,7 @@ _WARNINGS = {
 _NOTES = {
     "synonym-with-goal": "a verb that has a goal of its own and stands for another verb",
     "no-goal": "a verb that has no goal",
+    "too-many": "a file has more problems than are shown",
 }
 SEVERITY: Mapping[str, Severity] = {
     **dict.fromkeys(_ERRORS, Severity.ERROR),

@@ -12,11 +12,11 @@ from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic
 from tmd.diagnostics import Location, TmdError
 from tmd.files import write_text
-from tmd.pddl.reading.syntax import Group, parse, read_text, split_lines
+from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_lines
 
 FIXABLE = frozenset(
     {
-        "empty-condition", "glued-dash", "missing-requirement", "unclosed-parenthesis", "extra-parenthesis",
+        "empty-condition", "glued-dash", "glued-variable", "missing-requirement", "unclosed-parenthesis", "extra-parenthesis",
         "look-alike",
         "stale-domain",
     }
@@ -71,9 +71,13 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
                 yield _Edit(row, column, found.end() - column, "(and)")
         elif diagnostic.code == "glued-dash":
             yield _Edit(row, column + 1, 0, " ")
+        elif diagnostic.code == "glued-variable":
+            yield _Edit(row, column, 0, " ")
         elif diagnostic.code == "look-alike":
             plain = re.fullmatch(r'write "(.)"', diagnostic.hint or "")
-            if plain:
+            if plain and plain[1] == " ":  # told once a line
+                yield from (_Edit(row, found.start(), 1, " ") for found in ODD_BLANK.finditer(lines[row], column))
+            elif plain:
                 yield _Edit(row, column, 1, plain[1])
         elif diagnostic in parentheses and len(parentheses) == 1:
             yield from _parenthesis(diagnostic, text, lines)
@@ -155,9 +159,10 @@ def check_paths(
         TmdError: There is nothing at a path, or a fixed file cannot be written.
     """
     chosen = [Path(path) for path in paths]
+    given = [path for path in chosen if not path.is_dir()]
     fixed: dict[Path, None] = {}
     for rounds in reversed(range(_MOST_ROUNDS + 1)):
-        checker = Checker(domains, domain, problems)
+        checker = Checker(domains, domain, problems, given)
         for path in chosen:
             checker.check(path)
         checker.finish()

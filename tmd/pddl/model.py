@@ -194,7 +194,8 @@ class Problem:
     ``objects`` are the problem's own; :meth:`all_objects` adds the domain's constants. ``init`` holds every
     atom that is true at the start, static ones included. ``function_values`` gives the values that cost
     expressions read. ``requirements`` are the problem's own, beside its domain's. ``init_locations`` tells
-    where each initial atom and function value was read.
+    where each initial atom and function value was read, and ``init_denied`` which atoms are said not to hold: what
+    is not said to hold does not anyway, so they are kept only to be checked.
     """
 
     name: str
@@ -207,6 +208,8 @@ class Problem:
     requirements: tuple[str, ...] = ()
     location: Location | None = field(default=None, compare=False, repr=False)
     init_locations: Mapping[GroundAtom, Location] = field(default_factory=dict, compare=False, repr=False)
+    init_denied: State = field(default=frozenset(), compare=False, repr=False)
+    metric_location: Location | None = field(default=None, compare=False, repr=False)
 
     def all_objects(self) -> tuple[TypedName, ...]:
         """The domain's constants, then the problem's objects, each once."""

@@ -10,6 +10,7 @@ from tmd.pddl.model import (
     ActionSchema,
     Atom,
     Domain,
+    Effect,
     Equals,
     Formula,
     Not,
@@ -19,6 +20,7 @@ from tmd.pddl.model import (
     predicates_of,
 )
 from tmd.pddl.reading.syntax import Source
+from tmd.pddl.writer import format_formula
 
 
 def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
@@ -27,6 +29,8 @@ def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
     for action in domain.actions:
         found += _contradictory_effects(action, source)
         found += _never_applies(action, source)
+        found += said_twice(action.precondition, f'the precondition of action "{action.name}"', source)
+        found += _effects_twice(action, source)
         found += _unused_parameters(action, source)
         if not action.effects and action.cost is None:
             hint = "write its :effect, or remove it"
@@ -68,6 +72,26 @@ def _contradictory_effects(action: ActionSchema, source: Source) -> Iterator[Tmd
                 "remove one of the two",
                 "contradictory-effects",
             )
+
+
+def said_twice(formula: Formula, what: str, source: Source) -> Iterator[TmdError]:
+    """The conjuncts of ``formula`` that stand in it twice, ``and`` within ``and`` spread out."""
+    seen: set[Formula] = set()
+    for part in conjuncts(formula):
+        if part in seen:
+            message = f"{format_formula(part)} stands twice in {what}"
+            yield source.error(message, part.location, "remove one of the two", "said-twice")
+        seen.add(part)
+
+
+def _effects_twice(action: ActionSchema, source: Source) -> Iterator[TmdError]:
+    seen: set[Effect] = set()
+    for effect in action.effects:
+        if effect in seen:
+            atom = format_formula(effect.atom if effect.positive else Not(effect.atom))
+            message = f'{atom} stands twice among the effects of action "{action.name}"'
+            yield source.error(message, effect.location, "remove one of the two", "said-twice")
+        seen.add(effect)
 
 
 def _never_applies(action: ActionSchema, source: Source) -> Iterator[TmdError]:

@@ -2,18 +2,79 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from math import prod
 
+from tmd.check.lint.domain import said_twice
 from tmd.check.lint.reachable import Possible, possible
 from tmd.diagnostics import TmdError
-from tmd.pddl.model import Atom, Domain, GroundAtom, Not, Problem, conjuncts
+from tmd.pddl.grounding.ground_task import ground, ground_condition
+from tmd.pddl.model import ActionSchema, Atom, Domain, GroundAtom, Not, Problem, conjuncts, universe
 from tmd.pddl.reading.syntax import Source
+from tmd.pddl.task import Cube
+from tmd.pddl.writer import format_formula
+from tmd.planning.unsolvable import relaxed_literals, unreachable_reason
 
 
 def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
     """The warnings for a problem that has no faults."""
     found = possible(problem)
-    return [*_unreachable_goals(found, source), *_goal_holds(problem, source)]
+    unreachable = list(_unreachable_goals(found, source))
+    if len(unreachable) > 1:
+        unreachable[0].message += f", and {len(unreachable) - 1} more of its parts cannot be reached either"
+    faults = [
+        *said_twice(problem.goal, "the goal", source),
+        *_contradictory_goal(problem, source),
+        *unreachable[:1],
+    ]
+    if not any(fault.code == "unreachable-goal" for fault in faults):
+        faults += _goal_holds(problem, source) or _provably_unreachable(problem, source)
+    return faults
+
+
+def _contradictory_goal(problem: Problem, source: Source) -> Iterator[TmdError]:
+    parts = conjuncts(problem.goal)
+    stated = set(parts)
+    for part in parts:
+        if isinstance(part, Not) and part.part in stated:
+            text = format_formula(part.part)
+            yield source.error(
+                f"the goal contradicts itself: {text} would have to hold and not to hold",
+                part.location or problem.location,
+                "remove one of the two",
+                "unreachable-goal",
+            )
+
+
+_MOST_GROUND = 10_000
+"""Problems with more instances of actions are not ground while they are checked: that takes over half a second."""
+
+
+def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
+    """The proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
+    objects = universe(problem)
+    instances = (prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
+    if sum(instances) > _MOST_GROUND:
+        return []
+    try:
+        task = ground(problem)
+    except TmdError:
+        return []
+    true, false = relaxed_literals(task, task.init)
+
+    def reaches(cubes: Sequence[Cube]) -> bool:
+        return any(not cube.positive & ~true and not cube.negative & ~false for cube in cubes)
+
+    if reaches(task.goal):
+        return []
+    hint = "look at :init, and at the preconditions of the actions"
+    for part in conjuncts(problem.goal):
+        if not reaches(ground_condition(task, part)):
+            message = f"the goal {format_formula(part)} cannot be reached: no action that leads to it can ever apply"
+            return [source.error(message, part.location or problem.location, hint, "unreachable-goal")]
+    place = problem.goal.location or problem.location
+    message = f"no plan reaches the goal: {unreachable_reason(task, task.init, task.goal)}"
+    return [source.error(message, place, hint, "unreachable-goal")]
 
 
 def _unreachable_goals(found: Possible, source: Source) -> Iterator[TmdError]:
@@ -51,7 +112,7 @@ def _may_be_deleted(found: Possible, atom: GroundAtom) -> bool:
     return atom.predicate in names
 
 
-def _goal_holds(problem: Problem, source: Source) -> Iterator[TmdError]:
+def _goal_holds(problem: Problem, source: Source) -> list[TmdError]:
     parts = conjuncts(problem.goal)
     literals = [part.part if isinstance(part, Not) else part for part in parts]
     if parts and all(isinstance(literal, Atom) for literal in literals):
@@ -61,12 +122,10 @@ def _goal_holds(problem: Problem, source: Source) -> Iterator[TmdError]:
             if isinstance(atom, Atom)
         )
         if all(holds):
-            yield source.error(
-                "the goal holds at the start: the empty plan reaches it",
-                getattr(parts[0], "location", None) or problem.location,
-                "change the goal or :init",
-                "goal-holds",
-            )
+            place = getattr(parts[0], "location", None) or problem.location
+            message = "the goal holds at the start: the empty plan reaches it"
+            return [source.error(message, place, "change the goal or :init", "goal-holds")]
+    return []
 
 
 def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -> list[TmdError]:
@@ -77,19 +136,22 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
     every = "in this problem" if len(known) == 1 else f"in none of the {len(known)} problems"
     found: list[TmdError] = []
     told: set[str] = set()
+    while True:
+        lacking = _never_made(domain, known)
+        if not lacking:
+            break
+        action, lack = _that_frees_most(lacking, known)
+        hint = f'add "{lack.predicate}" to an effect or to :init'
+        message = f'nothing makes "{lack.predicate}" true {every}, and action "{action.name}" needs it'
+        message = message.replace("true in none", "true, in none")
+        found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
+        known = [_assuming(p, lack.predicate) for p in known]  # what only follows from this is not told
     for action in domain.actions:
         lacks = [p.blocked.get(action.name) for p in known]
         if any(lack is None for lack in lacks):
             continue
         lack = lacks[0]
-        if isinstance(lack, Atom) and not _ever_holds(lack.predicate, known):
-            if lack.predicate not in told:
-                told.add(lack.predicate)
-                hint = f'add "{lack.predicate}" to an effect or to :init'
-                message = f'nothing makes "{lack.predicate}" true {every}, and action "{action.name}" needs it'
-                message = message.replace("true in none", "true, in none")
-                found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
-        elif isinstance(lack, Atom):
+        if isinstance(lack, Atom):
             atom = " ".join((lack.predicate, *lack.terms))
             message = f'action "{action.name}" can never apply {every}: ({atom}) never holds'
             hint = "look at the types and constants here and in :init"
@@ -103,5 +165,32 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
     return found
 
 
-def _ever_holds(predicate: str, known: list[Possible]) -> bool:
+def _never_made(domain: Domain, known: Sequence[Possible]) -> list[tuple[ActionSchema, Atom]]:
+    """The actions that never apply for lack of a predicate that nothing makes true, each with that atom."""
+    found = []
+    for action in domain.actions:
+        lacks = [p.blocked.get(action.name) for p in known]
+        if isinstance(lacks[0], Atom) and None not in lacks and not _ever_holds(lacks[0].predicate, known):
+            found.append((action, lacks[0]))
+    return found
+
+
+def _that_frees_most(
+    lacking: Sequence[tuple[ActionSchema, Atom]], known: Sequence[Possible]
+) -> tuple[ActionSchema, Atom]:
+    """The one that lets most other actions apply once it may hold: the others only follow from it."""
+    first = {lack.predicate: (action, lack) for action, lack in reversed(lacking)}
+    if len(first) == 1:
+        return lacking[0]
+    return max(
+        (pair for pair in lacking if first[pair[1].predicate] == pair),
+        key=lambda pair: -len(_assuming(known[0], pair[1].predicate).blocked),
+    )
+
+
+def _assuming(found: Possible, predicate: str) -> Possible:
+    return possible(found.problem, (*found.assumed, predicate))
+
+
+def _ever_holds(predicate: str, known: Iterable[Possible]) -> bool:
     return any(predicate in p.adding or any(atom.predicate == predicate for atom in p.problem.init) for p in known)

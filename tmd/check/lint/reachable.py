@@ -36,6 +36,7 @@ class Possible:
         actions: The names of the actions that may apply.
         blocked: For each other action what it lacks: a type without objects, or an atom of its precondition.
         adding: The effects that may add an atom of a predicate, each with the types of its variables.
+        assumed: Predicates whose atoms are taken to be possible.
     """
 
     problem: Problem
@@ -43,6 +44,7 @@ class Possible:
     actions: set[str] = field(default_factory=set)
     blocked: dict[str, str | Atom] = field(default_factory=dict)
     adding: dict[str, list[tuple[Effect, Scope]]] = field(default_factory=dict)
+    assumed: frozenset[str] = frozenset()
     _columns: dict[str, list[dict[str, None]]] = field(default_factory=dict)
     _fitting: dict[tuple[str, int, tuple[str, ...]], bool] = field(default_factory=dict)
 
@@ -53,7 +55,7 @@ class Possible:
 
     def reaches(self, atom: GroundAtom) -> bool:
         """Whether ``atom`` holds at the start, or some possible action may add it."""
-        if atom in self.problem.init:
+        if atom in self.problem.init or atom.predicate in self.assumed:
             return True
         return any(self._may_add(effect.atom, scope, atom) for effect, scope in self.adding.get(atom.predicate, ()))
 
@@ -70,7 +72,7 @@ class Possible:
 
     def may_hold(self, atom: Atom, scope: Scope) -> bool:
         """Whether some atom of this form holds at the start or may be added."""
-        if self._in_init(atom, scope):
+        if atom.predicate in self.assumed or self._in_init(atom, scope):
             return True
         return any(
             self._unify(atom, scope, effect.atom, inner) for effect, inner in self.adding.get(atom.predicate, ())
@@ -136,9 +138,9 @@ class Possible:
         return None
 
 
-def possible(problem: Problem) -> Possible:
-    """What is possible in ``problem``, which has no faults."""
-    found = Possible(problem, universe(problem))
+def possible(problem: Problem, assumed: Iterable[str] = ()) -> Possible:
+    """What is possible in ``problem``, which has no faults, if any atom of the predicates ``assumed`` may hold."""
+    found = Possible(problem, universe(problem), assumed=frozenset(assumed))
     found.collect_init()
     waiting: dict[str, list[ActionSchema]] = {}
     ready = list(reversed(problem.domain.actions))

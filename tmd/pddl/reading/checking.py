@@ -56,7 +56,7 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
     """
     check = _Check(problem.domain, problem.all_objects(), source)
     check.objects(problem)
-    for atom in sorted(problem.init):
+    for atom in sorted(problem.init | problem.init_denied):
         if len(check.faults) > MOST_FAULTS:
             break
         place = problem.init_locations.get(atom)
@@ -232,17 +232,44 @@ class _Check:
                 "wrong-arity",
             )
             return
-        for number, (term, parameter) in enumerate(zip(atom.terms, signature.parameters, strict=True), start=1):
-            given = self.term(term, scope, atom.location, number)
-            known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
-            if given is not None and known and not self.fits(parameter.types, given):
-                self.fault(
-                    f'"{term}" is of type {_either(given)}, '
-                    f"{parameter.name} of {shown} needs {_either(parameter.types)}",
-                    self.word(atom, number),
-                    None,
-                    "wrong-type",
-                )
+        types = [self.term(term, scope, atom.location, number) for number, term in enumerate(atom.terms, start=1)]
+        wrong = [n for n, given in enumerate(types) if not self.may_fit(signature.parameters[n], given)]
+        swapped = self.swapped(signature, types, wrong)
+        if swapped:
+            one, other = swapped
+            terms = list(atom.terms)
+            terms[one], terms[other] = terms[other], terms[one]
+            message = f'the arguments "{atom.terms[one]}" and "{atom.terms[other]}" of {shown} are swapped'
+            hint = f"write ({' '.join((atom.predicate, *terms))})"
+            self.fault(message, self.word(atom, one + 1), hint, "wrong-type")
+            return
+        for number in wrong:
+            term, parameter, given = atom.terms[number], signature.parameters[number], types[number] or ()
+            self.fault(
+                f'"{term}" is of type {_either(given)}, {parameter.name} of {shown} needs {_either(parameter.types)}',
+                self.word(atom, number + 1),
+                None,
+                "wrong-type",
+            )
+
+    def may_fit(self, parameter: TypedName, given: Sequence[str] | None) -> bool:
+        """Whether a term of the types ``given`` may stand for ``parameter``; what is not declared is told elsewhere."""
+        known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
+        return given is None or not known or self.fits(parameter.types, given)
+
+    def swapped(
+        self, signature: Predicate, types: Sequence[Sequence[str] | None], wrong: Sequence[int]
+    ) -> tuple[int, int] | None:
+        """The two places that must change their arguments for all of them to fit, one of ``wrong`` first."""
+        if not wrong or None in types:
+            return None
+        for one in wrong:
+            for other in range(len(types)):
+                changed = list(types)
+                changed[one], changed[other] = changed[other], changed[one]
+                if other != one and all(map(self.may_fit, signature.parameters, changed)):
+                    return min(one, other), max(one, other)
+        return None
 
     def fits(self, wanted: Sequence[str], given: Sequence[str]) -> bool:
         """Whether an argument of the types ``given`` may stand where ``wanted`` is asked for."""
@@ -285,7 +312,9 @@ class _Check:
             self.atom(Atom(function.predicate, function.args, place), {}, self.functions, "function")
         if problem.minimize_cost and TOTAL_COST not in self.functions:
             message = f'the metric needs the function "{TOTAL_COST}"'
-            self.fault(message, problem.location, "declare it in the domain", "unknown-function")
+            place = problem.metric_location or problem.location
+            hint = f"declare (:functions ({TOTAL_COST}) - number) in the domain"
+            self.fault(message, place, hint, "unknown-function")
 
 
 class _Overlapping(_Check):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -132,23 +133,62 @@ def read_types(group: Group, source: Source) -> tuple[TypeDeclaration, ...]:
         elif typed.types[0] != OBJECT:
             message = '"object" is the root of all types and has no parent'
             source.fault(source.error(message, typed.location, code="type-cycle"))
-    ordered = parents_first(found)
+    declared = _with_undeclared_parents(_each_once(found, source), source)
     if source.report is not None:
         _warn_of_children_first(found, source)
-    return ordered
+    return parents_first(declared)
+
+
+def _each_once(found: list[TypeDeclaration], source: Source) -> list[TypeDeclaration]:
+    """Each type with its last parent that is not ``object``: planning competitions declare some types twice."""
+    kept: dict[str, TypeDeclaration] = {}
+    for declared in found:
+        before = kept.get(declared.name)
+        if before is None:
+            kept[declared.name] = declared
+            continue
+        counting = declared if declared.parent != OBJECT else before
+        counts = f'; its parent is read as "{counting.parent}"' if before.parent != declared.parent else ""
+        message = f'type "{declared.name}" is declared twice{counts}'
+        source.warn(message, declared.location, "declare it once", "type-twice")
+        kept[declared.name] = counting
+    return list(kept.values())
+
+
+def _with_undeclared_parents(found: list[TypeDeclaration], source: Source) -> list[TypeDeclaration]:
+    """``found`` and their parents that are not declared: all common planners take them as declared.
+
+    A parent that differs from a declared type by a letter or so is left out: that is a slip, and an error.
+    """
+    known = {OBJECT, *(declared.name for declared in found)}
+    added: dict[str, TypeDeclaration] = {}
+    for declared in found:
+        parent = declared.parent
+        if parent in known or parent in added or get_close_matches(parent, sorted(known), n=1, cutoff=_ONE_SLIP):
+            continue
+        place = source.type_of(declared.location, parent)
+        message = f'the parent type "{parent}" is not declared itself; some tools refuse that'
+        source.warn(message, place, f'add "{parent}" to (:types ...)', "undeclared-parent")
+        added[parent] = TypeDeclaration(parent, OBJECT, place)
+    return [*found, *added.values()]
+
+
+_ONE_SLIP = 0.85
+"""The likeness (of :mod:`difflib`) of two names of four letters or more that differ by one."""
 
 
 def _warn_of_children_first(found: list[TypeDeclaration], source: Source) -> None:
     """Some readers want every parent before its children."""
     later = {declared.name: place for place, declared in enumerate(found)}
-    for place, declared in enumerate(found):
-        if later.get(declared.parent, 0) > place:
-            source.warn(
-                f'type "{declared.name}" stands before its parent "{declared.parent}"; some tools refuse that',
-                declared.location,
-                f'declare "{declared.parent}" first',
-                "parent-after-child",
-            )
+    early = [declared for place, declared in enumerate(found) if later.get(declared.parent, 0) > place]
+    if early:
+        more = f" (and {len(early) - 1} more before theirs)" if len(early) > 1 else ""
+        source.warn(
+            f'type "{early[0].name}" stands before its parent "{early[0].parent}"{more}; some tools refuse that',
+            early[0].location,
+            f'declare "{early[0].parent}" first',
+            "parent-after-child",
+        )
 
 
 def read_predicates(group: Group, document: Document) -> tuple[Predicate, ...]:
@@ -177,7 +217,21 @@ def _read_signature(node: Group, document: Document, comment: str = "") -> Predi
         raise source.error("expected (name ?parameter ...), found ()", node.location)
     name = read_name(node.parts[0], source, "the name of a predicate")
     parameters = read_typed_list(node.parts[1:], source, variables=True, what="a parameter")
-    return Predicate(name.text, parameters, comment, node.location)
+    return Predicate(name.text, _each_named(parameters, source), comment, node.location)
+
+
+def _each_named(parameters: tuple[TypedName, ...], source: Source) -> tuple[TypedName, ...]:
+    """``parameters``, the second of one name renamed: in a declaration only their number and types count."""
+    named: dict[str, TypedName] = {}
+    for parameter in parameters:
+        name = parameter.name
+        if name in named:
+            message = f'variable "{name}" stands twice in this declaration; some tools refuse that'
+            source.warn(message, parameter.location, "rename one of them", "variable-twice")
+            taken = {*named, *(other.name for other in parameters)}
+            name = next(f"{name}{n}" for n in range(2, len(parameters) + 2) if f"{name}{n}" not in taken)
+        named[name] = replace(parameter, name=name)
+    return tuple(named.values())
 
 
 def read_functions(group: Group, document: Document) -> tuple[Predicate, ...]:
@@ -219,6 +273,8 @@ def read_action(group: Group, source: Source) -> ActionSchema:
         precondition = source.recover(TRUE, read_condition, parts[":precondition"], source)
     if ":parameters" in parts:
         parameters = source.recover((), read_parameters, parts[":parameters"], source)
+    if ":vars" in parts:  # not supported, which is told; its variables are known so that they are not told as well
+        parameters += source.recover((), read_parameters, parts[":vars"], source)
     return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location)
 
 
@@ -248,7 +304,8 @@ def _parts_of_action(group: Group, action: str, source: Source) -> dict[str, Nod
             source.fault(source.error(f'nothing follows "{keyword.text}"', keyword.location))
             continue
         source.recover(None, _known_part, keyword, action, parts, source)
-        parts.setdefault(keyword.text, nodes.pop(0))
+        meant = get_close_matches(keyword.text, _PARTS_OF_ACTIONS, n=1)  # what it holds is not told as missing as well
+        parts.setdefault(keyword.text if keyword.text in _UNSUPPORTED_PARTS or not meant else meant[0], nodes.pop(0))
     return parts
 
 
@@ -272,7 +329,7 @@ def read_domain_name(group: Group, domain: Domain, source: Source) -> str:
             source.error(
                 f'the problem is of domain "{name.text}", the domain given is "{domain.name}"',
                 name.location,
-                f"write (:domain {domain.name})",
+                f'did you mean "{domain.name}"?',
                 "domain-mismatch",
             )
         )
@@ -401,7 +458,7 @@ def parse_problem_unchecked(
         ":objects": lambda g: read_typed_list(g.parts[1:], source, variables=False, what="an object"),
         ":init": init.read,
         ":goal": lambda g: read_condition(only_part(g, source), source),
-        ":metric": lambda g: read_metric(g, source),
+        ":metric": lambda g: read_metric(g, source) and g.location,
     }
     _read_sections(sections, readers, parts, source)
     heads = {section.head for section in sections}
@@ -416,10 +473,12 @@ def parse_problem_unchecked(
         init=frozenset(init.atoms),
         goal=parts.get(":goal", TRUE),
         function_values=init.values,
-        minimize_cost=parts.get(":metric", False),
+        minimize_cost=":metric" in parts,
+        metric_location=parts.get(":metric"),
         requirements=parts.get(":requirements", ()),
         location=name.location,
         init_locations=init.locations,
+        init_denied=frozenset(init.denied),
     )
     return problem, source
 
@@ -496,6 +555,7 @@ class InitReader:
         self.atoms: dict[GroundAtom, None] = {}
         self.denied: dict[GroundAtom, None] = {}
         self.values: dict[GroundAtom, int] = {}
+        self.twice: list[tuple[GroundAtom, Location]] = []
         self.locations: dict[GroundAtom, Location] = {}
 
     def read(self, group: Group) -> None:
@@ -509,6 +569,10 @@ class InitReader:
         for atom in self.denied:
             if atom in self.atoms:
                 self.source.fault(self._contradiction(atom))
+        if self.twice:
+            atom, place = self.twice[0]
+            more = f", and so do {len(self.twice) - 1} more" if len(self.twice) > 1 else ""
+            self.source.warn(f"{atom} stands twice in :init{more}", place, "remove one of the two", "said-twice")
 
     def _read_entry(self, node: Node) -> None:
         if isinstance(node, Word):
@@ -523,11 +587,16 @@ class InitReader:
             inner = only_part(node, self.source)
             if isinstance(inner, Word):
                 raise self.source.error("expected (not (predicate ...))", inner.location)
-            self.denied[self._ground(inner)] = None
+            self._note(self._ground(inner), self.denied, node.location)
         elif node.head in ("or", "forall", "exists", "imply", "when"):
             raise self.source.error(f'"{node.head}" cannot stand in :init', node.location, "list the atoms that hold")
         else:
-            self.atoms[self._ground(node)] = None
+            self._note(self._ground(node), self.atoms, node.location)
+
+    def _note(self, atom: GroundAtom, where: dict[GroundAtom, None], place: Location) -> None:
+        if atom in where:
+            self.twice.append((atom, place))
+        where[atom] = None
 
     def _ground(self, node: Group) -> GroundAtom:
         atom = read_atom(node, self.source)

@@ -116,7 +116,7 @@ def _problem_uses(problem: Problem) -> Iterator[_Use]:
     yield from _typed(problem.objects)
     yield from _formula_uses(problem.goal)
     if problem.minimize_cost:
-        yield ":action-costs", "the metric", problem.location
+        yield ":action-costs", "the metric", problem.metric_location or problem.location
 
 
 def _typed(names: Iterable[TypedName]) -> Iterator[_Use]:

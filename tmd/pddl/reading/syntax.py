@@ -8,6 +8,7 @@ raises the first fault, or hands every fault to whoever collects them, and readi
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
@@ -18,7 +19,8 @@ from typing import ParamSpec, TypeAlias, TypeVar
 
 from tmd.diagnostics import Location, TmdError
 
-TOKEN = re.compile(r"[()]|[^\s();]+")
+TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
+"""Parentheses and words; a variable begins a word of its own, whatever it is glued to."""
 _DEEPEST = 100
 _LONGEST_LIST_IN_HINT = 8
 _MOST_COMPARED = 500
@@ -140,6 +142,7 @@ class Document:
     groups: tuple[Group, ...]
     comments: dict[int, str]
     deepest: Group | None
+    warnings: tuple[TmdError, ...] = ()
 
     def check_depth(self) -> None:
         """Make sure that what reads groups within groups comes to an end.
@@ -202,7 +205,10 @@ def split_lines(text: str) -> tuple[str, ...]:
     return tuple(text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n").split("\n"))
 
 
+ODD_BLANK = re.compile(r"[^\S \t\n\r\f\v\x1c-\x1f]")
+"""Blanks that only look like one: the no-break space, the ideographic space and the like."""
 _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1f\x7f]")
+_CONNECTIVES = frozenset({"and", "or", "not", "imply", "forall", "exists", "when"})
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
 _SECTIONS = frozenset(
     {
@@ -248,8 +254,16 @@ def parse(text: str, file: str, report: Report | None = None) -> Document:
         except TmdError:
             pass  # read again, so that all faults are told
         else:
-            return replace(document, source=replace(document.source, report=report))
-    return _split(text, file, report)
+            return _told(replace(document, source=replace(document.source, report=report)))
+    return _told(_split(text, file, report))
+
+
+def _told(document: Document) -> Document:
+    """``document``, of which the warnings are reported."""
+    if document.source.report is not None:
+        for warning in document.warnings:
+            document.source.report(warning)
+    return document
 
 
 @lru_cache(maxsize=8)
@@ -266,7 +280,7 @@ def _split(text: str, file: str, report: Report | None) -> Document:
         if parser.faults > _MOST_FAULTS:
             break
     parser.end()
-    return Document(source, tuple(parser.groups), parser.comments, parser.deepest)
+    return Document(source, tuple(parser.groups), parser.comments, parser.deepest, tuple(parser.warnings))
 
 
 @dataclass(slots=True)
@@ -282,6 +296,7 @@ class _Parser:
     """The first group that the indentation of the text says should have been closed before."""
     outside: bool = False
     faults: int = 0
+    warnings: list[TmdError] = field(default_factory=list)
 
     def read_line(self, number: int, line: str) -> None:
         code, mark, comment = line.partition(";")
@@ -292,12 +307,23 @@ class _Parser:
                 f"control character 0x{ord(control[0]):02x}", place, "save it as plain text", "control-character"
             )
             code = _CONTROL.sub(" ", code)
+        blank = ODD_BLANK.search(code)
+        if blank:
+            place = Location(self.source.file, number, blank.start() + 1)
+            message = f"this is no blank of PDDL: {blank[0]!r} ({unicodedata.name(blank[0], 'unnamed')})"
+            self.fault(message, place, 'write " "', "look-alike")
+            code = ODD_BLANK.sub(" ", code)
         if mark:
             self.comments[number] = comment.lstrip(";").strip()
         first = True
+        ended = -1
         for match in TOKEN.finditer(code):
             location = Location(self.source.file, number, match.start() + 1)
             token = match[0].lower()
+            if match.start() == ended and token[0] == "?":
+                message = f'some tools want a blank before "{token}"'
+                self.warnings.append(self.source.error(message, location, "put a blank before it", "glued-variable"))
+            ended = match.end() if token not in "()" else -1
             if first:
                 self.look_at_indentation(token, location)
             if token == "(":
@@ -344,7 +370,18 @@ class _Parser:
             return
         if word.text.startswith(":"):
             self.fix_misplaced(word)
+        elif word.text in _CONNECTIVES:
+            self.fix_unopened(word)
         self.stack[-1].parts.append(word)
+
+    def fix_unopened(self, word: Word) -> None:
+        """``:precondition and (...)``, which lacks the parenthesis that its end closes."""
+        opened = self.stack[-1]
+        last = opened.parts[-1] if opened.parts else None
+        if isinstance(last, Word) and (last.text in _PARTS - {":parameters"} or last.text == opened.head == ":goal"):
+            message = f'a parenthesis is missing before "{word.text}"'
+            self.fault(message, word.location, f'write "({word.text}"', "extra-parenthesis")
+            self.stack.append(_Open(word.location, [], False))
 
     def reopen_last(self, word: Word) -> bool:
         """A word outside all parentheses: the last group ended too early, if there is one."""
@@ -360,6 +397,8 @@ class _Parser:
     def fix_misplaced(self, word: Word) -> None:
         """A keyword deep inside another group shows which parenthesis was left open, or closed too early."""
         opened = self.stack[-1]
+        if not opened.parts and len(self.stack) == 2 and word.text in _SECTIONS:
+            self.suspect = None  # whatever the indentation of the sections before says, they are closed
         if not opened.parts and len(self.stack) == 1 and self.groups:
             self.closed_too_early(self.groups[-1])
             self.stack.insert(0, self.reopen(self.groups.pop()))
