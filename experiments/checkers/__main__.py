@@ -21,7 +21,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 PAGE = ROOT / "docs" / "errors.md"
 BEGIN, END = "<!-- slips: made by python -m experiments.checkers -->", "<!-- end of slips -->"
-TOOLS = ("fast-downward", "unified-planning", "pddl", "pyperplan", "tarski", "plado", "pymimir")
+TOOLS = ("VAL", "kairos check", "fast-downward", "unified-planning", "pddl", "pyperplan", "tarski", "plado", "pymimir")
 _PLACE = re.compile(r"\bline:? *\d+|:\d+:\d+|\(line \d+|line \d+|at line|\b\d+:\d+\b", re.IGNORECASE)
 _HINT = re.compile(r"did you mean|expected|perhaps|known (types|predicates)|should be|must be", re.IGNORECASE)
 _SECONDS = 120
@@ -83,6 +83,13 @@ def table(python: str) -> str:
     lines.append(f"| **caught of {len(rows)}** | {' | '.join(map(str, caught))} |")
     placed = [sum("place" in row[n] for row in rows.values()) for n in range(len(heads))]
     lines.append(f"| **with a place** | {' | '.join(map(str, placed))} |")
+    harmless = sorted((HERE / "harmless").iterdir())
+    refusals = [sum(ours(case).startswith("yes") for case in harmless)]
+    with ThreadPoolExecutor(4) as pool:
+        refusals += [sum(pool.map(lambda c, t=tool: said(python, t, c) is not None, harmless)) for tool in tools]
+    usable = [True, *(base[tool] is None for tool in tools)]
+    counts = [str(n) if sound else "?" for n, sound in zip(refusals, usable, strict=True)]
+    lines.append(f"| **complains of {len(harmless)} edits that change nothing** | {' | '.join(counts)} |")
     return "\n".join(lines)
 
 

@@ -27,7 +27,7 @@ def groups_in(node: Node) -> Iterator[Group]:
 
 
 def broken(text: str) -> tuple[str, int, int] | None:
-    """``text`` without one ``)``, and the first and last line of the action that lost it; ``None`` where it has none."""
+    """``text`` without one ``)``, and the first and last line of its action; ``None`` where it has none."""
     try:
         document = parse(text, "")
     except TmdError:

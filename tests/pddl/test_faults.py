@@ -112,7 +112,6 @@ DOMAIN_FAULTS = {
         "rename",
     ),
     "shadowed variable": ("(?n - mug)", "(?m - mug)", 13, 27, '"?m" is declared twice', "rename"),
-    "type twice": ("place - object", "place mug - object", 3, 33, 'type "mug" is declared twice', "rename"),
     "type cycle": ("item place", "item - mug place", 3, 11, "its own ancestor", "mug < item < mug"),
     "unknown section": (
         "(:predicates",
@@ -199,13 +198,13 @@ DOMAIN_FAULTS = {
 }
 
 PROBLEM_FAULTS = {
-    "another domain": ("(:domain cafe)", "(:domain caffe)", 2, 12, 'is of domain "caffe"', "(:domain cafe)"),
+    "another domain": ("(:domain cafe)", "(:domain caffe)", 2, 12, 'is of domain "caffe"', 'did you mean "cafe"?'),
     "undeclared object": ("(at cup shelf)", "(at cub shelf)", 4, 14, 'unknown object "cub"', '"cup"'),
     "undeclared object in the goal": ("(full cup)", "(full cop)", 5, 21, 'unknown object "cop"', '"cup"'),
     "unknown type of an object": ("cup - mug", "cup - mub", 3, 19, 'unknown type "mub"', '"mug"'),
     "object twice": ("spoon - item", "cup - item", 3, 37, 'object "cup" is declared twice', "rename"),
     "object like a constant": ("spoon - item", "table - item", 3, 37, "constant of another type", "rename"),
-    "wrong type in init": ("(at cup shelf)", "(at shelf cup)", 4, 14, '"shelf" is of type "place"', None),
+    "wrong type in init": ("(at cup shelf)", "(at shelf cup)", 4, 14, "are swapped", "(at cup shelf)"),
     "wrong arity in init": ("(at cup shelf)", "(at cup)", 4, 10, "takes 2 argument(s), found 1", None),
     "unknown predicate in init": (
         "(at cup shelf)",
@@ -231,10 +230,10 @@ PROBLEM_FAULTS = {
     "no cost to minimise": (
         "(:goal",
         "(:metric minimize (total-cost)) (:goal",
-        1,
-        18,
+        5,
+        3,
         'the function "total-cost"',
-        None,
+        ":functions",
     ),
     "missing parenthesis": ("(at spoon table))", "(at spoon table)", 4, 3, "never closed", "add"),
     "unknown section": ("(:objects", "(:object", 3, 3, "is not a section", '":objects"'),

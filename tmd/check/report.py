@@ -16,7 +16,12 @@ from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_li
 
 FIXABLE = frozenset(
     {
-        "empty-condition", "glued-dash", "glued-variable", "missing-requirement", "unclosed-parenthesis", "extra-parenthesis",
+        "empty-condition",
+        "glued-dash",
+        "glued-variable",
+        "missing-requirement",
+        "unclosed-parenthesis",
+        "extra-parenthesis",
         "look-alike",
         "stale-domain",
     }

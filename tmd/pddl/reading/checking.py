@@ -98,6 +98,8 @@ class _Check:
         self.functions = {f.name: f for f in domain.functions}
         self.known_objects = {o.name: o.types for o in objects}
         self.faults: list[TmdError] = []
+        self.cyclic: set[str] = set()
+        self.two_of_one_name = False
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
         """Note a fault at ``location``."""
@@ -150,7 +152,8 @@ class _Check:
         while current is not None and current not in chain:
             chain.append(current)
             current = self.hierarchy.parents.get(current)
-        if current == name:
+        if current == name and name not in self.cyclic:
+            self.cyclic.update(chain)
             self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")
 
     def one_type(self, declared: TypedName, what: str) -> None:
@@ -175,11 +178,12 @@ class _Check:
             if parameter.name in inner:
                 message = f'variable "{parameter.name}" is declared twice'
                 self.fault(message, parameter.location, "rename one of them", "duplicate-name")
-            inner[parameter.name] = parameter.types
+            inner[parameter.name] = parameter.types if parameter.name not in inner else ()
         return inner
 
     def action(self, action: ActionSchema) -> None:
         scope = self.parameters(action.parameters, {})
+        self.two_of_one_name = len(scope) < len(action.parameters)
         self.formula(action.precondition, scope)
         for effect in action.effects:
             self.effect(effect, scope)
@@ -254,7 +258,9 @@ class _Check:
 
     def may_fit(self, parameter: TypedName, given: Sequence[str] | None) -> bool:
         """Whether a term of the types ``given`` may stand for ``parameter``; what is not declared is told elsewhere."""
-        known = given is not None and all(self.hierarchy.known(t) for t in (*given, *parameter.types))
+        above = self.hierarchy.ancestors
+        named = (*(given or ()), *parameter.types)
+        known = given is not None and all(self.hierarchy.known(a) for t in named for a in above(t))
         return given is None or not known or self.fits(parameter.types, given)
 
     def swapped(
@@ -284,7 +290,7 @@ class _Check:
     ) -> tuple[str, ...] | None:
         """The types of ``term``, the word ``number`` of a group; ``None`` where it is not declared (a fault)."""
         if term.startswith("?"):
-            if term not in scope:
+            if term not in scope and not self.two_of_one_name:  # else it is what one of the two should be called
                 hint = nearest(term, list(scope), what="variables here")
                 self.fault(f'free variable "{term}"', self.source.word(location, number), hint, "free-variable")
             return scope.get(term)

@@ -48,8 +48,10 @@ _Use = tuple[str, str, Location | None]
 def missing_requirements(domain: Domain, problem: Problem | None = None) -> list[TmdError]:
     """One fault for each requirement that is used and not declared, at its first use.
 
-    Without ``problem`` the domain is looked at; with it, the problem, which inherits its domain's.
+    Without ``problem`` the domain is looked at; with it, the problem, which inherits its domain's. What the domain
+    lacks itself is told there.
     """
+    of_the_domain = {name for name, _, _ in _undeclared(domain, None)} if problem else set[str]()
     return [
         TmdError(
             f"{feature} needs {name}",
@@ -58,6 +60,7 @@ def missing_requirements(domain: Domain, problem: Problem | None = None) -> list
             code="missing-requirement",
         )
         for name, feature, place in _undeclared(domain, problem)
+        if name not in of_the_domain
     ]
 
 

@@ -1,0 +1,6 @@
+(define (problem serve)
+  (:domain cafe)
+  (:objects cup - mug bun - food sink - place)
+  (:init (at cup counter) (at bun counter) (tap sink))
+  (:metric minimize (total-cost))
+  (:goal (and (full cup) (at cup counter))))
