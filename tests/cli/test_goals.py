@@ -186,3 +186,14 @@ def test_val_agrees(tmd: Tmd, tmp_path: Path) -> None:
         done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
         assert "Plan valid" in done.stdout, done.stdout
     assert tmd("plan", "out/domain.pddl", "out/problem.pddl", "--planner", IN_PROCESS).code == ExitCode.OK
+
+
+def test_the_goal_of_a_pddl_environment_is_not_looked_at(tmd: Tmd, tmp_path: Path) -> None:
+    yard = ROOT / "problems" / "01_blocks" / "environments" / "yard2.pddl"
+    aimed = tmp_path / "yard9.pddl"
+    aimed.write_text(yard.read_text(encoding="utf-8").replace("(:goal (and))", "(:goal (on green_block blue_block))"))
+    text = "Put the red block on the green block."
+    said = tmd("ground", "--domain", "01_blocks", "--environment", aimed, "--text", text)
+    plain = tmd("ground", "--domain", "01_blocks", "--environment", "yard2", "--text", text)
+    assert said.code == plain.code == ExitCode.OK
+    assert said.out == plain.out and "steps, valid" in said.out

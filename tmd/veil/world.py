@@ -11,14 +11,14 @@ holds. Atoms that relate two objects are no states; nor are the robot's own.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import GroundAtom, Problem, Universe, hierarchy, universe
+from tmd.pddl.model import TRUE, GroundAtom, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
 
 
@@ -36,12 +36,15 @@ class World:
 def make_world(name: str, problem: Problem, lexicon: Lexicon, kinds: Mapping[str, str] | None = None) -> World:
     """Ground ``problem`` and prepare its objects and nouns.
 
+    What is wanted of an environment is said: the goal and the metric of ``problem`` are dropped.
+
     Args:
         name: The environment's name.
         problem: The environment.
         lexicon: The words of the domain.
         kinds: For objects whose PDDL type says less than that, what kind of thing each is.
     """
+    problem = replace(problem, goal=TRUE, minimize_cost=False, metric_location=None)
     task = ground(problem)
     profiles = Profiles(task)
     return World(name, task, universe(problem), profiles, Mentions(profiles, lexicon, kinds))

@@ -147,20 +147,20 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
         found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
         known = [_assuming(p, lack.predicate) for p in known]  # what only follows from this is not told
     for action in domain.actions:
-        lacks = [p.blocked.get(action.name) for p in known]
-        if any(lack is None for lack in lacks):
+        blocks = [p.blocked.get(action.name) for p in known]
+        if any(block is None for block in blocks):
             continue
-        lack = lacks[0]
-        if isinstance(lack, Atom):
-            atom = " ".join((lack.predicate, *lack.terms))
+        block = blocks[0]
+        if isinstance(block, Atom):
+            atom = " ".join((block.predicate, *block.terms))
             message = f'action "{action.name}" can never apply {every}: ({atom}) never holds'
             hint = "look at the types and constants here and in :init"
-            found.append(source.error(message, lack.location or action.location, hint, "never-applies"))
-        elif lack not in told:
-            told.add(str(lack))
-            message = f'no object is of type "{lack}" {every}, so action "{action.name}" never applies'
+            found.append(source.error(message, block.location or action.location, hint, "never-applies"))
+        elif block not in told:
+            told.add(str(block))
+            message = f'no object is of type "{block}" {every}, so action "{action.name}" never applies'
             found.append(
-                source.error(message, action.location, f'declare an object of type "{lack}"', "type-without-objects")
+                source.error(message, action.location, f'declare an object of type "{block}"', "type-without-objects")
             )
     return found
 
