@@ -133,7 +133,7 @@ def test_a_correction_keeps_the_plan_that_was_proposed(table: Corpus) -> None:
         ({"who": 7}, "'who' is not a string"),
         (
             {"proposed": PLAN[1:2], "segments": [{**data["segments"][0], "proposed": PLAN[1:2]}]},
-            "the plan that 'corrected-corner1-01' corrects cannot be executed in corner1: step 1, grasp(cup1)",
+            "the plan that 'corrected-corner1-01' corrects cannot be executed in corner1: segment 1, step 1",
         ),
     ]:
         file.write_text(json.dumps({**data, **change}) + "\n")

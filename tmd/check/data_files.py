@@ -17,7 +17,7 @@ from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.pddl.model import Domain, Problem, State
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
-from tmd.veil.corpus import replay
+from tmd.veil.corpus import CHANGED, replay
 from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
 from tmd.world.classes import Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
@@ -73,11 +73,13 @@ def _states(demonstration: Demonstration, problem: Problem) -> list[State]:
         states = replay(replace(demonstration, goal=None), problem)
         if demonstration.proposed is not None:
             what = f"the plan that '{demonstration.id}' corrects"
-            replay(_as_proposed(demonstration), problem)
+            replay(_as_proposed(demonstration), problem, "proposed")
     except TmdError as error:
         message = f"{what} cannot be executed in {demonstration.environment}: {error.message}"
-        hint = "fix the demonstration, or the domain or environment if they are what changed"
-        raise TmdError(message, location=demonstration.location, hint=hint, code="not-executable") from None
+        place = error.location or demonstration.location
+        raise TmdError(
+            message, location=place, hint=error.hint or CHANGED, source=error.source, code="not-executable"
+        ) from None
     return states
 
 

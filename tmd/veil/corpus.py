@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.reading.reader import read_problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.semantics import apply, first_broken
-from tmd.veil.demonstration import Demonstration, check_goal, read_demonstrations
+from tmd.veil.demonstration import Demonstration, check_goal, read_demonstrations, step_fault
 from tmd.veil.world import World, make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
@@ -115,18 +116,20 @@ class Corpus:
         return self._demonstrations[task]
 
 
-def replay(demonstration: Demonstration, problem: Problem) -> list[State]:
+def replay(demonstration: Demonstration, problem: Problem, key: str = "instructions") -> list[State]:
     """The states before the first and after each instruction.
 
+    ``key`` is where the file has them: "instructions", or "proposed" for those of the plan that was corrected.
+
     Raises:
-        TmdError: An instruction is not executable (with its number and the first broken precondition), or a
+        TmdError: An instruction is not executable (with its place and the first broken precondition), or a
             literal of the stated end state or the goal does not hold.
     """
     states = [problem.init]
     for number, instruction in enumerate(demonstration.instructions, start=1):
-        broken = first_broken(instruction, states[-1], problem)
-        if broken is not None:
-            raise TmdError(f"step {number}, {instruction}: {broken.text} does not hold")
+        wrong = _wrong(instruction, states[-1], problem)
+        if wrong is not None:
+            raise step_fault(demonstration, number, wrong, key)
         states.append(apply(instruction, states[-1], problem))
     for literal in demonstration.end_state:
         if not _literal_holds(literal, states[-1]):
@@ -143,36 +146,38 @@ def final_state(demonstration: Demonstration, world: World) -> State:
     return world.task.decode(state)
 
 
+CHANGED = "fix the demonstration, or the domain or environment if they are what changed"
+"""What to do about a demonstration that cannot be executed."""
+
+
 def check_executable(demonstration: Demonstration, world: World) -> None:
     """Make sure that a demonstration can be done in its environment: what cannot teaches nothing true.
 
     Raises:
-        TmdError: An instruction is not executable; with the demonstration's place, and the first broken precondition.
+        TmdError: An instruction is not executable; with its place, and the first broken precondition.
     """
     state = world.task.init
-    for number, instruction in enumerate(demonstration.instructions, start=1):
+    for instruction in demonstration.instructions:
         operator = world.task.by_instruction.get(instruction)
         if operator is None or not operator.applicable(state):
-            raise TmdError(
-                f"'{demonstration.id}' cannot be executed in {world.name}: {_broken(demonstration, number, world)}",
-                location=demonstration.location,
-                hint="fix the demonstration, or the domain or environment if they are what changed",
-            )
+            break
         state = operator.apply(state)
-
-
-def _broken(demonstration: Demonstration, number: int, world: World) -> str:
-    """What is wrong with step ``number``, the first that cannot be executed."""
-    problem = world.task.problem
-    state = problem.init
-    for instruction in demonstration.instructions[: number - 1]:
-        state = apply(instruction, state, problem)
-    wrong = demonstration.instructions[number - 1]
+    else:
+        return
     try:
-        broken = first_broken(wrong, state, problem)
+        replay(replace(demonstration, end_state=(), goal=None), world.task.problem)
     except TmdError as error:
-        return f"step {number}, {wrong}: {error.message}"
-    return f"step {number}, {wrong}: {broken.text if broken else 'it'} does not hold"
+        message = f"'{demonstration.id}' cannot be executed in {world.name}: {error.message}"
+        raise TmdError(message, location=error.location, hint=error.hint or CHANGED, source=error.source) from None
+
+
+def _wrong(instruction: Instruction, state: State, problem: Problem) -> TmdError | None:
+    """Why ``instruction`` cannot be done in ``state``; ``None`` where it can."""
+    try:
+        broken = first_broken(instruction, state, problem)
+    except TmdError as error:
+        return error
+    return None if broken is None else TmdError(f"{broken.text} does not hold")
 
 
 def _literal_holds(literal: str, state: State) -> bool:

@@ -25,6 +25,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+import yaml
+
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Formula, Instruction, Problem, State
 from tmd.pddl.plan_file import parse_instruction
@@ -102,10 +104,10 @@ def read_demonstrations(path: Path) -> list[Demonstration]:
     for number, line in enumerate(split_lines(read_text(path)), start=1):
         if not line.strip():
             continue
-        reader = _Line(path, number)
-        demonstration = reader.read(line)
+        reader = _Line(path, number, line)
+        demonstration = reader.read()
         if demonstration.id in seen:
-            raise reader.error(f"the id '{demonstration.id}' stands in this file twice")
+            raise reader.error(f"the id '{demonstration.id}' stands in this file twice", at=("id",))
         seen.add(demonstration.id)
         found.append(demonstration)
     return found
@@ -117,7 +119,11 @@ def read_demonstration(path: Path, number: int, line: str) -> Demonstration:
     Raises:
         TmdError: The line is not a demonstration; with its place.
     """
-    return _Line(path, number).read(line)
+    return _Line(path, number, line).read()
+
+
+_Path = tuple[str | int, ...]
+"""Keys and indices that lead from a demonstration as JSON to a value in it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,19 +132,30 @@ class _Line:
 
     path: Path
     number: int
+    line: str
 
     def error(
-        self, message: str, hint: str | None = None, column: int = 1, code: str = "bad-demonstration"
+        self,
+        message: str,
+        hint: str | None = None,
+        at: _Path = (),
+        offset: int = 0,
+        code: str = "bad-demonstration",
     ) -> TmdError:
-        return TmdError(message, location=Location(str(self.path), self.number, column), hint=hint, code=code)
+        """A fault of the value that ``at`` leads to, or of its character ``offset``."""
+        place = Location(str(self.path), self.number, _column(self.line, at, offset))
+        return TmdError(message, location=place, hint=hint, source=self.line, code=code)
 
-    def read(self, line: str) -> Demonstration:
+    def read(self) -> Demonstration:
         try:
-            data = json.loads(line)
+            data = json.loads(self.line)
         except json.JSONDecodeError as error:
-            raise self.error(f"not JSON: {error.msg}", column=error.colno, code="json-syntax") from None
+            place = Location(str(self.path), self.number, error.colno)
+            raise TmdError(f"not JSON: {error.msg}", location=place, source=self.line, code="json-syntax") from None
         except RecursionError:
-            raise self.error("not a demonstration: nested too deeply", code="nested-too-deeply") from None
+            place = Location(str(self.path), self.number, 1)
+            message = "not a demonstration: nested too deeply"
+            raise TmdError(message, location=place, code="nested-too-deeply") from None
         if not isinstance(data, dict):
             raise self.error("a demonstration is a JSON object")
         for key in _KEYS:
@@ -146,10 +163,10 @@ class _Line:
                 raise self.error(f"the key '{key}' is missing", f"a demonstration has {', '.join(_KEYS)}")
         for key in _KEYS[:4]:
             if not isinstance(data[key], str):
-                raise self.error(f"'{key}' is not a string")
+                raise self.error(f"'{key}' is not a string", at=(key,))
         end_state = data.get("end_state", [])
         if not isinstance(end_state, list) or not all(isinstance(item, str) for item in end_state):
-            raise self.error("'end_state' is not a list of strings")
+            raise self.error("'end_state' is not a list of strings", at=("end_state",))
         segments = tuple(self._segments(data["text"], data["segments"]))
         return Demonstration(
             data["id"],
@@ -168,7 +185,7 @@ class _Line:
     def _said(self, data: dict[str, object], key: str) -> str | None:
         value = data.get(key)
         if value is not None and not isinstance(value, str):
-            raise self.error(f"'{key}' is not a string")
+            raise self.error(f"'{key}' is not a string", at=(key,))
         return value
 
     def _corrected(self, data: dict[str, object], segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
@@ -178,51 +195,73 @@ class _Line:
             if any(part is not None for part in parts):
                 raise self.error("a segment has 'proposed', and the demonstration has not", "give the whole plan")
             return None
-        whole = tuple(self._instructions("the demonstration", data["proposed"], "proposed"))
+        whole = tuple(self._instructions("the demonstration", data["proposed"], ("proposed",)))
         if any(part is None for part in parts) or whole != tuple(i for part in parts for i in part or ()):
             raise self.error(
                 "'proposed' is not what its segments have one after the other",
                 "each segment has the part of the plan that was to serve it",
+                ("proposed",),
             )
         return whole
 
     def _segments(self, text: str, segments: object) -> Iterator[Segment]:
         if not isinstance(segments, list):
-            raise self.error("'segments' is not a list")
+            raise self.error("'segments' is not a list", at=("segments",))
         after = 0
         for index, segment in enumerate(segments):
-            where = f"segment {index + 1}"
+            where, at = f"segment {index + 1}", ("segments", index)
             if not isinstance(segment, dict) or not isinstance(segment.get("text"), str):
-                raise self.error(f"{where} has no 'text'")
+                raise self.error(f"{where} has no 'text'", at=at)
             start = text.find(segment["text"], after)
             if start < 0:
                 raise self.error(
                     f"{where}: '{segment['text']}' does not stand in the text after the segment before it",
                     "segments are pieces of the text, letter by letter and in its order",
+                    (*at, "text"),
                 )
             after = start + len(segment["text"])
-            instructions = tuple(self._instructions(where, segment.get("instructions")))
+            instructions = tuple(self._instructions(where, segment.get("instructions"), (*at, "instructions")))
             proposed = None
             if "proposed" in segment:
-                proposed = tuple(self._instructions(where, segment["proposed"], "proposed"))
+                proposed = tuple(self._instructions(where, segment["proposed"], (*at, "proposed")))
             yield Segment(start, after, instructions, proposed)
 
-    def _instructions(self, where: str, lines: object, key: str = "instructions") -> Iterator[Instruction]:
+    def _instructions(self, where: str, lines: object, at: _Path) -> Iterator[Instruction]:
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
-            raise self.error(f"{where}: '{key}' is not a list of strings")
-        for line in lines:
+            raise self.error(f"{where}: '{at[-1]}' is not a list of strings", at=at)
+        for number, line in enumerate(lines):
             try:
                 yield parse_instruction(line)
             except TmdError as error:
-                raise self.error(f"{where}: '{line}': {error.message}", error.hint) from None
+                raise self.error(f"{where}: '{line}': {error.message}", error.hint, (*at, number)) from None
+
+
+def step_fault(demonstration: Demonstration, number: int, fault: TmdError, key: str = "instructions") -> TmdError:
+    """What is wrong with step ``number`` (the first is 1), with its segment, and its place in the file.
+
+    Args:
+        demonstration: The demonstration.
+        number: Which of its instructions, over all segments.
+        fault: What is wrong; the place is that of the first name that it quotes, where the step has it.
+        key: "instructions", or "proposed" for those of the plan that was corrected.
+    """
+    places = [(s, i) for s, segment in enumerate(demonstration.segments) for i in range(len(segment.instructions))]
+    at, index = places[number - 1]
+    step = str(demonstration.instructions[number - 1])
+    what = fault.message.removesuffix(f" in {step}").replace(f" in {step} ", " ")
+    quoted = re.search(r'"([^"]+)"', what)
+    offset = step.find(quoted[1]) if quoted else 0
+    message = f"segment {at + 1}, step {number}, {step}: {what}"
+    place, line = _in_file(demonstration, ("segments", at, key, index), max(offset, 0))
+    return TmdError(message, location=place, hint=fault.hint, source=line, code="not-executable")
 
 
 NOT_REACHED = "goal-not-reached"
 """The kind of fault of a goal that does not hold when all instructions are done."""
 _TEXT = "goal"
-_KEY = re.compile(r'"goal"\s*:\s*(?=")')
 _HIGH, _LOW = r"\\u[dD][89abAB][\da-fA-F]{2}", r"\\u[dD][c-fC-F][\da-fA-F]{2}"
 _CHARACTER = re.compile(rf"{_HIGH}{_LOW}|\\u[\da-fA-F]{{4}}|\\.|.", re.DOTALL)
+_SURROGATE = re.compile(r"\\u[dD][89abAB][\da-fA-F]{2}|\\u[dD][c-fC-F][\da-fA-F]{2}")
 _END_OF_LINE = re.compile(r"\r\n|\r|\n")
 
 
@@ -262,29 +301,45 @@ def check_goal(demonstration: Demonstration, problem: Problem, state: State) -> 
 
 def _placed(demonstration: Demonstration, fault: TmdError, message: str) -> TmdError:
     """The fault with its place in the file of the demonstration instead of that in the goal's own text."""
-    place, line = demonstration.location, _line(demonstration.location)
-    if place is not None and line is not None and fault.location is not None:
-        place = replace(place, column=_column(line, demonstration.goal or "", fault.location))
+    place, line = demonstration.location, None
+    if fault.location is not None:
+        goal = demonstration.goal or ""
+        starts = [0, *(match.end() for match in _END_OF_LINE.finditer(goal))]
+        offset = starts[fault.location.line - 1] + fault.location.column - 1
+        place, line = _in_file(demonstration, ("goal",), offset)
     return TmdError(message, location=place, hint=fault.hint, source=line, code=fault.code)
 
 
-def _line(place: Location | None) -> str | None:
-    """The line of the corpus at ``place``; ``None`` where it is there no more."""
+def _in_file(demonstration: Demonstration, at: _Path, offset: int = 0) -> tuple[Location | None, str | None]:
+    """Where a value of ``demonstration`` stands, and that line; the line is looked up, for it is seldom asked for."""
+    place = demonstration.location
     if place is None:
-        return None
+        return None, None
     try:
-        return split_lines(read_text(place.file))[place.line - 1]
-    except (TmdError, IndexError):
-        return None
+        line = split_lines(read_text(place.file))[place.line - 1]
+    except (TmdError, IndexError):  # it is there no more
+        return place, None
+    return replace(place, column=_column(line, at, offset)), line
 
 
-def _column(line: str, goal: str, place: Location) -> int:
-    """The column in ``line`` of a place in the goal that is written in it as a JSON string."""
-    starts = [0, *(match.end() for match in _END_OF_LINE.finditer(goal))]
-    offset = starts[place.line - 1] + place.column - 1
-    for key in reversed(list(_KEY.finditer(line))):
-        value, end = json.JSONDecoder().raw_decode(line, key.end())
-        if value == goal:
-            columns = [match.start() + 1 for match in _CHARACTER.finditer(line, key.end() + 1, end - 1)]
-            return [*columns, end][min(offset, len(columns))]
-    return 1
+def _column(line: str, at: _Path, offset: int = 0) -> int:
+    """The column in ``line``, which is JSON, of the value that ``at`` leads to; of a string, of its ``offset``.
+
+    JSON is YAML, whose nodes know their places; only halves of characters (surrogates) YAML does not have.
+    """
+    try:
+        node = yaml.compose(_SURROGATE.sub(r"\\u0041", line), Loader=yaml.CSafeLoader)
+    except (yaml.YAMLError, RecursionError):
+        return 1
+    for step in at:
+        if isinstance(node, yaml.MappingNode):
+            node = next((value for key, value in reversed(node.value) if key.value == step), node)
+        elif isinstance(node, yaml.SequenceNode) and isinstance(step, int) and step < len(node.value):
+            node = node.value[step]
+    if node is None:
+        return 1
+    first, end = node.start_mark.index, node.end_mark.index
+    if not isinstance(node, yaml.ScalarNode) or node.style != '"':
+        return int(first) + 1
+    columns = [match.start() + 1 for match in _CHARACTER.finditer(line, first + 1, end - 1)]
+    return [*columns, int(end)][min(offset, len(columns))]
