@@ -5,11 +5,12 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Protocol
 
 from tmd.check.codes import Severity
-from tmd.check.diagnostic import Findings
+from tmd.check.diagnostic import Diagnostic, Findings
 from tmd.diagnostics import Location, TmdError
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import read_lexicon
@@ -19,7 +20,7 @@ from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.reading.syntax import Report, nearest, read_text, split_lines
 from tmd.veil.corpus import CHANGED, replay
 from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
-from tmd.world.classes import Classes, ObjectsFile
+from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
 from tmd.world.environment import EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
@@ -113,8 +114,10 @@ def check_objects(folder: DomainFolder, report: Report) -> None:
         return
     classes = Classes(source, {t.name: t.parent for t in domain.types})
     arities = {p.name: len(p.parameters) for p in domain.predicates}
+    constants = {c.name for c in domain.constants} | set(classes.entries.substances)
     for path, fact in _facts(classes):
-        _check_fact(source, path, fact, arities)
+        own = {SELF, *classes.get(str(path[1])).vertices} if path[0] == "classes" else set[str]()
+        _check_fact(source, path, fact, arities, constants | own)
     folder.__dict__["classes"] = classes
     for _ in derive_rules(folder):
         pass
@@ -192,7 +195,13 @@ def _facts(classes: Classes) -> Iterator[tuple[tuple[str | int, ...], str]]:
                 yield ("classes", name, "edges", number), " ".join((words[1], words[0], *words[2:]))
 
 
-def _check_fact(source: YamlSource, path: tuple[str | int, ...], fact: str, arities: dict[str, int]) -> None:
+def _check_fact(
+    source: YamlSource, path: tuple[str | int, ...], fact: str, arities: dict[str, int], names: set[str]
+) -> None:
+    """The predicate, the number of names, and names that differ by a letter from one of ``names``.
+
+    Any other name may be that of an object, which each environment knows for itself.
+    """
     words = fact.strip().strip("()").split()
     name = words[0] if words else ""
     if name not in arities:
@@ -201,6 +210,20 @@ def _check_fact(source: YamlSource, path: tuple[str | int, ...], fact: str, arit
     elif len(words) - 1 != arities[name]:
         message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
         source.fault(source.error(path, message, None, "wrong-arity"))
+    for term in words[1:]:
+        meant = [] if term in names else get_close_matches(term, sorted(names), n=1, cutoff=_ONE_LETTER)
+        if meant:
+            message = f"({' '.join(words)}): there is no '{term}'"
+            source.fault(source.error(path, message, f'did you mean "{meant[0]}"?', "unknown-object"))
+
+
+_ONE_LETTER = 0.65
+"""The likeness (of :mod:`difflib`) of two names of three letters or more that differ by one."""
+
+
+def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
+    """Whether something was told of the folder of a domain."""
+    return Path(diagnostic.location.file).resolve().parent == folder.path.resolve()
 
 
 class FaultCollector(Protocol):
@@ -311,8 +334,7 @@ class DataFiles:
 
     def _has_faults(self, folder: DomainFolder) -> bool:
         """Whether an error of a domain's folder is known: its environments may then lack what they should have."""
-        found, here = self.checker.findings.sorted(), folder.path.resolve()
-        return any(d.severity is Severity.ERROR and Path(d.location.file).resolve().parent == here for d in found)
+        return any(d.severity is Severity.ERROR and _is_of(d, folder) for d in self.checker.findings.sorted())
 
     def _nameable(self, folder: DomainFolder) -> frozenset[str]:
         """What a group may name: as for nouns, or, without classes, the objects of the environments as well."""
@@ -346,8 +368,10 @@ class DataFiles:
             said = YamlSource(file).load(EnvironmentFile)
             folder = self._domain_of(file, said.domain)
             problem = check_environment(file, folder, faults.append)
+            told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
             for fault in faults:
-                self.checker.report(fault, file)
+                if (fault.code, fault.message) not in told:  # what a class says wrongly is told of the class
+                    self.checker.report(fault, file)
             self._worlds[key] = None if faults else problem
 
     def _domain_of(self, file: Path, name: str) -> DomainFolder:

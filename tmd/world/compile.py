@@ -30,6 +30,7 @@ from tmd.pddl.semantics import apply
 from tmd.world.classes import ROOT, SELF, ObjectClass, StateValue
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
+from tmd.world.yaml_positions import YamlSource
 
 PART_OF = "part_of"
 """Compiled for every part where the domain declares it: ``(part_of part object)``."""
@@ -213,36 +214,35 @@ class _Compiler:
     def _stated(self) -> None:
         said = self.folder.classes.entries
         for kind in ("facts", "init"):
-            for fact in getattr(said, kind):
-                self._add(tuple(fact.strip("()").split()), (), f"objects.yaml: {kind}: ")
+            for number, fact in enumerate(getattr(said, kind)):
+                self._add(tuple(fact.strip("()").split()), (kind, number), self.folder.classes.source)
         for index, fact in enumerate(self.environment.facts):
             self._add(tuple(fact.strip("()").split()), ("facts", index))
 
-    def _add(self, words: Sequence[str], path: Sequence[str | int], what: str = "") -> None:
-        """Add one atom after checking it."""
-        self.environment.source.recover(None, self._add_checked, words, path, what)
+    def _add(self, words: Sequence[str], path: Sequence[str | int], source: YamlSource | None = None) -> None:
+        """Add one atom after checking it; ``path`` leads to it in ``source``, by default the environment's file."""
+        self.environment.source.recover(None, self._add_checked, words, path, source or self.environment.source)
 
-    def _add_checked(self, words: Sequence[str], path: Sequence[str | int], what: str) -> None:
+    def _add_checked(self, words: Sequence[str], path: Sequence[str | int], source: YamlSource) -> None:
         """Add one atom after checking predicate, arity, names and types."""
         text = f"({' '.join(words)})"
         predicate = self.predicates.get(words[0]) if words else None
-        source = self.environment.source
         if predicate is None:
             hint = nearest(words[0], sorted(self.predicates)) if words else None
-            message = f"{what}{text}: the domain has no predicate '{text}'"
+            message = f"{text}: the domain has no predicate '{text}'"
             raise source.error(path, message, hint, "unknown-predicate")
         if len(predicate.parameters) != len(words) - 1:
-            message = f"{what}{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
+            message = f"{text}: '{words[0]}' takes {len(predicate.parameters)}, not {len(words) - 1}"
             raise source.error(path, message, None, "wrong-arity")
         for parameter, name in zip(predicate.parameters, words[1:], strict=True):
             if name in self.unclear:
                 return
             if name not in self.universe.types_of:
                 hint = nearest(name, sorted(self.universe.types_of))
-                raise source.error(path, f"{what}{text}: there is no '{name}'", hint, "unknown-object")
+                raise source.error(path, f"{text}: there is no '{name}'", hint, "unknown-object")
             if not self.universe.is_a(name, parameter.types):
                 is_a = "/".join(self.universe.types_of[name])
-                message = f"{what}{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
+                message = f"{text}: '{name}' is a {is_a}, not a {'/'.join(parameter.types)}"
                 raise source.error(path, message, None, "wrong-type")
         self.init.add(GroundAtom(words[0], tuple(words[1:])))
 
