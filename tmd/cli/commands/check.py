@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import click
@@ -23,9 +24,24 @@ if TYPE_CHECKING:
 @click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(("text", "sarif", "github")),
+    default="text",
+    show_default=True,
+    help="Print text, SARIF for editors, or annotations for GitHub.",
+)
 @click.pass_obj
 def command(
-    roots: Roots, paths: tuple[str, ...], domain: str | None, strict: bool, notes: bool, fix: bool, as_json: bool
+    roots: Roots,
+    paths: tuple[str, ...],
+    domain: str | None,
+    strict: bool,
+    notes: bool,
+    fix: bool,
+    as_json: bool,
+    form: str,
 ) -> ExitCode:
     """Check files and folders, and tell every problem with its place and what to do.
 
@@ -34,18 +50,34 @@ def command(
     from tmd.check.codes import Severity
     from tmd.check.report import check_paths
 
+    if as_json and form != "text":
+        raise click.UsageError("give --json or --format, not both")
     given = roots.pddl_file(domain) if domain else None
     chosen = [roots.path(path) for path in paths]
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
+    shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
     if as_json:
         emit_json(_all_json(report))
+    elif form != "text":
+        _annotate(form, shown)
     else:
-        emit("".join(_text(d) for d in report.diagnostics if notes or d.severity is not Severity.NOTE))
+        emit("".join(map(_text, shown)))
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
         emit(_summary(report, notes))
     count = report.counts
     faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
     return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
+
+
+def _annotate(form: str, shown: Sequence[Diagnostic]) -> None:
+    """What editors (SARIF) or GitHub read; nothing else is printed."""
+    from tmd import __version__
+    from tmd.check.annotations import github, sarif
+
+    if form == "sarif":
+        emit_json(sarif(shown, __version__))
+    else:
+        emit(github(shown))
 
 
 def _summary(report: CheckReport, shown: bool) -> str:
