@@ -20,9 +20,9 @@ KINDS = dict(re.findall(r"^### ([a-z0-9-]+)\n(.*?)(?=^##|\Z)", PAGE, re.MULTILIN
 _EXAMPLE = re.compile(r"Bad, in `(\S+)`:\n\n```\w+\n(.*?)\n```\n\nGood:\n\n```\w+\n(.*?)\n```", re.DOTALL)
 SHOWN_ELSEWHERE = {
     "unreadable", "not-text", "not-utf8", "too-large", "too-many", "control-character", "nested-too-deeply",
-    "empty-file", "missing-file", "ambiguous-domain", "domain-not-found",
+    "empty-file", "missing-file", "ambiguous-domain", "domain-not-found", "too-many-cases",
 }  # fmt: skip
-"""These have no example that a page can show; test_bad_input.py has them."""
+"""These have no example that a page can show; test_bad_input.py and test_slips.py have them."""
 
 
 def examples() -> Iterator[tuple[str, str, str, str]]:

@@ -74,3 +74,40 @@ def test_an_edit_that_changes_nothing_is_no_error(edit: str) -> None:
         ground(read_problem(at / "problem.pddl", read_domain(at / "domain.pddl"))) for at in (SOUND, folder)
     )
     assert [str(o) for o in edited.operators] == [str(o) for o in sound.operators]
+
+
+BARN = """\
+(define (domain barn)
+  (:requirements :strips :typing :existential-preconditions)
+  (:types horse stall - object)
+  (:predicates (beside ?s - stall) (in ?h - horse ?s - stall) (fed ?h - horse))
+  (:action walk
+    :parameters (?a ?b - stall)
+    :precondition (beside ?a)
+    :effect (and (beside ?b) (not (beside ?a))))
+  (:action lead
+    :parameters (?h - horse ?a ?b - stall)
+    :precondition (and (beside ?a) (in ?h ?a))
+    :effect (and (in ?h ?b) (not (in ?h ?a))))
+  (:action feed
+    :parameters (?h - horse)
+    :precondition (exists (?s - stall) (and (beside ?s) (in ?h ?s)))
+    :effect (fed ?h)))
+"""
+
+
+@pytest.mark.parametrize(("stalls", "codes"), [(6, []), (14, ["too-many-cases"])])
+def test_a_condition_that_cannot_be_written_out_is_told_at_its_place(
+    tmp_path: Path, stalls: int, codes: list[str]
+) -> None:
+    names = " ".join(f"s{n}" for n in range(stalls))
+    (tmp_path / "domain.pddl").write_text(BARN)
+    (tmp_path / "p01.pddl").write_text(
+        f"(define (problem one) (:domain barn) (:objects h - horse {names} - stall)"
+        " (:init (beside s0) (in h s1)) (:goal (fed h)))"
+    )
+    told = _told(tmp_path)
+    assert [d.code for d in told] == codes
+    for diagnostic in told:
+        assert (Path(diagnostic.location.file).name, diagnostic.location.line) == ("domain.pddl", 15)
+        assert diagnostic.source == BARN.splitlines()[14]

@@ -93,6 +93,7 @@ _WARNINGS = {
     "no-effect": "an action that changes nothing",
     "never-applies": "an action that can never apply",
     "never-produced": "a predicate that actions need, and that nothing makes true",
+    "too-many-cases": "a condition that is too large to be written out",
     "type-without-objects": "an action over a type that has no objects",
     "unreachable-goal": "a goal that no action reaches",
     "goal-holds": "a goal that holds at the start",

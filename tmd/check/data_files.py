@@ -11,6 +11,7 @@ from typing import Protocol
 
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic, Findings
+from tmd.check.lint.problem import lint_cases
 from tmd.diagnostics import Location, TmdError
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import read_lexicon
@@ -210,7 +211,7 @@ def _check_fact(
     elif len(words) - 1 != arities[name]:
         message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
         source.fault(source.error(path, message, None, "wrong-arity"))
-    for term in words[1:]:
+    for term in words[1:] if "edges" not in path else ():  # classes tell what is wrong with the names of edges
         meant = [] if term in names else get_close_matches(term, sorted(names), n=1, cutoff=_ONE_LETTER)
         if meant:
             message = f"({' '.join(words)}): there is no '{term}'"
@@ -372,6 +373,8 @@ class DataFiles:
             for fault in faults:
                 if (fault.code, fault.message) not in told:  # what a class says wrongly is told of the class
                     self.checker.report(fault, file)
+            for fault in lint_cases(problem) if problem is not None and not faults else ():
+                self.checker.report(fault, file)
             self._worlds[key] = None if faults else problem
 
     def _domain_of(self, file: Path, name: str) -> DomainFolder:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from math import prod
+from pathlib import Path
 
 from tmd.check.lint.domain import said_twice
 from tmd.check.lint.reachable import Possible, possible
 from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, may_be_too_large
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import ActionSchema, Atom, Domain, GroundAtom, Not, Problem, conjuncts, universe
-from tmd.pddl.reading.syntax import Source
+from tmd.pddl.reading.syntax import Source, read_text, split_lines
 from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.planning.unsolvable import relaxed_literals, unreachable_reason
@@ -26,6 +28,7 @@ def lint_problem(problem: Problem, source: Source) -> list[TmdError]:
         *said_twice(problem.goal, "the goal", source),
         *_contradictory_goal(problem, source),
         *unreachable[:1],
+        *lint_cases(problem),
     ]
     if not any(fault.code == "unreachable-goal" for fault in faults):
         faults += _goal_holds(problem, source) or _provably_unreachable(problem, source)
@@ -50,11 +53,33 @@ _MOST_GROUND = 10_000
 """Problems with more instances of actions are not ground while they are checked: that takes over half a second."""
 
 
+def lint_cases(problem: Problem) -> list[TmdError]:
+    """The condition that keeps ``problem`` from being ground, if there is one; with its place in the domain."""
+    objects = universe(problem)
+    actions = [a for a in problem.domain.actions if may_be_too_large(a.precondition, objects)]
+    if not actions or _instances(problem) > _MOST_GROUND:
+        return []
+    try:
+        ground(problem)
+    except TmdError as error:
+        place = error.location
+        found = [a for a in actions if any(part.location == place for part in conjuncts(a.precondition))]
+        if error.code == TOO_MANY_CASES and place is not None and found:
+            message = f'this condition of action "{found[0].name}" is too large to be written out in "{problem.name}"'
+            line = split_lines(read_text(place.file))[place.line - 1] if Path(place.file).is_file() else None
+            return [TmdError(message, location=place, hint=error.hint, source=line, code=TOO_MANY_CASES)]
+    return []
+
+
+def _instances(problem: Problem) -> int:
+    """At most how many instances the actions have."""
+    objects = universe(problem)
+    return sum(prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
+
+
 def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
     """The proof that ``tmd plan`` gives: what relaxed reachability from the initial state never reaches."""
-    objects = universe(problem)
-    instances = (prod(len(objects.of(p.types)) for p in action.parameters) for action in problem.domain.actions)
-    if sum(instances) > _MOST_GROUND:
+    if _instances(problem) > _MOST_GROUND:
         return []
     try:
         task = ground(problem)

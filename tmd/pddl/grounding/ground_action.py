@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import prod
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import TmdError
@@ -23,6 +24,42 @@ Lookup: TypeAlias = Callable[[GroundAtom], Tree]
 Literals: TypeAlias = frozenset[int]
 
 _MOST = 3_000
+TOO_MANY_CASES = "too-many-cases"
+"""The code of the error that a condition is too large to be written out."""
+
+
+def cases(formula: Formula, objects: Universe, positive: bool = True) -> tuple[int, int]:
+    """At most how many clauses and how many cubes ``formula`` (or its negation) has when written out."""
+    match formula:
+        case Not(part):
+            return cases(part, objects, not positive)
+        case And(parts) | Or(parts):
+            found = [cases(part, objects, positive) for part in parts]
+        case Imply(left, right):
+            found = [cases(left, objects, not positive), cases(right, objects, positive)]
+        case Forall(parameters, part) | Exists(parameters, part):
+            many = prod(len(objects.of(p.types)) for p in parameters)
+            clauses, cubes = cases(part, objects, positive)
+            if isinstance(formula, Forall) == positive:
+                return clauses * many, _capped(cubes, many)
+            return _capped(clauses, many), cubes * many
+        case _:
+            return 1, 1
+    all_clauses = [clauses for clauses, _ in found]
+    all_cubes = [cubes for _, cubes in found]
+    if isinstance(formula, And) == positive:
+        return sum(all_clauses), prod(all_cubes)
+    return prod(all_clauses), sum(all_cubes)
+
+
+def _capped(base: int, exponent: int) -> int:
+    """The power, or a number beyond :data:`_MOST` that it exceeds."""
+    return base**exponent if base < 2 or exponent * base.bit_length() < 64 else _MOST + 1
+
+
+def may_be_too_large(formula: Formula, objects: Universe) -> bool:
+    """Whether writing ``formula`` out as clauses might fail; it does where this says so and nothing in it is static."""
+    return cases(formula, objects)[0] > _MOST
 
 
 def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True) -> Tree:
@@ -106,8 +143,9 @@ def _normal(tree: Tree, outer: str, what: str) -> list[Literals]:
         choices = _normal(part, outer, what)
         if len(found) * len(choices) > _MOST:
             raise TmdError(
-                f"the condition of {what} has more than {_MOST} cases when written out",
-                hint="split it, or name the inner condition by a predicate of its own",
+                f"a condition of {what} has more than {_MOST} cases when written out",
+                hint="split it, or name what it asks for by a predicate that actions keep true and false",
+                code=TOO_MANY_CASES,
             )
         joined = {a | b for a, b in product(found, choices)}
         found = _absorb({c for c in joined if not any(literal ^ 1 in c for literal in c)})

@@ -23,6 +23,7 @@ from tmd.pddl.grounding.ground_action import (
     disjunctive,
     expand,
     grouped,
+    may_be_too_large,
 )
 from tmd.pddl.model import (
     ActionSchema,
@@ -410,7 +411,7 @@ class _Instantiation:
         forced = instruction in self.forced
         what = str(instruction)
         precondition = plan.action.precondition if forced else plan.rest
-        clauses = conjunctive(expand(precondition, binding, self.objects, self.lookup), what)
+        clauses = self.clauses(precondition, binding, what)
         if not forced:
             clauses.extend(frozenset((2 * self.number(instantiate(atom, binding)),)) for atom in plan.fluent)
             units = {literal for clause in clauses if len(clause) == 1 for literal in clause}
@@ -419,6 +420,21 @@ class _Instantiation:
         effects = grouped(found for effect in plan.effects for found in self.effects(effect, binding, what))
         cost = action_cost(self.problem, plan.action, binding)
         return GroundAction(instruction, tuple(dict.fromkeys(clauses)), effects, cost, forced)
+
+    def clauses(self, precondition: Formula, binding: Binding, what: str) -> list[Literals]:
+        """``precondition`` as clauses.
+
+        Raises:
+            TmdError: It has too many; with the place of the part that has.
+        """
+        try:
+            return conjunctive(expand(precondition, binding, self.objects, self.lookup), what)
+        except TmdError as error:
+            for part in conjuncts(precondition):
+                error.location = part.location
+                if may_be_too_large(part, self.objects):
+                    break
+            raise
 
     def effects(self, plan: _EffectPlan, outer: Binding, what: str) -> Iterable[GroundEffect]:
         rows: Iterable[Binding] = (outer,)
