@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 import pytest
 
 from tmd.pddl import semantics
+from tmd.pddl.derived import without_derived
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Atom, GroundAtom, Instruction, Problem
 from tmd.pddl.plan_file import read_plan
@@ -156,7 +157,7 @@ def test_pddl_package_reads_and_writes_it(
 @pytest.fixture
 def unified(problem: Problem, write: Callable[..., Any]) -> Outside:
     """The problem, read by unified-planning from what we write."""
-    return _unified(write(problem))
+    return _unified(write(without_derived(problem)))
 
 
 def _unified(written: Outside) -> Outside:
@@ -211,7 +212,7 @@ def test_unified_planning_gives_the_same_verdict(
     ours = validate(plan_problem, plan)
     if ours.status is Status.BAD_INSTRUCTION:
         pytest.skip("unified-planning cannot even write down such a plan")
-    unified = _unified(write(plan_problem))
+    unified = _unified(write(without_derived(plan_problem)))
     from unified_planning.engines.plan_validator import SequentialPlanValidator
     from unified_planning.plans import SequentialPlan
 

@@ -71,6 +71,7 @@ _ERRORS = {
     "free-variable": "a variable that nothing declares",
     "wrong-arity": "too many or too few arguments",
     "wrong-type": "an argument of the wrong type",
+    "wrongly-derived": "a derived predicate that is also made true or false, or follows from its own negation",
     "domain-mismatch": "a problem that names another domain",
     "contradictory-init": "an atom that holds and does not hold at the start",
 }

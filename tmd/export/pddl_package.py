@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any, TypeAlias
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.derived import without_derived
 from tmd.pddl.model import TRUE, ActionSchema, Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import parse_domain, parse_problem
@@ -29,7 +30,7 @@ def to_pddl(problem: Problem) -> PddlProblem:
     from pddl.parser.domain import DomainParser
     from pddl.parser.problem import ProblemParser
 
-    plain = portable(problem)
+    plain = portable(without_derived(problem))
     if len(plain.domain.functions) > 1:  # costs that are looked up: for that package :action-costs is not enough
         requirements = (*plain.domain.requirements, ":numeric-fluents")
         plain = replace(plain, domain=replace(plain.domain, requirements=requirements))

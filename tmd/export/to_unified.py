@@ -14,6 +14,7 @@ from typing import Any, TypeAlias
 
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.export.planned_problem import Planned
+from tmd.pddl.derived import without_derived
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
@@ -38,7 +39,7 @@ def to_unified_planning(problem: Problem) -> UpProblem:
     _needed("unified_planning", "unified-planning")
     from unified_planning.io import PDDLReader
 
-    plain = portable(_without_idle_costs(problem))
+    plain = portable(without_derived(_without_idle_costs(problem)))
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         return PDDLReader().parse_problem_string(format_domain(plain.domain), format_problem(plain))

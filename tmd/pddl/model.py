@@ -174,6 +174,16 @@ class ActionSchema:
 
 
 @dataclass(frozen=True, slots=True)
+class Axiom:
+    """``(:derived head condition)``: the head holds wherever the condition does. Its terms are the parameters."""
+
+    head: Atom
+    parameters: tuple[TypedName, ...]
+    condition: Formula
+    location: Location | None = field(default=None, compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Domain:
     """A PDDL domain. Order of declaration is kept."""
 
@@ -184,6 +194,7 @@ class Domain:
     predicates: tuple[Predicate, ...] = ()
     functions: tuple[Predicate, ...] = ()
     actions: tuple[ActionSchema, ...] = ()
+    derived: tuple[Axiom, ...] = ()
     location: Location | None = field(default=None, compare=False, repr=False)
 
 
@@ -192,7 +203,7 @@ class Problem:
     """A PDDL problem together with its domain.
 
     ``objects`` are the problem's own; :meth:`all_objects` adds the domain's constants. ``init`` holds every
-    atom that is true at the start, static ones included. ``function_values`` gives the values that cost
+    atom that is true at the start, static and derived ones included. ``function_values`` gives the values that cost
     expressions read. ``requirements`` are the problem's own, beside its domain's. ``init_locations`` tells
     where each initial atom and function value was read, and ``init_denied`` which atoms are said not to hold: what
     is not said to hold does not anyway, so they are kept only to be checked.

@@ -97,6 +97,9 @@ def _typed_names(problem: Problem) -> Iterator[TypedName]:
     yield from domain.constants
     for signature in (*domain.predicates, *domain.functions):
         yield from signature.parameters
+    for axiom in domain.derived:
+        yield from axiom.parameters
+        yield from _quantified(axiom.condition)
     for action in domain.actions:
         yield from action.parameters
         yield from _quantified(action.precondition)
@@ -139,6 +142,10 @@ class _Rewriting:
             predicates=tuple(self.signature(p) for p in domain.predicates),
             functions=tuple(self.signature(f) for f in domain.functions),
             actions=tuple(self.action(a) for a in domain.actions),
+            derived=tuple(
+                replace(a, parameters=self.names(a.parameters), condition=self.formula(a.condition))
+                for a in domain.derived
+            ),
         )
 
     def names(self, names: tuple[TypedName, ...]) -> tuple[TypedName, ...]:

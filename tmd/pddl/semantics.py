@@ -9,6 +9,7 @@ from itertools import product
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.derived import strata
 from tmd.pddl.model import (
     ActionSchema,
     And,
@@ -172,7 +173,25 @@ def apply(instruction: Instruction, state: State, problem: Problem) -> State:
     for effect in schema_of(problem, instruction).effects:
         for binding in _satisfying(effect, state, objects, outer):
             (added if effect.positive else deleted).add(instantiate(effect.atom, binding))
-    return (state - deleted) | added
+    return close((state - deleted) | added, problem)
+
+
+def close(state: State, problem: Problem) -> State:
+    """``state`` with what the domain derives from it, and without what it derives no more."""
+    axioms = problem.domain.derived
+    if not axioms:
+        return state
+    objects = universe(problem)
+    names = {axiom.head.predicate for axiom in axioms}
+    found = frozenset(atom for atom in state if atom.predicate not in names)
+    for stratum in strata(axioms) or ():
+        rules = [Effect(axiom.head, True, axiom.condition, axiom.parameters) for axiom in stratum]
+        before = None
+        while found != before:
+            before = found
+            new = {instantiate(r.atom, binding) for r in rules for binding in _satisfying(r, found, objects, {})}
+            found |= new
+    return found
 
 
 def _satisfying(effect: Effect, state: State, objects: Universe, outer: Binding) -> list[Binding]:

@@ -16,6 +16,7 @@ from tmd.pddl.model import (
     ActionSchema,
     And,
     Atom,
+    Axiom,
     Domain,
     Effect,
     Equals,
@@ -49,6 +50,7 @@ def format_domain(domain: Domain) -> str:
         sections.append(_section("predicates", _predicates(domain.predicates, typed)))
     if domain.functions:
         sections.append(_section("functions", [f"{_signature(f, typed)} - number" for f in domain.functions]))
+    sections.extend(_axiom(axiom, typed) for axiom in domain.derived)
     sections.extend(_action(action, typed) for action in domain.actions)
     return "\n\n".join(sections) + "\n)\n"
 
@@ -61,7 +63,8 @@ def format_problem(problem: Problem) -> str:
         sections.append(f"  (:requirements {' '.join(problem.requirements)})")
     if problem.objects:
         sections.append(_section("objects", _listed(problem.objects, typed)))
-    init = [str(atom) for atom in sorted(problem.init)]
+    derived = {axiom.head.predicate for axiom in problem.domain.derived}
+    init = [str(atom) for atom in sorted(problem.init) if atom.predicate not in derived]
     if any(f.name == TOTAL_COST for f in problem.domain.functions):
         init.append(f"(= ({TOTAL_COST}) 0)")
     init.extend(f"(= {function} {value})" for function, value in sorted(problem.function_values.items()))
@@ -159,6 +162,11 @@ def _predicates(predicates: Sequence[Predicate], typed: bool) -> list[str]:
         f"{signature:<{width}} ; {p.comment}" if p.comment else signature
         for signature, p in zip(signatures, predicates, strict=True)
     ]
+
+
+def _axiom(axiom: Axiom, typed: bool) -> str:
+    head = " ".join((axiom.head.predicate, _typed(axiom.parameters, typed))).rstrip()
+    return f"  (:derived ({head})\n    {_laid_out(axiom.condition, 4, typed)})"
 
 
 def _action(action: ActionSchema, typed: bool) -> str:

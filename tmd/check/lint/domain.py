@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.derived import as_actions
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -41,7 +42,7 @@ def lint_domain(domain: Domain, source: Source) -> list[TmdError]:
 def spoken_of(domain: Domain) -> frozenset[str]:
     """The predicates that some action reads or changes."""
     found: set[str] = set()
-    for action in domain.actions:
+    for action in as_actions(domain).actions:
         found |= predicates_of(action.precondition)
         for effect in action.effects:
             found |= {effect.atom.predicate} | predicates_of(effect.condition)

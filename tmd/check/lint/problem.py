@@ -9,6 +9,7 @@ from pathlib import Path
 from tmd.check.lint.domain import said_twice
 from tmd.check.lint.reachable import Possible, possible
 from tmd.diagnostics import TmdError
+from tmd.pddl.derived import as_actions
 from tmd.pddl.grounding.ground_action import TOO_MANY_CASES, may_be_too_large
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import ActionSchema, Atom, Domain, GroundAtom, Not, Problem, conjuncts, universe
@@ -103,7 +104,8 @@ def _provably_unreachable(problem: Problem, source: Source) -> list[TmdError]:
 
 
 def _unreachable_goals(found: Possible, source: Source) -> Iterator[TmdError]:
-    changed = {effect.atom.predicate for action in found.problem.domain.actions for effect in action.effects}
+    actions = as_actions(found.problem.domain).actions
+    changed = {effect.atom.predicate for action in actions for effect in action.effects}
     for part in conjuncts(found.problem.goal):
         if isinstance(part, Atom):
             atom = GroundAtom(part.predicate, part.terms)
@@ -134,6 +136,7 @@ def _may_be_deleted(found: Possible, atom: GroundAtom) -> bool:
         for effect in action.effects
         if not effect.positive
     }
+    names |= {axiom.head.predicate for axiom in found.problem.domain.derived}
     return atom.predicate in names
 
 

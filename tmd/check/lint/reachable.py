@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from tmd.pddl.derived import as_actions
 from tmd.pddl.model import (
     ActionSchema,
     Atom,
@@ -143,7 +144,7 @@ def possible(problem: Problem, assumed: Iterable[str] = ()) -> Possible:
     found = Possible(problem, universe(problem), assumed=frozenset(assumed))
     found.collect_init()
     waiting: dict[str, list[ActionSchema]] = {}
-    ready = list(reversed(problem.domain.actions))
+    ready = list(reversed(as_actions(problem.domain).actions))
     while ready:
         action = ready.pop()
         lack = found.lacks(action)

@@ -12,6 +12,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
+from tmd.pddl.derived import unfolded, unfolded_condition
 from tmd.pddl.grounding.ground_action import (
     FALSE,
     TRUE,
@@ -47,11 +48,12 @@ def ground(problem: Problem, initial_states: Sequence[State] = (), forced: Seque
             operators even where they can never apply.
 
     Raises:
-        TmdError: A forced instruction is not one of the problem, a cost has no value, or grounding exceeds
-            its limits.
+        TmdError: A forced instruction is not one of the problem, a cost has no value, a predicate is derived from
+            itself, or grounding exceeds its limits.
     """
     for instruction in forced:
         bind(problem, instruction)
+    problem = unfolded(problem)
     with _collector_paused():
         instances = instantiate_actions(problem, (problem.init, *initial_states), frozenset(forced))
         pruned = prune(instances.actions, instances.reachability)
@@ -85,6 +87,7 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
             return 2 * number
         return TRUE if atom in task.static else FALSE
 
+    formula = unfolded_condition(formula, task.problem.domain)
     tree = expand(formula, binding or {}, universe(task.problem), lookup)
     return tuple(sorted(_cube(literals) for literals in disjunctive(tree, "this formula")))
 

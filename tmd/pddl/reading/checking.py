@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 
 from tmd.diagnostics import Location, TmdError
+from tmd.pddl.derived import strata
 from tmd.pddl.model import (
     OBJECT,
     TOTAL_COST,
@@ -43,6 +44,7 @@ def check_domain(domain: Domain, source: Source | None = None) -> list[TmdError]
     """
     check = _Check(domain, domain.constants, source)
     check.declarations()
+    check.axioms()
     for action in domain.actions:
         check.action(action)
     check.faults.extend(missing_requirements(domain))
@@ -61,6 +63,8 @@ def check_problem(problem: Problem, source: Source | None = None) -> list[TmdErr
             break
         place = problem.init_locations.get(atom)
         check.atom(Atom(atom.predicate, atom.args, place), {}, check.predicates, "predicate")
+        if atom in problem.init and place is not None:
+            check.underived(Atom(atom.predicate, atom.args, place), "at the start")
     check.values(problem)
     check.formula(problem.goal, {})
     check.faults.extend(missing_requirements(problem.domain, problem))
@@ -96,6 +100,7 @@ class _Check:
         self.hierarchy = TypeHierarchy(domain.types)
         self.predicates = {p.name: p for p in domain.predicates}
         self.functions = {f.name: f for f in domain.functions}
+        self.derived = {axiom.head.predicate for axiom in domain.derived}
         self.known_objects = {o.name: o.types for o in objects}
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
@@ -198,6 +203,26 @@ class _Check:
         inner = self.parameters(effect.parameters, scope)
         self.formula(effect.condition, inner)
         self.atom(effect.atom, inner, self.predicates, "predicate")
+        self.underived(effect.atom, "by an effect")
+
+    def axioms(self) -> None:
+        """What is derived, and that it does not follow from its own negation."""
+        for axiom in self.domain.derived:
+            scope = self.parameters(axiom.parameters, {})
+            self.atom(axiom.head, scope, self.predicates, "predicate")
+            self.formula(axiom.condition, scope)
+        if strata(self.domain.derived) is None:
+            first = self.domain.derived[0]
+            message = f'"{first.head.predicate}" or another derived predicate follows from its own negation'
+            hint = "what a condition negates must be derived without what it helps to derive"
+            self.fault(message, first.location, hint, "wrongly-derived")
+
+    def underived(self, atom: Atom, when: str) -> None:
+        """``atom`` is said to hold or not to hold, so nothing may derive it."""
+        if atom.predicate in self.derived:
+            message = f'"{atom.predicate}" is derived, so it cannot be made true or false {when}'
+            hint = "remove this, or the (:derived ...) of the predicate"
+            self.fault(message, atom.location, hint, "wrongly-derived")
 
     def formula(self, formula: Formula, scope: Mapping[str, tuple[str, ...]]) -> None:
         if isinstance(formula, Atom):

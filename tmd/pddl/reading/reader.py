@@ -6,7 +6,7 @@ Supported: typed ADL with action costs. Everything else is refused by its name. 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from difflib import get_close_matches
 from functools import lru_cache
@@ -19,6 +19,8 @@ from tmd.pddl.model import (
     TOTAL_COST,
     TRUE,
     ActionSchema,
+    Atom,
+    Axiom,
     Domain,
     Formula,
     GroundAtom,
@@ -42,6 +44,7 @@ from tmd.pddl.reading.formulas import (
 )
 from tmd.pddl.reading.requirements import undeclared_requirements
 from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, Word, nearest, parse, read_text
+from tmd.pddl.semantics import close
 
 
 def only_part(group: Group, source: Source) -> Node:
@@ -90,10 +93,10 @@ REQUIREMENTS = (
     ":conditional-effects",
     ":adl",
     ":action-costs",
+    ":derived-predicates",
+    ":domain-axioms",
 )
 _UNSUPPORTED_REQUIREMENTS = {
-    ":derived-predicates": "derived predicates",
-    ":domain-axioms": "derived predicates",
     ":durative-actions": "durative actions",
     ":duration-inequalities": "durative actions",
     ":continuous-effects": "continuous effects",
@@ -278,6 +281,31 @@ def read_action(group: Group, source: Source) -> ActionSchema:
     return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location)
 
 
+def read_axiom(group: Group, source: Source) -> Axiom:
+    """``(:derived (predicate ?parameter ...) condition)``."""
+    if len(group.parts) != 3 or not isinstance(group.parts[1], Group) or not group.parts[1].parts:
+        hint = "write (:derived (predicate ?x) (condition ?x))"
+        raise source.error("expected a predicate and its condition", group.location, hint)
+    head = group.parts[1]
+    name = read_name(head.parts[0], source, "the name of a predicate")
+    terms = read_typed_list(head.parts[1:], source, variables=True, what="a parameter")
+    parameters = {term.name: term for term in reversed(terms)}
+    condition = read_condition(group.parts[2], source)
+    atom = Atom(name.text, tuple(term.name for term in terms), head.location)
+    return Axiom(atom, tuple(reversed(parameters.values())), condition, group.location)
+
+
+def _with_declared_types(axiom: Axiom, predicates: Mapping[str, Predicate]) -> Axiom:
+    """``axiom``, of which parameters without a type are of that which their predicate is declared with."""
+    declared = predicates.get(axiom.head.predicate)
+    if declared is None or len(declared.parameters) != len(axiom.head.terms):
+        return axiom
+    types = dict(zip(axiom.head.terms, (p.types for p in declared.parameters), strict=True))
+    untyped = (OBJECT,)
+    named = tuple(replace(p, types=types[p.name]) if p.types == untyped else p for p in axiom.parameters)
+    return replace(axiom, parameters=named)
+
+
 _PARTS_OF_ACTIONS = (":parameters", ":precondition", ":effect")
 _UNSUPPORTED_PARTS = {
     ":vars": "variables beside the parameters",
@@ -347,7 +375,6 @@ def read_metric(group: Group, source: Source) -> bool:
 
 
 _UNSUPPORTED_SECTIONS = {
-    ":derived": "derived predicates",
     ":durative-action": "durative actions",
     ":process": "processes",
     ":event": "events",
@@ -356,7 +383,7 @@ _UNSUPPORTED_SECTIONS = {
     ":task": "hierarchical tasks",
     ":method": "hierarchical tasks",
     ":htn": "hierarchical tasks",
-    ":axiom": "derived predicates",
+    ":axiom": "axioms of PDDL 1",
     ":vars": "state variables",
     ":agents": "several agents",
     ":goal-reward": "rewards",
@@ -401,7 +428,7 @@ def parse_problem(text: str, domain: Domain, file: str = "<text>") -> Problem:
     """The problem that ``text`` describes; ``file`` names it in errors."""
     problem, source = parse_problem_unchecked(text, domain, file)
     _raise_first(check_problem(problem, source))
-    return problem
+    return replace(problem, init=close(problem.init, problem)) if domain.derived else problem
 
 
 def _raise_first(faults: list[TmdError]) -> None:
@@ -424,17 +451,21 @@ def parse_domain_unchecked(text: str, file: str = "<text>", report: Report | Non
     name, sections = _definition(document, "domain")
     parts: dict[str, Any] = {}
     actions: list[ActionSchema] = []
+    axioms: list[Axiom] = []
     readers: dict[str, Callable[[Group], object]] = {
         ":requirements": lambda g: read_requirements(g, source),
         ":types": lambda g: read_types(g, source),
         ":constants": lambda g: read_typed_list(g.parts[1:], source, variables=False, what="a constant"),
         ":predicates": lambda g: read_predicates(g, document),
         ":functions": lambda g: read_functions(g, document),
+        ":derived": lambda g: axioms.append(read_axiom(g, source)),
         ":action": lambda g: actions.append(read_action(g, source)),
     }
     _read_sections(sections, readers, parts, source)
     keywords = {keyword.removeprefix(":"): value for keyword, value in parts.items()}
-    return Domain(name.text, **keywords, actions=tuple(actions), location=name.location), source
+    predicates = {p.name: p for p in keywords.get("predicates", ())}
+    derived = tuple(_with_declared_types(axiom, predicates) for axiom in axioms)
+    return Domain(name.text, **keywords, actions=tuple(actions), derived=derived, location=name.location), source
 
 
 def parse_problem_unchecked(
@@ -486,12 +517,12 @@ def parse_problem_unchecked(
 def _read_sections(
     sections: list[Group], readers: dict[str, Callable[[Group], object]], parts: dict[str, Any], source: Source
 ) -> None:
-    """Read every section into ``parts``; actions, of which there are many, go where their reader puts them."""
+    """Read every section into ``parts``; those of which there are many go where their reader puts them."""
 
     def read(group: Group) -> None:
         section = _section(group, tuple(readers), parts, source)
         parts[section] = readers[section](group)
-        if section == ":action":
+        if section in (":action", ":derived"):
             del parts[section]
 
     for group in sections:

@@ -24,6 +24,7 @@ from tmd.pddl.model import (
 
 _QUANTIFIED = (":existential-preconditions", ":universal-preconditions")
 _IMPLIED = {
+    ":domain-axioms": (":derived-predicates",),
     ":fluents": (":action-costs",),
     ":numeric-fluents": (":action-costs",),
     ":quantified-preconditions": _QUANTIFIED,
@@ -88,7 +89,8 @@ def used_requirements(domain: Domain, problem: Problem | None = None) -> tuple[s
     used = {requirement for requirement, _, _ in _domain_uses(domain)}
     if problem:
         used |= {requirement for requirement, _, _ in _problem_uses(problem)}
-    usual = (":typing", *_IMPLIED[":adl"][1:4], *_QUANTIFIED, ":conditional-effects", ":action-costs")
+    others = (":conditional-effects", ":action-costs", ":derived-predicates")
+    usual = (":typing", *_IMPLIED[":adl"][1:4], *_QUANTIFIED, *others)
     return (":strips", *(name for name in usual if name in used))
 
 
@@ -100,6 +102,10 @@ def _domain_uses(domain: Domain) -> Iterator[_Use]:
         yield from _typed(signature.parameters)
     for function in domain.functions:
         yield ":action-costs", f'the function "{function.name}"', function.location
+    for axiom in domain.derived:
+        yield ":derived-predicates", '":derived"', axiom.location
+        yield from _typed(axiom.parameters)
+        yield from _formula_uses(axiom.condition)
     for action in domain.actions:
         yield from _typed(action.parameters)
         yield from _formula_uses(action.precondition)

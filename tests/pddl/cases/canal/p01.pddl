@@ -1,0 +1,5 @@
+(define (problem up)
+  (:domain canal)
+  (:objects b1 b2 - boat low high side - basin l1 - lock)
+  (:init (joins low l1) (joins l1 high) (joins high side) (at b1 low) (at b2 high) (dry l1))
+  (:goal (and (at b1 high) (busy side))))
