@@ -27,7 +27,7 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, solve
-from tmd.planning.result import Filled, Unreachable
+from tmd.planning.result import Solved, Unreachable
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
@@ -235,7 +235,7 @@ def find_plan(problem: Problem, *, planner: str = AUTO) -> tuple[Instruction, ..
         TmdError: There is no such planner, or it refuses the problem.
     """
     answer = solve(problem, planner)
-    if isinstance(answer, Filled):
+    if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):
         raise NoPlanError(f"there is no plan: {answer.reason}", proven=True)

@@ -46,6 +46,25 @@ class GaveUp:
 Answer: TypeAlias = Filled | Unreachable | GaveUp
 
 
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A plan for a whole problem, executed by our own validator before anybody sees it.
+
+    Attributes:
+        plan: The instructions.
+        cost: The sum of their costs.
+        optimal: Whether the planner proved that there is no cheaper plan; otherwise it was just found.
+    """
+
+    plan: tuple[Instruction, ...]
+    cost: int
+    optimal: bool
+
+
+Solution: TypeAlias = Solved | Unreachable | GaveUp
+"""The answer for a whole problem."""
+
+
 class Planner(Protocol):
     """Anything that fills gaps: the in-process search and every engine of unified-planning."""
 

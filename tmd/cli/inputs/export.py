@@ -163,9 +163,9 @@ def _refusal(problem: Problem, plan: Plan) -> NoPlan | None:
 def _solved(problem: Problem, planner: str | None) -> Planned | NoPlan:
     from tmd.cli.show.answer import exit_code, why_none
     from tmd.planning.backends import AUTO, solve
-    from tmd.planning.result import Filled
+    from tmd.planning.result import Solved
 
     answer = solve(problem, planner or AUTO)
-    if isinstance(answer, Filled):
+    if isinstance(answer, Solved):
         return planned(problem, answer.plan)
     return NoPlan(why_none(answer), exit_code(answer))

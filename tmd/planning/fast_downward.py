@@ -1,0 +1,299 @@
+"""Fast Downward on PDDL text: our writer, its translator and its search as processes, its plan read back.
+
+No objects of other packages are between, so names are used as PDDL has them: an action and a predicate, or a type and
+an object, may share one. The translator is started before there is a text for it and gets that through pipes, which
+hides the start of its interpreter behind the reading of the problem. It is under the GPL, and never imported.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tempfile
+from collections.abc import Sequence
+from dataclasses import replace
+from importlib.util import find_spec
+from pathlib import Path
+from types import TracebackType
+
+from tmd.diagnostics import MissingToolError, PlannerError, TmdError
+from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
+from tmd.pddl.normalise import portable
+from tmd.pddl.plan_file import parse_plan
+from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.validator import validate
+from tmd.pddl.writer import format_domain, format_problem
+from tmd.planning.processes import Deadline, PlannerProcess, died, feed
+from tmd.planning.prover import Prover
+from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
+from tmd.planning.unsolvable import unreachable_reason
+
+NAME = "Fast Downward"
+
+FIRST = (
+    "let(hlm,eval_modify_costs(landmark_sum(lm_factory=lm_reasonable_orders_hps(lm_rhw()),pref=false),cost_type=one),"
+    "let(hff,eval_modify_costs(ff(),cost_type=one),"
+    "lazy_greedy([hff,hlm],preferred=[hff,hlm],cost_type=one,reopen_closed=false)))"
+)
+"""The first iteration of LAMA, which Fast Downward calls ``lama-first``."""
+
+OPTIMAL = "astar(lmcut())"
+"""The best admissible heuristic that needs no preparation; it takes neither conditional effects nor axioms."""
+OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
+"""Optimal with conditional effects; under axioms (from universal preconditions) hmax may overestimate."""
+OPTIMAL_WITH_AXIOMS = "astar(blind())"
+
+SOON = 1.0
+"""Seconds of search after which proofs are looked for beside it."""
+EXPLAINING = 20.0
+"""Seconds in which the reason is looked for when it is known that there is no plan."""
+
+_UNSOLVABLE = (10, 11)
+_INCOMPLETE = 12
+_NO_MEMORY = (20, 22, 24)
+_UNSUPPORTED = 34
+_EXHAUSTED = "Completely explored state space"
+_AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
+_TRANSLATE = (
+    # its many small objects make Python look for cycles all the time: a quarter of the time of a large task
+    "import gc, runpy; gc.set_threshold(100_000); "
+    "runpy.run_module('fast_downward.translate', run_name='__main__', alter_sys=True)"
+)
+
+
+def binaries() -> Path:
+    """The directory with Fast Downward's translator and search.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
+    spec = find_spec("up_fast_downward")
+    if spec is None or spec.origin is None:
+        raise MissingToolError("Fast Downward is not installed", hint="pip install up-fast-downward")
+    return Path(spec.origin).parent / "downward" / "builds" / "release" / "bin"
+
+
+class Translator:
+    """Fast Downward's translator, started and waiting for its problem; a ``with`` block ends it.
+
+    Raises:
+        MissingToolError: Fast Downward is not installed.
+        PlannerError: It cannot be started.
+    """
+
+    def __init__(self) -> None:
+        self.binaries = binaries()
+        self.sas = tempfile.TemporaryFile()  # noqa: SIM115 - closed when the block is left
+        ends = [os.pipe(), os.pipe()]
+        self._pipes = [write for _, write in ends]
+        inherited = [read for read, _ in ends]
+        try:
+            self.process = PlannerProcess(
+                f"{NAME}'s translator",
+                [
+                    *(sys.executable, "-S", "-c", _TRANSLATE),
+                    *(f"/dev/fd/{end}" for end in inherited),
+                    *("--sas-file", f"/dev/fd/{self.sas.fileno()}"),
+                ],
+                passed=(*inherited, self.sas.fileno()),
+                environment={"PYTHONPATH": str(self.binaries)},
+            )
+        except BaseException:
+            self._close()
+            raise
+        finally:
+            for end in inherited:
+                os.close(end)
+
+    def __enter__(self) -> Translator:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.process.__exit__(kind, error, trace)
+        self._close()
+
+    def translate(self, problem: Problem, deadline: Deadline) -> int | None:
+        """Translate ``problem``: how the translator ended, ``None`` where it did not by the deadline.
+
+        Raises:
+            TmdError: The problem cannot be written in the form that other planners read.
+        """
+        plain = portable(problem)
+        for text in (format_domain(plain.domain), format_problem(plain)):
+            feed(self._pipes.pop(0), text, self.process, deadline)
+        return self.process.wait(deadline)
+
+    def _close(self) -> None:
+        for end in self._pipes:
+            os.close(end)
+        self._pipes = []
+        self.sas.close()
+
+
+class FastDownward:
+    """Fast Downward for one whole problem.
+
+    Args:
+        problem: The problem.
+        optimal: Whether the plan shall be optimal; otherwise it is the first that is found.
+        deadline: Until when.
+        prove: Whether to look for the reason where there seems to be no plan.
+    """
+
+    def __init__(self, problem: Problem, *, optimal: bool, deadline: Deadline, prove: bool = True) -> None:
+        self.problem = problem
+        self.optimal = optimal
+        self.deadline = deadline
+        self.prove = prove
+        self._prover: Prover | None = None
+
+    def solve(self, translator: Translator | None = None) -> Solution:
+        """A plan, or why there is none.
+
+        Args:
+            translator: One that was started earlier.
+
+        Raises:
+            MissingToolError: Fast Downward is not installed.
+            PlannerError: It died, or what it gave is no plan.
+            TmdError: It does not take the problem.
+        """
+        try:
+            with translator or Translator() as running:
+                code = running.translate(self.problem, self.deadline)
+                if code is None:
+                    return self._late()
+                if code in _NO_MEMORY:
+                    return GaveUp(f"the memory of {running.process.name}")
+                if code:
+                    raise running.process.failed(died(code))
+                axioms = _AXIOMS.search(running.process.said())
+                return self._searched(running, has_axioms=axioms is None or axioms[1] != "0")
+        finally:
+            if self._prover is not None:
+                self._prover.process.__exit__(None, None, None)
+
+    def _searched(self, translator: Translator, *, has_axioms: bool) -> Solution:
+        exhaustive = OPTIMAL_WITH_AXIOMS if has_axioms else OPTIMAL_WITH_CONDITIONS
+        for search in (OPTIMAL if self.optimal else FIRST, exhaustive):
+            answer = self._one(translator, search)
+            if answer is not None:
+                return answer
+        raise PlannerError(f"{NAME} ended without a plan and without a proof")
+
+    def _one(self, translator: Translator, search: str) -> Solution | None:
+        """What one search answers; ``None`` where another one has to be asked."""
+        translator.sas.seek(0)
+        with (
+            tempfile.TemporaryFile() as plan,
+            PlannerProcess(
+                NAME,
+                [
+                    *(str(translator.binaries / "downward"), "--search", search),
+                    *("--internal-plan-file", f"/dev/fd/{plan.fileno()}"),
+                ],
+                stdin=translator.sas,
+                passed=(plan.fileno(),),
+            ) as process,
+        ):
+            reason = self._awaited(process)
+            code = process.poll()
+            if reason is not None:
+                return Unreachable(reason)
+            if code is None:
+                return self._late()
+            if code == 0:
+                plan.seek(0)
+                return checked(self.problem, plan.read().decode(errors="replace"), process, search != FIRST)
+            if code in _NO_MEMORY:
+                return GaveUp(f"the memory of {NAME}")
+            if code == _UNSUPPORTED and search == OPTIMAL:
+                return None
+            if code in _UNSOLVABLE or (code == _INCOMPLETE and _EXHAUSTED in process.said() and search != FIRST):
+                return Unreachable(self._reason())
+            if code == _INCOMPLETE and search == FIRST:  # its dead ends are no proof
+                return None
+            raise process.failed(died(code))
+
+    def _awaited(self, search: PlannerProcess) -> str | None:
+        """Wait for a search; a reason that there is no plan, where that is found first."""
+        if not self.prove:
+            search.wait(self.deadline)
+        elif search.wait(Deadline(min(SOON, self.deadline.left()))) is None:
+            prover = self._start_prover()
+            search.wait_with(prover.process, self.deadline)
+            if search.poll() is None:
+                reason = prover.reason(Deadline(0))
+                if reason is not None:
+                    return reason
+                search.wait(self.deadline)
+        return None
+
+    def _start_prover(self) -> Prover:
+        if self._prover is None:
+            self._prover = Prover(self.problem)
+        return self._prover
+
+    def _reason(self) -> str:
+        """Why there is no plan, which is certain."""
+        found = self._start_prover().reason(Deadline(min(EXPLAINING, self.deadline.left()))) if self.prove else None
+        return found or f"{NAME} looked at every state that can be reached, and the goal holds in none"
+
+    def _late(self) -> GaveUp:
+        return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
+
+
+def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool) -> Solved:
+    """The plan that a planner wrote, executed.
+
+    Raises:
+        PlannerError: It is no plan, or does not work.
+    """
+    try:
+        plan = parse_plan(text).instructions
+    except TmdError as error:
+        raise process.failed(f"wrote what is no plan ({error.message})") from error
+    verdict = validate(problem, plan)
+    if not verdict.valid:
+        raise process.failed(f"gave a plan that does not work ({verdict.reason})")
+    return Solved(plan, verdict.cost, optimal)
+
+
+class FirstPlan:
+    """The first plan of Fast Downward for the gaps of a task that nothing else fills.
+
+    Args:
+        task: The ground problem.
+        seconds: The limit for one question.
+    """
+
+    def __init__(self, task: Task, seconds: float = 10.0) -> None:
+        self.task = task
+        self.seconds = seconds
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """Instructions from ``state`` to any cube of ``goal``.
+
+        Raises:
+            MissingToolError, PlannerError, TmdError: As :meth:`FastDownward.solve`.
+        """
+        if any(cube.holds(state) for cube in goal):
+            return Filled((), state, 0)
+        cubes = [_formula(self.task, cube) for cube in goal if not cube.positive & cube.negative]
+        wanted = cubes[0] if len(cubes) == 1 else Or(tuple(cubes))  # a disjunction becomes an axiom
+        problem = replace(self.task.problem, init=self.task.decode(state), goal=wanted)
+        asked = FastDownward(problem, optimal=False, deadline=Deadline(self.seconds), prove=False)
+        answer = asked.solve()
+        if isinstance(answer, Solved):
+            for operator in map(self.task.by_instruction.__getitem__, answer.plan):
+                state = operator.apply(state)
+            return Filled(answer.plan, state, answer.cost)
+        return Unreachable(unreachable_reason(self.task, state, goal)) if isinstance(answer, Unreachable) else answer
+
+
+def _formula(task: Task, cube: Cube) -> Formula:
+    atoms = [Atom(atom.predicate, atom.args) for atom in task.names(cube.positive)]
+    return And((*atoms, *(Not(Atom(atom.predicate, atom.args)) for atom in task.names(cube.negative))))
