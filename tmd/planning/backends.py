@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.fast_downward import FastDownward, FirstPlan, Translator
+from tmd.planning.fast_downward import FastDownward, FirstPlan
 from tmd.planning.kairos import kairos
 from tmd.planning.processes import Deadline
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
+from tmd.planning.translator import Translator
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -136,16 +135,6 @@ def solve(
     return answer
 
 
-def early_translator(planner: str) -> AbstractContextManager[Translator | None]:
-    """What :func:`solve` may be given as ``translator``: one, where ``planner`` will need it.
-
-    Raises:
-        MissingToolError: Fast Downward is asked for and not installed.
-    """
-    wanted = planner == FAST_DOWNWARD or (planner == AUTO and find_spec("up_fast_downward"))
-    return Translator() if wanted else nullcontext()
-
-
 def _solution(
     problem: Problem, planner: str, optimal: bool, deadline: Deadline, translator: Translator | None
 ) -> Solution:
@@ -162,6 +151,8 @@ def _solution(
         return solved_by_engine(problem, name.removeprefix(UP_PREFIX), deadline)
     if name != IN_PROCESS:
         raise _unknown(name, [AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE"])
+    from tmd.pddl.grounding.ground_task import ground
+
     task = ground(problem)
     answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
     return Solved(answer.plan, answer.cost, optimal=True) if isinstance(answer, Filled) else answer

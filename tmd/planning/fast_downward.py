@@ -1,33 +1,25 @@
 """Fast Downward on PDDL text: our writer, its translator and its search as processes, its plan read back.
 
 No objects of other packages are between, so names are used as PDDL has them: an action and a predicate, or a type and
-an object, may share one. The translator is started before there is a text for it and gets that through pipes, which
-hides the start of its interpreter behind the reading of the problem. It is under the GPL, and never imported.
+an object, may share one. It is under the GPL, and never imported.
 """
 
 from __future__ import annotations
 
-import os
 import re
-import sys
 import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
-from importlib.util import find_spec
-from pathlib import Path
-from types import TracebackType
 
-from tmd.diagnostics import MissingToolError, PlannerError, TmdError
+from tmd.diagnostics import PlannerError, TmdError
 from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
-from tmd.pddl.normalise import portable
 from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.validator import validate
-from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.processes import Deadline, PlannerProcess, died, feed
+from tmd.planning.processes import Deadline, PlannerProcess, died
 from tmd.planning.prover import Prover
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
-from tmd.planning.unsolvable import unreachable_reason
+from tmd.planning.translator import Translator
 
 NAME = "Fast Downward"
 
@@ -55,82 +47,6 @@ _NO_MEMORY = (20, 22, 24)
 _UNSUPPORTED = 34
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
-_TRANSLATE = (
-    # its many small objects make Python look for cycles all the time: a quarter of the time of a large task
-    "import gc, runpy; gc.set_threshold(100_000); "
-    "runpy.run_module('fast_downward.translate', run_name='__main__', alter_sys=True)"
-)
-
-
-def binaries() -> Path:
-    """The directory with Fast Downward's translator and search.
-
-    Raises:
-        MissingToolError: It is not installed.
-    """
-    spec = find_spec("up_fast_downward")
-    if spec is None or spec.origin is None:
-        raise MissingToolError("Fast Downward is not installed", hint="pip install up-fast-downward")
-    return Path(spec.origin).parent / "downward" / "builds" / "release" / "bin"
-
-
-class Translator:
-    """Fast Downward's translator, started and waiting for its problem; a ``with`` block ends it.
-
-    Raises:
-        MissingToolError: Fast Downward is not installed.
-        PlannerError: It cannot be started.
-    """
-
-    def __init__(self) -> None:
-        self.binaries = binaries()
-        self.sas = tempfile.TemporaryFile()  # noqa: SIM115 - closed when the block is left
-        ends = [os.pipe(), os.pipe()]
-        self._pipes = [write for _, write in ends]
-        inherited = [read for read, _ in ends]
-        try:
-            self.process = PlannerProcess(
-                f"{NAME}'s translator",
-                [
-                    *(sys.executable, "-S", "-c", _TRANSLATE),
-                    *(f"/dev/fd/{end}" for end in inherited),
-                    *("--sas-file", f"/dev/fd/{self.sas.fileno()}"),
-                ],
-                passed=(*inherited, self.sas.fileno()),
-                environment={"PYTHONPATH": str(self.binaries)},
-            )
-        except BaseException:
-            self._close()
-            raise
-        finally:
-            for end in inherited:
-                os.close(end)
-
-    def __enter__(self) -> Translator:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.process.__exit__(kind, error, trace)
-        self._close()
-
-    def translate(self, problem: Problem, deadline: Deadline) -> int | None:
-        """Translate ``problem``: how the translator ended, ``None`` where it did not by the deadline.
-
-        Raises:
-            TmdError: The problem cannot be written in the form that other planners read.
-        """
-        plain = portable(problem)
-        for text in (format_domain(plain.domain), format_problem(plain)):
-            feed(self._pipes.pop(0), text, self.process, deadline)
-        return self.process.wait(deadline)
-
-    def _close(self) -> None:
-        for end in self._pipes:
-            os.close(end)
-        self._pipes = []
-        self.sas.close()
 
 
 class FastDownward:
@@ -291,7 +207,11 @@ class FirstPlan:
             for operator in map(self.task.by_instruction.__getitem__, answer.plan):
                 state = operator.apply(state)
             return Filled(answer.plan, state, answer.cost)
-        return Unreachable(unreachable_reason(self.task, state, goal)) if isinstance(answer, Unreachable) else answer
+        if isinstance(answer, Unreachable):
+            from tmd.planning.unsolvable import unreachable_reason  # imports numpy, which whole problems do not need
+
+            return Unreachable(unreachable_reason(self.task, state, goal))
+        return answer
 
 
 def _formula(task: Task, cube: Cube) -> Formula:

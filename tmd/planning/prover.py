@@ -11,10 +11,8 @@ import pickle
 import sys
 import tempfile
 
-from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.planning.processes import Deadline, PlannerProcess
-from tmd.planning.unsolvable import Impossible, relaxed_literals, unreachable_reason
 
 
 def reason_of(problem: Problem) -> str | None:
@@ -23,6 +21,9 @@ def reason_of(problem: Problem) -> str | None:
     Raises:
         TmdError: It cannot be ground.
     """
+    from tmd.pddl.grounding.ground_task import ground  # the process only: who starts it needs nothing of these
+    from tmd.planning.unsolvable import Impossible, relaxed_literals, unreachable_reason
+
     task = ground(problem)
     true, false = relaxed_literals(task, task.init)
     if not any(not positive & ~true and not negative & ~false for positive, negative in task.goal):

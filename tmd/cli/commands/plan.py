@@ -45,15 +45,16 @@ def command(
     its limit, and 35 where it failed.
     """
     from tmd.cli.signals import stoppable
-    from tmd.planning.backends import AUTO, early_translator, solve
+    from tmd.planning.translator import early_translator
 
-    name = planner or AUTO
-    with stoppable(), early_translator(name) as translator:  # it starts while the problem is read
+    with stoppable(), early_translator(planner) as translator:  # it starts while we import and read the rest
         from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
         from tmd.files import write_text
         from tmd.pddl.reading.reader import read_problem
+        from tmd.planning.backends import AUTO, solve
         from tmd.planning.result import Solved
 
+        name = planner or AUTO
         wanted = read_problem(problem, roots.domain(domain))
         limit = {} if seconds is None else {"seconds": seconds}
         answer = solve(wanted, name, optimal=optimal, translator=translator, **limit)
