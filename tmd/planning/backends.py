@@ -9,11 +9,11 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.downward_process import DownwardProcess
 from tmd.planning.fast_downward import FastDownward, FirstPlan
 from tmd.planning.kairos import kairos
 from tmd.planning.processes import Deadline
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
-from tmd.planning.translator import Translator
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -113,7 +113,7 @@ def solve(
     *,
     optimal: bool = False,
     seconds: float = TIME_LIMIT,
-    translator: Translator | None = None,
+    started: DownwardProcess | None = None,
 ) -> Solution:
     """A plan for a whole PDDL problem, from its initial state to its goal.
 
@@ -122,27 +122,27 @@ def solve(
         planner: ``auto``, ``fast-downward``, ``kairos``, ``in-process`` or ``up:ENGINE``.
         optimal: Whether a plan counts only if it is proven that none is cheaper; otherwise the first one does.
         seconds: The limit for planners that are processes. The search in this process has a cap instead.
-        translator: One of Fast Downward that was started while the problem was read.
+        started: Fast Downward, if it was started while the problem was read.
 
     Raises:
         TmdError: There is no such planner, it does not take the problem, or (in this process) that cannot be ground.
         MissingToolError: The planner is not installed.
         PlannerError: The planner died, or what it gave is no plan.
     """
-    answer = _solution(problem, planner, optimal, Deadline(seconds), translator)
+    answer = _solution(problem, planner, optimal, Deadline(seconds), started)
     if optimal and isinstance(answer, Solved) and not answer.optimal:
         return GaveUp(f"a plan of cost {answer.cost} that {planner} did not prove to be optimal")
     return answer
 
 
 def _solution(
-    problem: Problem, planner: str, optimal: bool, deadline: Deadline, translator: Translator | None
+    problem: Problem, planner: str, optimal: bool, deadline: Deadline, started: DownwardProcess | None
 ) -> Solution:
     name = planner
     if planner == AUTO:
         name = FAST_DOWNWARD if find_spec("up_fast_downward") else IN_PROCESS
     if name == FAST_DOWNWARD:
-        return FastDownward(problem, optimal=optimal, deadline=deadline).solve(translator)
+        return FastDownward(problem, optimal=optimal, deadline=deadline).solve(started)
     if name == KAIROS:
         return kairos(problem, optimal=optimal, deadline=deadline)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):

@@ -10,28 +10,20 @@ import re
 import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import IO, TYPE_CHECKING
 
-from tmd.diagnostics import PlannerError, TmdError
+from tmd.diagnostics import TmdError
 from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
-from tmd.pddl.plan_file import parse_plan
+from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.pddl.validator import validate
+from tmd.pddl.writer import format_domain, format_problem
+from tmd.planning.downward_process import FIRST, NAME, OPTIMAL, DownwardProcess, search_command
 from tmd.planning.processes import Deadline, PlannerProcess, died
-from tmd.planning.prover import Prover
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
-from tmd.planning.translator import Translator
 
-NAME = "Fast Downward"
+if TYPE_CHECKING:
+    from tmd.planning.prover import Prover
 
-FIRST = (
-    "let(hlm,eval_modify_costs(landmark_sum(lm_factory=lm_reasonable_orders_hps(lm_rhw()),pref=false),cost_type=one),"
-    "let(hff,eval_modify_costs(ff(),cost_type=one),"
-    "lazy_greedy([hff,hlm],preferred=[hff,hlm],cost_type=one,reopen_closed=false)))"
-)
-"""The first iteration of LAMA, which Fast Downward calls ``lama-first``."""
-
-OPTIMAL = "astar(lmcut())"
-"""The best admissible heuristic that needs no preparation; it takes neither conditional effects nor axioms."""
 OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
 """Optimal with conditional effects; under axioms (from universal preconditions) hmax may overestimate."""
 OPTIMAL_WITH_AXIOMS = "astar(blind())"
@@ -64,13 +56,13 @@ class FastDownward:
         self.optimal = optimal
         self.deadline = deadline
         self.prove = prove
-        self._prover: Prover | None = None
+        self._prover: Prover | None = None  # imported when it is needed
 
-    def solve(self, translator: Translator | None = None) -> Solution:
+    def solve(self, started: DownwardProcess | None = None) -> Solution:
         """A plan, or why there is none.
 
         Args:
-            translator: One that was started earlier.
+            started: One that was started earlier.
 
         Raises:
             MissingToolError: Fast Downward is not installed.
@@ -78,67 +70,60 @@ class FastDownward:
             TmdError: It does not take the problem.
         """
         try:
-            with translator or Translator() as running:
-                code = running.translate(self.problem, self.deadline)
-                if code is None:
-                    return self._late()
-                if code in _NO_MEMORY:
-                    return GaveUp(f"the memory of {running.process.name}")
-                if code:
-                    raise running.process.failed(died(code))
+            with started or DownwardProcess(optimal=self.optimal) as running:
+                running.give(texts_for_planners(self.problem), self.deadline)
+                from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
+
+                while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
+                    if not self.deadline.left():
+                        break
+                first = OPTIMAL if self.optimal else FIRST
+                answer = self._answer(running.process, first, running.plan)
+                if answer is not None:
+                    return answer
                 axioms = _AXIOMS.search(running.process.said())
-                return self._searched(running, has_axioms=axioms is None or axioms[1] != "0")
+                exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
+                return self._again(running.sas, exhaustive)
         finally:
             if self._prover is not None:
                 self._prover.process.__exit__(None, None, None)
 
-    def _searched(self, translator: Translator, *, has_axioms: bool) -> Solution:
-        exhaustive = OPTIMAL_WITH_AXIOMS if has_axioms else OPTIMAL_WITH_CONDITIONS
-        for search in (OPTIMAL if self.optimal else FIRST, exhaustive):
-            answer = self._one(translator, search)
-            if answer is not None:
+    def _again(self, sas: IO[bytes], search: str) -> Solution:
+        """Another search on what is translated already."""
+        sas.seek(0)
+        with tempfile.TemporaryFile() as plan:
+            command = search_command(search, plan)
+            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),)) as process:
+                answer = self._answer(process, search, plan)
+                if answer is None:
+                    raise process.failed("ended without a plan and without a proof")
                 return answer
-        raise PlannerError(f"{NAME} ended without a plan and without a proof")
 
-    def _one(self, translator: Translator, search: str) -> Solution | None:
-        """What one search answers; ``None`` where another one has to be asked."""
-        translator.sas.seek(0)
-        with (
-            tempfile.TemporaryFile() as plan,
-            PlannerProcess(
-                NAME,
-                [
-                    *(str(translator.binaries / "downward"), "--search", search),
-                    *("--internal-plan-file", f"/dev/fd/{plan.fileno()}"),
-                ],
-                stdin=translator.sas,
-                passed=(plan.fileno(),),
-            ) as process,
-        ):
-            reason = self._awaited(process)
-            code = process.poll()
-            if reason is not None:
-                return Unreachable(reason)
-            if code is None:
-                return self._late()
-            if code == 0:
-                plan.seek(0)
-                return checked(self.problem, plan.read().decode(errors="replace"), process, search != FIRST)
-            if code in _NO_MEMORY:
-                return GaveUp(f"the memory of {NAME}")
-            if code == _UNSUPPORTED and search == OPTIMAL:
-                return None
-            if code in _UNSOLVABLE or (code == _INCOMPLETE and _EXHAUSTED in process.said() and search != FIRST):
-                return Unreachable(self._reason())
-            if code == _INCOMPLETE and search == FIRST:  # its dead ends are no proof
-                return None
-            raise process.failed(died(code))
+    def _answer(self, process: PlannerProcess, search: str, plan: IO[bytes]) -> Solution | None:
+        """What one search answers; ``None`` where an exhaustive one has to be asked."""
+        reason = self._awaited(process)
+        code = process.poll()
+        if reason is not None:
+            return Unreachable(reason)
+        if code is None:
+            return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
+        if code == 0:
+            plan.seek(0)
+            return checked(self.problem, plan.read().decode(errors="replace"), process, search != FIRST)
+        if code in _NO_MEMORY:
+            return GaveUp(f"the memory of {NAME}")
+        proven = code in _UNSOLVABLE or (code == _INCOMPLETE and _EXHAUSTED in process.said())
+        if proven and search != FIRST:  # the dead ends of the first are no proof
+            return Unreachable(self._reason())
+        if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search == FIRST):
+            return None
+        raise process.failed(died(code))
 
     def _awaited(self, search: PlannerProcess) -> str | None:
         """Wait for a search; a reason that there is no plan, where that is found first."""
         if not self.prove:
             search.wait(self.deadline)
-        elif search.wait(Deadline(min(SOON, self.deadline.left()))) is None:
+        elif search.wait(self.deadline.at_most(SOON)) is None:
             prover = self._start_prover()
             search.wait_with(prover.process, self.deadline)
             if search.poll() is None:
@@ -150,16 +135,27 @@ class FastDownward:
 
     def _start_prover(self) -> Prover:
         if self._prover is None:
+            from tmd.planning.prover import Prover
+
             self._prover = Prover(self.problem)
         return self._prover
 
     def _reason(self) -> str:
         """Why there is no plan, which is certain."""
-        found = self._start_prover().reason(Deadline(min(EXPLAINING, self.deadline.left()))) if self.prove else None
+        found = self._start_prover().reason(self.deadline.at_most(EXPLAINING)) if self.prove else None
         return found or f"{NAME} looked at every state that can be reached, and the goal holds in none"
 
-    def _late(self) -> GaveUp:
-        return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
+
+def texts_for_planners(problem: Problem) -> tuple[str, str]:
+    """Domain and problem as text for planners that read PDDL themselves.
+
+    Where there is no way to do without ``either`` it stays: they take it in the declaration of a predicate.
+    """
+    try:
+        plain = portable(problem)
+    except TmdError:
+        plain = problem
+    return format_domain(plain.domain), format_problem(plain)
 
 
 def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool) -> Solved:
@@ -168,6 +164,9 @@ def checked(problem: Problem, text: str, process: PlannerProcess, optimal: bool)
     Raises:
         PlannerError: It is no plan, or does not work.
     """
+    from tmd.pddl.plan_file import parse_plan
+    from tmd.pddl.validator import validate
+
     try:
         plan = parse_plan(text).instructions
     except TmdError as error:

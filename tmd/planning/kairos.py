@@ -11,9 +11,7 @@ from pathlib import Path
 
 from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import Problem
-from tmd.pddl.normalise import portable
-from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.fast_downward import checked
+from tmd.planning.fast_downward import checked, texts_for_planners
 from tmd.planning.processes import Deadline, PlannerProcess, died
 from tmd.planning.result import GaveUp, Solution, Unreachable
 
@@ -28,11 +26,9 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
     Raises:
         MissingToolError: kairos is not installed.
         PlannerError: It died, or what it gave is no plan.
-        TmdError: The problem cannot be written in the form that other planners read.
     """
-    plain = portable(problem)
     with tempfile.TemporaryFile() as domain_file, tempfile.TemporaryFile() as problem_file:
-        for file, text in ((domain_file, format_domain(plain.domain)), (problem_file, format_problem(plain))):
+        for file, text in zip((domain_file, problem_file), texts_for_planners(problem), strict=True):
             file.write(text.encode())
             file.flush()
         files = (domain_file.fileno(), problem_file.fileno())

@@ -46,6 +46,10 @@ class Deadline:
         """Seconds that are left, at least 0."""
         return max(0.0, self._end - time.monotonic())
 
+    def at_most(self, seconds: float) -> Deadline:
+        """This deadline, or one in ``seconds`` if that is earlier."""
+        return Deadline(min(seconds, self.left()))
+
 
 class PlannerProcess:
     """A planner that runs; leaving its ``with`` block kills what is left of it.

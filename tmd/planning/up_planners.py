@@ -23,11 +23,11 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
+from tmd.planning.downward_process import binaries
 from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS
 from tmd.planning.fast_downward import OPTIMAL_WITH_CONDITIONS as OPTIMAL
 from tmd.planning.processes import Conversation, Deadline
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
-from tmd.planning.translator import binaries
 from tmd.planning.unsolvable import unreachable_reason
 
 SOLVED = ("SOLVED_SATISFICING", "SOLVED_OPTIMALLY")

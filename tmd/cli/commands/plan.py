@@ -45,9 +45,9 @@ def command(
     its limit, and 35 where it failed.
     """
     from tmd.cli.signals import stoppable
-    from tmd.planning.translator import early_translator
+    from tmd.planning.downward_process import early_start
 
-    with stoppable(), early_translator(planner) as translator:  # it starts while we import and read the rest
+    with stoppable(), early_start(planner, optimal=optimal) as started:  # it starts while we import and read the rest
         from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
         from tmd.files import write_text
         from tmd.pddl.reading.reader import read_problem
@@ -57,7 +57,7 @@ def command(
         name = planner or AUTO
         wanted = read_problem(problem, roots.domain(domain))
         limit = {} if seconds is None else {"seconds": seconds}
-        answer = solve(wanted, name, optimal=optimal, translator=translator, **limit)
+        answer = solve(wanted, name, optimal=optimal, started=started, **limit)
         if isinstance(answer, Solved) and output:
             write_text(output, plan_text(answer, wanted.domain))
     if as_json:
