@@ -88,11 +88,15 @@ def last_resort(task: Task) -> Planner:
     """
     if find_spec("up_fast_downward") is None:
         return make(IN_PROCESS_FIRST, task)
-    return _InTurn((make(IN_PROCESS_FIRST, task, cap=SOON), FirstPlan(task)))
+    return InTurn((make(IN_PROCESS_FIRST, task, cap=SOON), FirstPlan(task)))
 
 
-class _InTurn:
-    """Planners that are asked one after another, until one does not give up."""
+class InTurn:
+    """Planners that are asked one after another, until one does not give up.
+
+    Args:
+        planners: Who is asked, the first one first.
+    """
 
     def __init__(self, planners: Sequence[Planner]) -> None:
         self._planners = planners

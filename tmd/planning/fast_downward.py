@@ -112,8 +112,8 @@ class FastDownward:
             return checked(self.problem, plan.read().decode(errors="replace"), process, search != FIRST)
         if code in _NO_MEMORY:
             return GaveUp(f"the memory of {NAME}")
-        proven = code in _UNSOLVABLE or (code == _INCOMPLETE and _EXHAUSTED in process.said())
-        if proven and search != FIRST:  # the dead ends of the first are no proof
+        exhausted = code == _INCOMPLETE and search != FIRST and _EXHAUSTED in process.said()
+        if code in _UNSOLVABLE or exhausted:  # the dead ends of the first search are no proof
             return Unreachable(self._reason())
         if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search == FIRST):
             return None

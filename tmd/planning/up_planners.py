@@ -24,8 +24,7 @@ from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.downward_process import binaries
-from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS
-from tmd.planning.fast_downward import OPTIMAL_WITH_CONDITIONS as OPTIMAL
+from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS, OPTIMAL_WITH_CONDITIONS
 from tmd.planning.processes import Conversation, Deadline
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
 from tmd.planning.unsolvable import unreachable_reason
@@ -215,7 +214,7 @@ class _Worker:
         path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH", ""))))
         command = [sys.executable, "-m", "tmd.planning.up_worker"]
         self._talk = Conversation(f"the planner {self.engine.name}", command, {"PYTHONPATH": path})
-        self._stop = weakref.finalize(self, Conversation.close, self._talk)
+        self._stop = weakref.finalize(self, self._talk.close)
         if self._exchange(self.opening) is None:
             raise PlannerError(f"the planner {self.engine.name} did not start within {self._patience():g} s")
 
@@ -293,7 +292,7 @@ def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
         or any(has_universal(effect.condition, True) for effect in action.effects)
         for action in domain.actions
     )
-    search = OPTIMAL_WITH_AXIOMS if universal else OPTIMAL
+    search = OPTIMAL_WITH_AXIOMS if universal else OPTIMAL_WITH_CONDITIONS
     return EngineSpec("fast-downward", {"fast_downward_search_config": search}, time_limit, skip_checks=True)
 
 
