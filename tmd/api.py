@@ -277,14 +277,17 @@ def export_plan(
         The files that were written.
 
     Raises:
-        TmdError: There is no such format, the plan does not work, or the directory cannot be written.
+        TmdError: There is no such format, the plan does not work, a format cannot say the problem (nothing is written
+            then), or the directory cannot be written.
     """
     from tmd.export.directory import write_directory
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    files = chosen_files(planned(problem, plan), formats)
-    flat = {path: data for written in files.values() for path, data in written.items()}
+    written = chosen_files(planned(problem, plan), formats)
+    for failure in written.failures.values():
+        raise failure
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(target, flat, overwrite=overwrite)
     return [target / path for path in flat]
 

@@ -105,8 +105,8 @@ def test_what_a_plan_changes_is_its_outcome() -> None:
 
 def test_one_format_fills_the_directory_several_share_it() -> None:
     source = planned_case("blocks")
-    assert list(chosen_files(source, ["ipc"])["ipc"]) == ["plan.plan"]
-    several = chosen_files(source, ["ipc", "adl", "ipc"])
+    assert list(chosen_files(source, ["ipc"]).files["ipc"]) == ["plan.plan"]
+    several = chosen_files(source, ["ipc", "adl", "ipc"]).files
     assert [path for files in several.values() for path in files] == [
         "ipc/plan.plan",
         "adl/domain.pddl",

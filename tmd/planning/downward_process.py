@@ -41,9 +41,10 @@ sas, *search = sys.argv[3:]
 sys.argv[3:] = ["--sas-file", f"/dev/fd/{sas}"]
 runpy.run_module("fast_downward.translate", run_name="__main__", alter_sys=True)
 print(flush=True)
-os.lseek(int(sas), 0, os.SEEK_SET)
-os.dup2(int(sas), 0)
-os.execv(search[0], search)
+if search:
+    os.lseek(int(sas), 0, os.SEEK_SET)
+    os.dup2(int(sas), 0)
+    os.execv(search[0], search)
 """
 
 
@@ -69,7 +70,7 @@ class DownwardProcess:
     """Translator and search, started and waiting for a problem; a ``with`` block ends them.
 
     Args:
-        optimal: Whether the search shall be :data:`OPTIMAL` and not :data:`FIRST`.
+        search: The configuration of the search; without one the problem is translated only.
 
     Attributes:
         process: The process.
@@ -81,7 +82,7 @@ class DownwardProcess:
         PlannerError: It cannot be started.
     """
 
-    def __init__(self, *, optimal: bool) -> None:
+    def __init__(self, search: str | None) -> None:
         programs = binaries()
         self.sas = tempfile.TemporaryFile()  # noqa: SIM115 - both are closed when the block is left
         self.plan = tempfile.TemporaryFile()  # noqa: SIM115
@@ -95,7 +96,7 @@ class DownwardProcess:
                 [
                     *(sys.executable, "-S", "-c", _TRANSLATE_AND_SEARCH),
                     *(f"/dev/fd/{end}" for end in inherited),
-                    *(str(files[0]), *search_command(OPTIMAL if optimal else FIRST, self.plan)),
+                    *(str(files[0]), *(search_command(search, self.plan) if search else ())),
                 ],
                 passed=(*inherited, *files),
                 environment={"PYTHONPATH": str(programs)},
@@ -136,4 +137,4 @@ class DownwardProcess:
 def early_start(planner: str | None, *, optimal: bool) -> AbstractContextManager[DownwardProcess | None]:
     """Fast Downward for :func:`tmd.planning.backends.solve`, where ``planner`` will need it and it is there."""
     needed = planner in (None, "auto", "fast-downward") and find_spec("up_fast_downward")
-    return DownwardProcess(optimal=optimal) if needed else nullcontext()
+    return DownwardProcess(OPTIMAL if optimal else FIRST) if needed else nullcontext()

@@ -69,15 +69,15 @@ class FastDownward:
             PlannerError: It died, or what it gave is no plan.
             TmdError: It does not take the problem.
         """
+        first = OPTIMAL if self.optimal else FIRST
         try:
-            with started or DownwardProcess(optimal=self.optimal) as running:
+            with started or DownwardProcess(first) as running:
                 running.give(texts_for_planners(self.problem), self.deadline)
                 from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
                 while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
                     if not self.deadline.left():
                         break
-                first = OPTIMAL if self.optimal else FIRST
                 answer = self._answer(running.process, first, running.plan)
                 if answer is not None:
                     return answer
