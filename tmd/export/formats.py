@@ -155,7 +155,7 @@ FORMATS: Mapping[str, Format] = {
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
+class ChosenFiles:
     """What became of the formats that were asked for.
 
     Attributes:
@@ -167,7 +167,7 @@ class Written:
     failures: Mapping[str, TmdError]
 
 
-def chosen_files(source: Planned, names: Sequence[str]) -> Written:
+def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
     """The files of each format; several formats have a directory each. One that fails does not keep the others back.
 
     Raises:
@@ -182,7 +182,7 @@ def chosen_files(source: Planned, names: Sequence[str]) -> Written:
             files[form.name] = {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
         except TmdError as error:
             failures[form.name] = error
-    return Written(files, failures)
+    return ChosenFiles(files, failures)
 
 
 def _form(name: str) -> Format:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.downward_process import DownwardProcess
 from tmd.planning.fast_downward import FastDownward, FirstPlan
-from tmd.planning.kairos import kairos
 from tmd.planning.processes import Deadline
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
+
+if TYPE_CHECKING:
+    from tmd.pddl.task import Bits, Cube, Task
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -148,6 +150,8 @@ def _solution(
     if name == FAST_DOWNWARD:
         return FastDownward(problem, optimal=optimal, deadline=deadline).solve(started)
     if name == KAIROS:
+        from tmd.planning.kairos import kairos
+
         return kairos(problem, optimal=optimal, deadline=deadline)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
         from tmd.planning.up_planners import solved_by_engine

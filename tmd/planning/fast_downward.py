@@ -15,13 +15,13 @@ from typing import IO, TYPE_CHECKING
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.normalise import portable
-from tmd.pddl.task import Bits, Cube, Task
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.downward_process import FIRST, NAME, OPTIMAL, DownwardProcess, search_command
 from tmd.planning.processes import Deadline, PlannerProcess, died
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
 
 if TYPE_CHECKING:
+    from tmd.pddl.task import Bits, Cube, Task
     from tmd.planning.prover import Prover
 
 OPTIMAL_WITH_CONDITIONS = "astar(hmax())"

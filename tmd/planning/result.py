@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube
+if TYPE_CHECKING:
+    from tmd.pddl.model import Instruction
+    from tmd.pddl.task import Bits, Cube
 
 
 @dataclass(frozen=True, slots=True)
