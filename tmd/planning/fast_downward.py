@@ -28,6 +28,17 @@ OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
 """Optimal with conditional effects; under axioms (from universal preconditions) hmax may overestimate."""
 OPTIMAL_WITH_AXIOMS = "astar(blind())"
 
+_OPTIMAL = (OPTIMAL, OPTIMAL_WITH_CONDITIONS, OPTIMAL_WITH_AXIOMS)
+
+FIRST_OF_A_GAP = (
+    "let(hff,ff(),let(hlm,landmark_sum(lm_reasonable_orders_hps(lm_rhw())),eager_greedy([hff,hlm],preferred=[hff])))"
+)
+"""Slower than :data:`~tmd.planning.downward_process.FIRST`, with shorter plans: nobody asked for what is left unsaid.
+
+FF alone does not see that a full hand takes nothing more: of a goal that clears a table of four things it evaluates two
+million states in vain, with landmarks beside it 1,700. On the bundled problems the plans are as long.
+"""
+
 SOON = 1.0
 """Seconds of search after which proofs are looked for beside it."""
 EXPLAINING = 20.0
@@ -49,13 +60,16 @@ class FastDownward:
         optimal: Whether the plan shall be optimal; otherwise it is the first that is found.
         deadline: Until when.
         prove: Whether to look for the reason where there seems to be no plan.
+        search: The configuration that is asked first; by default the usual one for what is asked.
     """
 
-    def __init__(self, problem: Problem, *, optimal: bool, deadline: Deadline, prove: bool = True) -> None:
+    def __init__(
+        self, problem: Problem, *, optimal: bool, deadline: Deadline, prove: bool = True, search: str | None = None
+    ) -> None:
         self.problem = problem
-        self.optimal = optimal
         self.deadline = deadline
         self.prove = prove
+        self.search = search or (OPTIMAL if optimal else FIRST)
         self._prover: Prover | None = None  # imported when it is needed
 
     def solve(self, started: DownwardProcess | None = None) -> Solution:
@@ -69,16 +83,15 @@ class FastDownward:
             PlannerError: It died, or what it gave is no plan.
             TmdError: It does not take the problem.
         """
-        first = OPTIMAL if self.optimal else FIRST
         try:
-            with started or DownwardProcess(first) as running:
+            with started or DownwardProcess(self.search) as running:
                 running.give(texts_for_planners(self.problem), self.deadline)
                 from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
                 while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
                     if not self.deadline.left():
                         break
-                answer = self._answer(running.process, first, running.plan)
+                answer = self._answer(running.process, self.search, running.plan)
                 if answer is not None:
                     return answer
                 axioms = _AXIOMS.search(running.process.said())
@@ -109,13 +122,13 @@ class FastDownward:
             return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
         if code == 0:
             plan.seek(0)
-            return checked(self.problem, plan.read().decode(errors="replace"), process, search != FIRST)
+            return checked(self.problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
         if code in _NO_MEMORY:
             return GaveUp(f"the memory of {NAME}")
-        exhausted = code == _INCOMPLETE and search != FIRST and _EXHAUSTED in process.said()
-        if code in _UNSOLVABLE or exhausted:  # the dead ends of the first search are no proof
+        exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.said()
+        if code in _UNSOLVABLE or exhausted:  # the dead ends of other searches are no proof
             return Unreachable(self._reason())
-        if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search == FIRST):
+        if (code == _UNSUPPORTED and search == OPTIMAL) or (code == _INCOMPLETE and search not in _OPTIMAL):
             return None
         raise process.failed(died(code))
 
@@ -200,7 +213,9 @@ class FirstPlan:
         cubes = [_formula(self.task, cube) for cube in goal if not cube.positive & cube.negative]
         wanted = cubes[0] if len(cubes) == 1 else Or(tuple(cubes))  # a disjunction becomes an axiom
         problem = replace(self.task.problem, init=self.task.decode(state), goal=wanted)
-        asked = FastDownward(problem, optimal=False, deadline=Deadline(self.seconds), prove=False)
+        asked = FastDownward(
+            problem, optimal=False, deadline=Deadline(self.seconds), prove=False, search=FIRST_OF_A_GAP
+        )
         answer = asked.solve()
         if isinstance(answer, Solved):
             for operator in map(self.task.by_instruction.__getitem__, answer.plan):
