@@ -9,14 +9,13 @@ from __future__ import annotations
 
 import os
 import sys
-import tempfile
 from contextlib import AbstractContextManager, nullcontext
 from importlib.util import find_spec
 from pathlib import Path
 from typing import IO, TYPE_CHECKING
 
 from tmd.diagnostics import MissingToolError
-from tmd.planning.processes import Deadline, PlannerProcess, feed
+from tmd.planning.processes import Deadline, PlannerProcess, feed, unnamed_file
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -84,8 +83,8 @@ class DownwardProcess:
 
     def __init__(self, search: str | None) -> None:
         programs = binaries()
-        self.sas = tempfile.TemporaryFile()  # noqa: SIM115 - both are closed when the block is left
-        self.plan = tempfile.TemporaryFile()  # noqa: SIM115
+        self.sas = unnamed_file()  # both are closed when the block is left
+        self.plan = unnamed_file()
         ends = [os.pipe(), os.pipe()]
         self._pipes = [write for _, write in ends]
         inherited = [read for read, _ in ends]

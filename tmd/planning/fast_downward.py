@@ -7,7 +7,6 @@ an object, may share one. It is under the GPL, and never imported.
 from __future__ import annotations
 
 import re
-import tempfile
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import IO, TYPE_CHECKING
@@ -17,7 +16,7 @@ from tmd.pddl.model import And, Atom, Formula, Not, Or, Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.downward_process import FIRST, NAME, OPTIMAL, DownwardProcess, search_command
-from tmd.planning.processes import Deadline, PlannerProcess, died
+from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
 
 if TYPE_CHECKING:
@@ -104,7 +103,7 @@ class FastDownward:
     def _again(self, sas: IO[bytes], search: str) -> Solution:
         """Another search on what is translated already."""
         sas.seek(0)
-        with tempfile.TemporaryFile() as plan:
+        with unnamed_file() as plan:
             command = search_command(search, plan)
             with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),)) as process:
                 answer = self._answer(process, search, plan)

@@ -6,13 +6,12 @@ import os
 import re
 import shutil
 import sys
-import tempfile
 from pathlib import Path
 
 from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import Problem
 from tmd.planning.fast_downward import checked, texts_for_planners
-from tmd.planning.processes import Deadline, PlannerProcess, died
+from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
 from tmd.planning.result import GaveUp, Solution, Unreachable
 
 NAME = "kairos"
@@ -27,7 +26,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
         MissingToolError: kairos is not installed.
         PlannerError: It died, or what it gave is no plan.
     """
-    with tempfile.TemporaryFile() as domain_file, tempfile.TemporaryFile() as problem_file:
+    with unnamed_file() as domain_file, unnamed_file() as problem_file:
         for file, text in zip((domain_file, problem_file), texts_for_planners(problem), strict=True):
             file.write(text.encode())
             file.flush()

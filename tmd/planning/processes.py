@@ -10,7 +10,6 @@ import os
 import selectors
 import signal
 import subprocess
-import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, suppress
@@ -84,8 +83,8 @@ class PlannerProcess:
     ) -> None:
         self.name = name
         self._files = ExitStack()
-        self._said = self._files.enter_context(_unnamed())
-        self._output = self._files.enter_context(_unnamed()) if keep_output else None
+        self._said = self._files.enter_context(unnamed_file())
+        self._output = self._files.enter_context(unnamed_file()) if keep_output else None
         try:
             self._process = subprocess.Popen(
                 list(command),
@@ -163,7 +162,9 @@ class Conversation:
     """
 
     def __init__(self, name: str, command: Sequence[str], environment: Mapping[str, str]) -> None:
-        self._directory = tempfile.TemporaryDirectory(prefix="tmd-planner-")
+        from tempfile import TemporaryDirectory
+
+        self._directory = TemporaryDirectory(prefix="tmd-planner-")
         self._mark = Path(self._directory.name).name
         questions, self._questions = os.pipe()
         self._answers, answers = os.pipe()
@@ -269,7 +270,13 @@ def feed(descriptor: int, text: str, reader: PlannerProcess, deadline: Deadline)
     return not data
 
 
-def _unnamed() -> IO[bytes]:
+def unnamed_file() -> IO[bytes]:
+    """A file without a name, which is gone when nobody has it open, in the directory for temporary ones."""
+    with suppress(AttributeError, OSError):  # as tempfile does on Linux, whose import takes as long as a small search
+        directory = os.environ.get("TMPDIR") or "/tmp"
+        return os.fdopen(os.open(directory, os.O_TMPFILE | os.O_RDWR, 0o600), "w+b")
+    import tempfile
+
     return tempfile.TemporaryFile()
 
 

@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import pickle
 import sys
-import tempfile
 
 from tmd.pddl.model import Problem
-from tmd.planning.processes import Deadline, PlannerProcess
+from tmd.planning.processes import Deadline, PlannerProcess, unnamed_file
 
 
 def reason_of(problem: Problem) -> str | None:
@@ -39,7 +38,7 @@ class Prover:
     """
 
     def __init__(self, problem: Problem) -> None:
-        with tempfile.TemporaryFile() as question:
+        with unnamed_file() as question:
             pickle.dump(problem, question)
             question.seek(0)
             self.process = PlannerProcess(

@@ -49,7 +49,6 @@ def command(
 
     with stoppable(), early_start(planner, optimal=optimal) as started:  # it starts while we import and read the rest
         from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
-        from tmd.files import write_text
         from tmd.pddl.reading.reader import read_problem
         from tmd.planning.backends import AUTO, solve
         from tmd.planning.result import Solved
@@ -59,6 +58,8 @@ def command(
         limit = {} if seconds is None else {"seconds": seconds}
         answer = solve(wanted, name, optimal=optimal, started=started, **limit)
         if isinstance(answer, Solved) and output:
+            from tmd.files import write_text
+
             write_text(output, plan_text(answer, wanted.domain))
     if as_json:
         emit_json(answer_json(answer, name))
