@@ -27,7 +27,7 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.backends import AUTO, solve
-from tmd.planning.result import Filled, Unreachable
+from tmd.planning.result import Solved, Unreachable
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
@@ -235,7 +235,7 @@ def find_plan(problem: Problem, *, planner: str = AUTO) -> tuple[Instruction, ..
         TmdError: There is no such planner, or it refuses the problem.
     """
     answer = solve(problem, planner)
-    if isinstance(answer, Filled):
+    if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):
         raise NoPlanError(f"there is no plan: {answer.reason}", proven=True)
@@ -277,14 +277,17 @@ def export_plan(
         The files that were written.
 
     Raises:
-        TmdError: There is no such format, the plan does not work, or the directory cannot be written.
+        TmdError: There is no such format, the plan does not work, a format cannot say the problem (nothing is written
+            then), or the directory cannot be written.
     """
     from tmd.export.directory import write_directory
     from tmd.export.formats import chosen_files
 
     target = Path(directory)
-    files = chosen_files(planned(problem, plan), formats)
-    flat = {path: data for written in files.values() for path, data in written.items()}
+    written = chosen_files(planned(problem, plan), formats)
+    for failure in written.failures.values():
+        raise failure
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(target, flat, overwrite=overwrite)
     return [target / path for path in flat]
 

@@ -38,6 +38,8 @@ class ExitCode(IntEnum):
     """A data set is missing, truncated or of another version."""
     CANNOT_WRITE = 34
     """Output could not be written; nothing was half-written."""
+    PLANNER_FAILED = 35
+    """A planner died, or what it gave is no plan."""
     INTERNAL = 39
     """A fault of tmd itself."""
     INTERRUPTED = 130
@@ -113,3 +115,9 @@ class OutputError(TmdError):
     """A file or directory cannot be written."""
 
     exit_code = ExitCode.CANNOT_WRITE
+
+
+class PlannerError(TmdError):
+    """A planner died, or what it gave is no plan."""
+
+    exit_code = ExitCode.PLANNER_FAILED

@@ -22,7 +22,7 @@ from tmd.pddl.plan_file import format_plan, parse_plan, read_plan
 from tmd.pddl.reading.reader import read_domain, read_problem
 from tmd.pddl.validator import validate
 from tmd.planning.backends import solve
-from tmd.planning.result import Filled
+from tmd.planning.result import Solved
 
 ROOT = Path(__file__).resolve().parents[2]
 SCHEMA = ROOT / "tests" / "export" / "behavior_tree.xsd"
@@ -68,7 +68,7 @@ def prepared(name: str, domain: Path, problem: Path, work: Path) -> Planned:
     kept = work / "plans" / f"{name}.plan"
     if not kept.is_file():
         answer = solve(read)
-        if not isinstance(answer, Filled):
+        if not isinstance(answer, Solved):
             raise TmdError(f"{name}: our planner found no plan")
         kept.parent.mkdir(parents=True, exist_ok=True)
         kept.write_text(format_plan(answer.plan, answer.cost), encoding="utf-8")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import signal
@@ -123,7 +124,7 @@ CASES = {
     "no-planner": (
         ExitCode.BAD_INPUT,
         ["plan", DOMAIN, PROBLEM, "--planner", "slow-upward"],
-        r"error: there is no planner 'slow-upward'\nhint: planners: in-process",
+        r"error: there is no planner 'slow-upward'\nhint: planners: auto, fast-downward, kairos, in-process, up:ENGINE",
     ),
     "no-weights": (ExitCode.BAD_INPUT, [*KITCHEN, "--text", "a", "--weights", "hand"], r"error: there are no weights"),
     "no-task": (
@@ -199,6 +200,32 @@ def test_gave_up(tmd: Tmd, tmp_path: Path) -> None:
     assert re.fullmatch(r"no plan: the planner gave up at .*; nothing is proven\n", ended.err)
 
 
+@pytest.mark.parametrize("planner", ["fast-downward", "kairos"])
+def test_a_time_limit(tmd: Tmd, tmp_path: Path, planner: str) -> None:
+    pytest.importorskip({"fast-downward": "up_fast_downward"}.get(planner, planner))
+    ended = tmd("plan", *counter(tmp_path), "--planner", planner, "--time-limit", "0.5", "--json")
+    assert ended.code == ExitCode.GAVE_UP
+    assert re.fullmatch(r"no plan: the planner gave up at 0.5 s of .*; nothing is proven\n", ended.err)
+    told = json.loads(ended.out)
+    assert (told["status"], told["plan"], told["optimal"]) == ("gave_up", None, None)
+
+
+def test_planner_failed(tmd: Tmd) -> None:
+    pytest.importorskip("up_fast_downward")
+    broken = "import tmd.planning.downward_process as d; d.FIRST = 'no_such_search()'"
+    ended = tmd("plan", DOMAIN, PROBLEM, before=broken)
+    assert (ended.code, ended.out) == (ExitCode.PLANNER_FAILED, "")
+    assert re.match(r"error: Fast Downward ended with the exit code 33; its last lines: .*no_such_search", ended.err)
+    _no_traceback(ended)
+
+
+def test_optimal_or_found(tmd: Tmd) -> None:
+    pytest.importorskip("up_fast_downward")
+    found, best = (tmd("plan", DOMAIN, PROBLEM, option) for option in ("--satisficing", "--optimal"))
+    assert found.out.startswith("; found: a cheaper plan may exist\n(") and found.code == ExitCode.OK
+    assert best.out.startswith("; optimal: no plan is cheaper\n(") and best.code == ExitCode.OK
+
+
 def test_out_of_memory(tmd: Tmd) -> None:
     broken = BREAK_PARSER.replace("ZeroDivisionError('division by zero')", "MemoryError")
     ended = tmd("parse", "--text", "take the cup", before=broken)
@@ -206,8 +233,17 @@ def test_out_of_memory(tmd: Tmd) -> None:
     assert ended.err.startswith("error: out of memory\nhint: ")
 
 
-@pytest.mark.parametrize("hidden", [HIDE_FAST_DOWNWARD, HIDE_UNIFIED_PLANNING])
-@pytest.mark.parametrize("arguments", [["plan", DOMAIN, PROBLEM], [*KITCHEN, "--text", "fill the pot with water"]])
+GROUND = [*KITCHEN, "--text", "fill the pot with water"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hidden"),
+    [
+        (["plan", DOMAIN, PROBLEM], HIDE_FAST_DOWNWARD),
+        (GROUND, HIDE_FAST_DOWNWARD),
+        (GROUND, HIDE_UNIFIED_PLANNING),  # which is not between whole problems and Fast Downward
+    ],
+)
 def test_no_fast_downward(tmd: Tmd, hidden: str, arguments: list[str | Path]) -> None:
     ended = tmd(*arguments, "--planner", "fast-downward", before=hidden)
     assert ended.code == ExitCode.MISSING_TOOL
@@ -310,6 +346,6 @@ def test_every_code_is_provoked() -> None:
     """The codes of the table above and those that have a test of their own (NOT_EXECUTED in test_run.py)."""
     own = {
         ExitCode.TESTS_FAILED, ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND,
-        ExitCode.INTERNAL, ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED,
+        ExitCode.INTERNAL, ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED, ExitCode.PLANNER_FAILED,
     }  # fmt: skip
     assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)

@@ -13,6 +13,7 @@ from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
 PLAN = BLOCKS / "plans" / "valid-sussman.plan"
+HIDE = "import sys; sys.modules['up_fast_downward'] = None"
 STEPS = [["find", "pot1"], ["moveto", "pot1"], ["grasp", "pot1"]]
 
 
@@ -147,7 +148,7 @@ CASES = {
         [PROBLEM, "out", "--plan", BLOCKS / "plans" / "invalid-goal.plan"],
         "at the end the goal",
     ),
-    "text-for-problem": (ExitCode.USAGE, [PROBLEM, "out", "--text", "x"], "a text is for an environment"),
+    "text-without-domain": (ExitCode.BAD_INPUT, [PROBLEM, "out", "--text", "x"], "does not say where its domain is"),
     "nothing-said": (ExitCode.USAGE, ["kitchen1", "out"], "give one of --text, --text-file, --plan and --goal"),
     "text-and-plan": (ExitCode.USAGE, ["kitchen1", "out", "--text", "x", "--plan", PLAN], "give one of --text"),
     "example-of-problem": (ExitCode.USAGE, [PROBLEM, "out", "--example", "x"], "are for the directory of a run"),
@@ -167,6 +168,73 @@ def test_what_is_wrong_is_told(
     assert len(ended.err.splitlines()) <= 4
     assert "Traceback" not in ended.err
     assert not list(tmp_path.iterdir())
+
+
+ALIKE = """
+(define (domain shelves)
+  (:requirements :strips :typing)
+  (:types place thing)
+  (:predicates (at ?x - thing ?p - place) (held ?x - thing) (take ?x - thing){more})
+  (:action take
+    :parameters (?x - thing ?p - place) :precondition (at ?x ?p) :effect (and (held ?x) (take ?x) (not (at ?x ?p))))
+  (:action place
+    :parameters (?x - thing ?p - place) :precondition (held ?x) :effect (and (at ?x ?p) (not (held ?x)))))
+"""
+ALIKE_PROBLEM = """
+(define (problem one) (:domain shelves) (:objects place left right - place thing book - thing)
+  (:init (at thing left) (at book left)) (:goal (and (at thing right) (at book place))))
+"""
+
+
+def test_one_name_for_two_kinds_is_exported_to_all_formats(tmd: Tmd, tmp_path: Path) -> None:
+    pytest.importorskip("up_fast_downward")
+    (tmp_path / "domain.pddl").write_text(ALIKE.format(more=""))
+    (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM)
+    ended = tmd("export", "p.pddl", "out", "--format", "all")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert len(list((tmp_path / "out").iterdir())) == 10
+
+
+def test_a_format_that_fails_does_not_keep_the_others_back(tmd: Tmd, tmp_path: Path) -> None:
+    pytest.importorskip("up_fast_downward")
+    (tmp_path / "domain.pddl").write_text(ALIKE.format(more=" (is-old) (is_old)"))
+    (tmp_path / "p.pddl").write_text(ALIKE_PROBLEM.replace("(:init", "(:init (is-old) (is_old)"))
+    ended = tmd("export", "p.pddl", "out", "--format", "anml,adl,sas", "--json")
+    assert ended.code == ExitCode.BAD_INPUT
+    told = json.loads(ended.out)
+    assert (list(told["written"]), list(told["failed"])) == (["adl", "sas"], ["anml"])
+    assert sorted(found(tmp_path / "out")) == sorted(path for paths in told["written"].values() for path in paths)
+    assert re.fullmatch(r"not written: anml: 'is-old' cannot be written in ANML.*\n", ended.err)
+    hidden = tmd("export", "p.pddl", "two", "--format", "adl,sas", "--plan", "out/adl/plan.plan", before=HIDE)
+    assert hidden.code == ExitCode.MISSING_TOOL
+    assert [path.name for path in (tmp_path / "two").iterdir()] == ["adl"]
+    only = tmd("export", "p.pddl", "three", "--format", "anml", "--plan", "out/adl/plan.plan")
+    assert (only.code, only.out, (tmp_path / "three").exists()) == (ExitCode.BAD_INPUT, "", False)
+
+
+def test_a_plan_for_exported_strips_is_a_plan_for_the_environment(tmd: Tmd, tmp_path: Path) -> None:
+    goal = ("--goal", "(at key1 table1 on)", "--planner", "in-process")
+    assert tmd("export", "study1", "s", *goal, "--format", "strips").code == ExitCode.OK
+    assert "(grasp-key1)" in found(tmp_path / "s")["plan.plan"]
+    ended = tmd("export", "study1", "out", "--plan", "s/plan.plan")
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert "(grasp key1)" in found(tmp_path / "out")["plan.plan"]
+    file = ROOT / "problems" / "03_drawer" / "environments" / "study1.yaml"
+    for environment in ("study1", file):
+        checked = tmd("validate", "03_drawer", environment, "s/plan.plan")
+        assert checked.out == "valid: 5 instructions, cost 5\n"
+    (tmp_path / "s" / "plan.plan").write_text("(grasp key1)\n")
+    assert tmd("validate", "03_drawer", "study1", "s/plan.plan").code == ExitCode.INVALID_PLAN
+    assert tmd("validate", "03_drawer", "study9", "s/plan.plan").code == ExitCode.BAD_INPUT
+
+
+def test_plans_of_pddl_environments(tmd: Tmd, tmp_path: Path) -> None:
+    (tmp_path / "b.plan").write_text("(pick_up red_block)\n(stack red_block green_block)\n")
+    assert tmd("validate", "01_blocks", "yard1", "b.plan").out == "valid: 2 instructions, cost 2\n"
+    file = ROOT / "problems" / "01_blocks" / "environments" / "yard1.pddl"
+    ended = run_tmd(("export", file, "out", "--text", "Put the red block on the green block."), tmp_path)
+    assert (ended.code, ended.err) == (ExitCode.OK, "")
+    assert "(:goal (on red_block green_block))" in found(tmp_path / "out")["problem.pddl"]
 
 
 def test_no_plan(tmd: Tmd, tmp_path: Path) -> None:

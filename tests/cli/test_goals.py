@@ -16,7 +16,7 @@ from tmd.pddl.reading.reader import read_domain, read_problem, with_goal
 from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_formula
 from tmd.planning.backends import IN_PROCESS, solve
-from tmd.planning.result import Filled
+from tmd.planning.result import Solved
 
 DRAWER = ROOT / "domains" / "03_drawer" / "domain.pddl"
 STUDY = ("--environment", "study1", "--text")
@@ -137,7 +137,7 @@ def test_a_problem_for_any_planner(tmd: Tmd, tmp_path: Path, text: str) -> None:
     told = json.loads(tmd("ground", *STUDY, text, "--goal-only", "--json").out)
     assert told["goal"] == GOALS[text] and with_goal(problem, told["goal"]).goal == problem.goal
     answer = solve(problem, IN_PROCESS)
-    assert isinstance(answer, Filled) and answer.plan and validate(problem, answer.plan).valid
+    assert isinstance(answer, Solved) and answer.plan and validate(problem, answer.plan).valid
     assert tmd("plan", "03_drawer", "asked.pddl", "--output", "asked.plan").code == ExitCode.OK
     assert tmd("validate", "03_drawer", "asked.pddl", "asked.plan").code == ExitCode.OK
 

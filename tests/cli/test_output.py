@@ -71,7 +71,7 @@ def test_the_reference_planner_finds_plans_of_the_same_cost(tmd: Tmd) -> None:
     costs = {}
     for planner in ("in-process", "fast-downward"):
         told = json.loads(tmd("plan", DOMAIN, PROBLEM, "--planner", planner, "--json").out)
-        assert list(told) == ["status", "planner", "plan", "cost", "reason"]
+        assert list(told) == ["status", "planner", "plan", "cost", "optimal", "reason"]
         assert (told["status"], told["planner"], told["reason"]) == ("solved", planner, None)
         costs[planner] = (told["cost"], len(told["plan"]))
     assert costs["in-process"] == costs["fast-downward"] == (6, 6)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import BLOCKS, Tmd
+from tests.cli.conftest import BLOCKS, ROOT, Tmd
 from tests.datasets.conftest import write_small
 from tmd.diagnostics import ExitCode
 
@@ -68,3 +69,20 @@ def test_what_cannot_be_shown(tmd: Tmd, arguments: list[str | Path], code: ExitC
     assert ended.code == code
     assert re.match(told, ended.err), ended.err
     assert ended.out == ""
+
+
+def test_a_part_without_a_shape_is_not_said_to_be_missing(tmd: Tmd, tmp_path: Path) -> None:
+    shutil.copytree(ROOT / "domains" / "03_drawer", tmp_path / "domains" / "03_drawer")
+    classes = tmp_path / "domains" / "03_drawer" / "objects.yaml"
+    text = classes.read_text().replace("  table:\n", "  flap: {parent: part, facts: [allows self in]}\n  table:\n")
+    classes.write_text(
+        text.replace("    parts:\n      drawer:", "    parts:\n      flap: {class: flap}\n      drawer:")
+    )
+    objects = "objects:\n  desk1: {class: desk}\n  key1: {class: key, at: in desk1_%s}\n"
+    for part, told in (
+        ("flap", "'desk1_flap', where 'key1' is to be, has no shape"),
+        ("flab", "there is no 'desk1_flab'"),
+    ):
+        (tmp_path / "mine.yaml").write_text("name: mine\ndomain: 03_drawer\n" + objects % part)
+        ended = tmd("scene", "--environment", "mine.yaml")
+        assert ended.code == ExitCode.BAD_INPUT and told in ended.err

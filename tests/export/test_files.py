@@ -74,16 +74,16 @@ def test_a_record_that_is_wrong_is_told(change: object, message: str) -> None:
 def test_sas_is_what_fast_downward_searches(tmp_path: Path) -> None:
     pytest.importorskip("up_fast_downward")
     import subprocess
-    import sys
 
-    from tmd.export.sas import _driver
+    from tmd.planning.downward_process import binaries
 
     source = planned_case("kitchen")
     files = FORMATS["sas"].write(source)
     assert files["output.sas"].startswith(b"begin_version\n3\nend_version\n")
     (tmp_path / "output.sas").write_bytes(files["output.sas"])
-    command = [sys.executable, str(_driver()), "output.sas", "--search", "lazy_greedy([ff()])"]
-    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=60)
+    command = [binaries() / "downward", "--search", "lazy_greedy([ff()])", "--internal-plan-file", "sas_plan"]
+    with (tmp_path / "output.sas").open() as sas:
+        subprocess.run(command, stdin=sas, cwd=tmp_path, check=True, capture_output=True, timeout=60)
     assert validate(source.problem, parse_plan((tmp_path / "sas_plan").read_text()).instructions).valid
 
 
@@ -105,8 +105,8 @@ def test_what_a_plan_changes_is_its_outcome() -> None:
 
 def test_one_format_fills_the_directory_several_share_it() -> None:
     source = planned_case("blocks")
-    assert list(chosen_files(source, ["ipc"])["ipc"]) == ["plan.plan"]
-    several = chosen_files(source, ["ipc", "adl", "ipc"])
+    assert list(chosen_files(source, ["ipc"]).files["ipc"]) == ["plan.plan"]
+    several = chosen_files(source, ["ipc", "adl", "ipc"]).files
     assert [path for files in several.values() for path in files] == [
         "ipc/plan.plan",
         "adl/domain.pddl",

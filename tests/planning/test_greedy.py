@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 import pytest
 from hypothesis import given, settings
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.task import Cube, Task
+from tmd.pddl.task import Bits, Cube, Task
 from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, InTurn, last_resort, make
 from tmd.planning.gap_filler import eliminate
-from tmd.planning.result import Filled, GaveUp, Unreachable
+from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.greedy import ENTRY, put, take
 from tmd.planning.search.in_process import FirstSearch, OptimalSearch, replayed
 
@@ -80,11 +80,17 @@ def test_who_is_asked_next_is_asked_only_where_the_one_before_gave_up(any_kitche
     assert isinstance(make(IN_PROCESS, task, cap=1).fill(task.init, goal), GaveUp)
     first = make(IN_PROCESS_FIRST, task).fill(task.init, goal)
     assert isinstance(first, Filled)
-    assert InTurn(task, ((IN_PROCESS, 1), (IN_PROCESS_FIRST, None))).fill(task.init, goal) == first
-    assert InTurn(task, ((IN_PROCESS_FIRST, None), ("nobody", None))).fill(task.init, goal) == first
+    gives_up, finds = make(IN_PROCESS, task, cap=1), make(IN_PROCESS_FIRST, task)
+    assert InTurn((gives_up, finds)).fill(task.init, goal) == first
+    assert InTurn((finds, Refusing())).fill(task.init, goal) == first
     with pytest.raises(TmdError, match="nobody"):
-        InTurn(task, ((IN_PROCESS, 1), ("nobody", None))).fill(task.init, goal)
-    assert isinstance(InTurn(task, ((IN_PROCESS, 1),)).fill(task.init, goal), GaveUp)
+        InTurn((gives_up, Refusing())).fill(task.init, goal)
+    assert isinstance(InTurn((gives_up,)).fill(task.init, goal), GaveUp)
+
+
+class Refusing:
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        raise TmdError("nobody was to be asked")
 
 
 def test_the_last_resort_answers_what_the_optimal_search_gives_up_on(any_kitchen: Callable[[str], Task]) -> None:

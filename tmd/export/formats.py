@@ -154,18 +154,35 @@ FORMATS: Mapping[str, Format] = {
 """Every format by its name, in the order in which they are documented."""
 
 
-def chosen_files(source: Planned, names: Sequence[str]) -> dict[str, Files]:
-    """The files of each format, by path within one directory; several formats have a directory each in it.
+@dataclass(frozen=True, slots=True)
+class ChosenFiles:
+    """What became of the formats that were asked for.
+
+    Attributes:
+        files: The files of each format that could be written, by path within one directory.
+        failures: Why each other one could not.
+    """
+
+    files: Mapping[str, Files]
+    failures: Mapping[str, TmdError]
+
+
+def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
+    """The files of each format; several formats have a directory each. One that fails does not keep the others back.
 
     Raises:
-        TmdError: There is no such format, or the problem cannot be written in it.
+        TmdError: There is no such format.
     """
     forms = [_form(name) for name in dict.fromkeys(names)]
     prefix = "{}/" if len(forms) > 1 else ""
-    return {
-        form.name: {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
-        for form in forms
-    }
+    files: dict[str, Files] = {}
+    failures: dict[str, TmdError] = {}
+    for form in forms:
+        try:
+            files[form.name] = {prefix.format(form.name) + path: data for path, data in form.write(source).items()}
+        except TmdError as error:
+            failures[form.name] = error
+    return ChosenFiles(files, failures)
 
 
 def _form(name: str) -> Format:

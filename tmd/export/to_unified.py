@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import re
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any, TypeAlias
@@ -40,9 +41,35 @@ def to_unified_planning(problem: Problem) -> UpProblem:
     from unified_planning.io import PDDLReader
 
     plain = portable(without_derived(_without_idle_costs(problem)))
-    with warnings.catch_warnings():
+    with warnings.catch_warnings(), _shared_names():
         warnings.simplefilter("ignore")
         return PDDLReader().parse_problem_string(format_domain(plain.domain), format_problem(plain))
+
+
+@contextmanager
+def _shared_names() -> Iterator[None]:
+    """Let an action and a predicate, or a type and an object, have one name, as PDDL does."""
+    from unified_planning.environment import get_environment
+
+    environment = get_environment()  # the reader mixes other ones with this one
+    before = environment.error_used_name
+    environment.error_used_name = False
+    try:
+        yield
+    finally:
+        environment.error_used_name = before
+
+
+@contextmanager
+def _refusals(form: str) -> Iterator[None]:
+    """What unified-planning cannot do is told as such: it has many kinds of errors for that."""
+    try:
+        yield
+    except TmdError:
+        raise
+    except Exception as error:
+        why = " ".join(str(error).split()) or type(error).__name__
+        raise TmdError(f"unified-planning cannot write this problem as {form}: {why}") from error
 
 
 def _without_idle_costs(problem: Problem) -> Problem:
@@ -106,14 +133,11 @@ def format_anml(problem: Problem) -> str:
         MissingToolError: unified-planning is not installed.
         TmdError: unified-planning refuses the problem, or two names become the same.
     """
-    converted = to_unified_planning(replace(problem, minimize_cost=False))
-    from unified_planning.exceptions import UPException
+    _needed("unified_planning", "unified-planning")
     from unified_planning.io import ANMLWriter
 
-    try:
-        text: str = ANMLWriter(converted).get_problem()
-    except UPException as error:
-        raise TmdError(f"unified-planning cannot write this problem as ANML: {error}") from error
+    with _refusals("ANML"):
+        text: str = ANMLWriter(to_unified_planning(replace(problem, minimize_cost=False))).get_problem()
     names = set(_HYPHENED.findall(text))
     taken = set(_WORD.findall(text))
     for name in sorted(names):
@@ -136,9 +160,10 @@ def messages(source: Planned) -> tuple[bytes, bytes]:
     _needed("google.protobuf", "protobuf")
     from unified_planning.grpc.proto_writer import ProtobufWriter
 
-    problem = to_unified_planning(source.problem)
     writer = ProtobufWriter()
-    converted = (writer.convert(problem), writer.convert(plan_to_unified_planning(source.plan, problem)))
+    with _refusals("protocol buffers"):
+        problem = to_unified_planning(source.problem)
+        converted = (writer.convert(problem), writer.convert(plan_to_unified_planning(source.plan, problem)))
     written: tuple[bytes, bytes] = tuple(message.SerializeToString(deterministic=True) for message in converted)
     return written
 

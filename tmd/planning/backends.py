@@ -1,16 +1,21 @@
-"""Planners by name: ``in-process``, ``fast-downward``, and ``up:ENGINE`` for engines of unified-planning."""
+"""Planners by name, for the gaps of plans (:func:`make`) and for whole problems (:func:`solve`)."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
-from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.result import Answer, GaveUp, Planner
+from tmd.planning.downward_process import DownwardProcess
+from tmd.planning.fast_downward import FastDownward, FirstPlan
+from tmd.planning.processes import Deadline
+from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
+
+if TYPE_CHECKING:
+    from tmd.pddl.task import Bits, Cube, Task
 
 IN_PROCESS = "in-process"
 """The optimal search of this package, the default."""
@@ -19,13 +24,13 @@ IN_PROCESS_FIRST = "in-process-first"
 """The greedy search of this package, content with the first plan it finds."""
 
 FAST_DOWNWARD = "fast-downward"
-"""The reference: Fast Downward, run by unified-planning as a separate process."""
+"""Fast Downward: of whole problems on PDDL text, of gaps the reference that unified-planning runs."""
 
-FAST_DOWNWARD_FIRST = "fast-downward-first"
-"""Fast Downward again, content with the first plan it finds: for whole problems, where optimal is too much to ask."""
+KAIROS = "kairos"
+"""kairos, for whole problems, where it is installed."""
 
 AUTO = "auto"
-"""For whole problems: the optimal search as far as its cap for gaps, then the first plan of Fast Downward."""
+"""For whole problems: Fast Downward, and the search of this package where that is not installed."""
 
 UP_PREFIX = "up:"
 """What stands before the name of any other engine of unified-planning."""
@@ -33,6 +38,9 @@ UP_PREFIX = "up:"
 
 SOON = 2_000
 """Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones."""
+
+TIME_LIMIT = 300.0
+"""Seconds for a whole problem: an impossible goal can keep a planner busy for ever."""
 
 PLAN_CAP = 1_000_000
 """Generated states after which the in-process search gives up on a whole problem; gaps have a smaller cap."""
@@ -63,73 +71,96 @@ def make(name: str, task: Task, *, cap: int | None = None) -> Planner:
         from tmd.planning.up_planners import fast_downward
 
         return fast_downward(task)
-    if name == FAST_DOWNWARD_FIRST:
-        from tmd.planning.up_planners import first_plan
-
-        return first_plan(task)
     if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
         from tmd.planning.up_planners import EngineSpec, UnifiedPlanner
 
         return UnifiedPlanner(task, EngineSpec(name.removeprefix(UP_PREFIX)))
-    known = [IN_PROCESS, IN_PROCESS_FIRST, FAST_DOWNWARD, FAST_DOWNWARD_FIRST, f"{UP_PREFIX}ENGINE"]
-    raise TmdError(f"there is no planner '{name}'", hint=nearest(name, known, what="planners"))
+    raise _unknown(name, [IN_PROCESS, IN_PROCESS_FIRST, FAST_DOWNWARD, f"{UP_PREFIX}ENGINE"])
 
 
-class InTurn:
-    """Planners that are asked one after another, until one does not give up; each is made when it is first asked.
-
-    Args:
-        task: The ground problem.
-        planners: The name and the cap of each, as :func:`make` takes them.
-    """
-
-    def __init__(self, task: Task, planners: Sequence[tuple[str, int | None]]) -> None:
-        self._task = task
-        self._asked = tuple(planners)
-        self._planners: dict[str, Planner] = {}
-
-    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
-        """The first answer that says something, or what the last planner gave up at.
-
-        Raises:
-            TmdError, MissingToolError: As :func:`make`.
-        """
-        answer: Answer = GaveUp("no planner")
-        for name, cap in self._asked:
-            if name not in self._planners:
-                self._planners[name] = make(name, self._task, cap=cap)
-            answer = self._planners[name].fill(state, goal)
-            if not isinstance(answer, GaveUp):
-                break
-        return answer
+def _unknown(name: str, known: Sequence[str]) -> TmdError:
+    return TmdError(f"there is no planner '{name}'", hint=nearest(name, known, what="planners"))
 
 
-def last_resort(task: Task) -> InTurn:
+def last_resort(task: Task) -> Planner:
     """Who is asked for what the optimal search gave up on, content with any plan.
 
     We first: a plan that our greedy search comes upon soon is about as good as one of Fast Downward, and there at
     once. What it has to search long for is worse, so that is for Fast Downward, where it is installed.
     """
     if find_spec("up_fast_downward") is None:
-        return InTurn(task, ((IN_PROCESS_FIRST, None),))
-    return InTurn(task, ((IN_PROCESS_FIRST, SOON), (FAST_DOWNWARD_FIRST, None)))
+        return make(IN_PROCESS_FIRST, task)
+    return InTurn((make(IN_PROCESS_FIRST, task, cap=SOON), FirstPlan(task)))
 
 
-def solve(problem: Problem, planner: str = AUTO) -> Answer:
+class InTurn:
+    """Planners that are asked one after another, until one does not give up.
+
+    Args:
+        planners: Who is asked, the first one first.
+    """
+
+    def __init__(self, planners: Sequence[Planner]) -> None:
+        self._planners = planners
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """The first answer that says something, or what the last planner gave up at."""
+        answer: Answer = GaveUp("no planner")
+        for planner in self._planners:
+            answer = planner.fill(state, goal)
+            if not isinstance(answer, GaveUp):
+                break
+        return answer
+
+
+def solve(
+    problem: Problem,
+    planner: str = AUTO,
+    *,
+    optimal: bool = False,
+    seconds: float = TIME_LIMIT,
+    started: DownwardProcess | None = None,
+) -> Solution:
     """A plan for a whole PDDL problem, from its initial state to its goal.
 
-    Where nothing else is asked for, the plan is optimal if it is found within the cap for gaps, and otherwise the
-    first that Fast Downward finds (the in-process search goes on alone where that is not installed).
+    Args:
+        problem: The problem.
+        planner: ``auto``, ``fast-downward``, ``kairos``, ``in-process`` or ``up:ENGINE``.
+        optimal: Whether a plan counts only if it is proven that none is cheaper; otherwise the first one does.
+        seconds: The limit for planners that are processes. The search in this process has a cap instead.
+        started: Fast Downward, if it was started while the problem was read.
 
     Raises:
-        TmdError: As :func:`make`, or the problem cannot be ground.
-        MissingToolError: As :func:`make`.
+        TmdError: There is no such planner, it does not take the problem, or (in this process) that cannot be ground.
+        MissingToolError: The planner is not installed.
+        PlannerError: The planner died, or what it gave is no plan.
     """
+    answer = _solution(problem, planner, optimal, Deadline(seconds), started)
+    if optimal and isinstance(answer, Solved) and not answer.optimal:
+        return GaveUp(f"a plan of cost {answer.cost} that {planner} did not prove to be optimal")
+    return answer
+
+
+def _solution(
+    problem: Problem, planner: str, optimal: bool, deadline: Deadline, started: DownwardProcess | None
+) -> Solution:
+    name = planner
+    if planner == AUTO:
+        name = FAST_DOWNWARD if find_spec("up_fast_downward") else IN_PROCESS
+    if name == FAST_DOWNWARD:
+        return FastDownward(problem, optimal=optimal, deadline=deadline).solve(started)
+    if name == KAIROS:
+        from tmd.planning.kairos import kairos
+
+        return kairos(problem, optimal=optimal, deadline=deadline)
+    if name.startswith(UP_PREFIX) and len(name) > len(UP_PREFIX):
+        from tmd.planning.up_planners import solved_by_engine
+
+        return solved_by_engine(problem, name.removeprefix(UP_PREFIX), deadline)
+    if name != IN_PROCESS:
+        raise _unknown(name, [AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE"])
+    from tmd.pddl.grounding.ground_task import ground
+
     task = ground(problem)
-    if planner != AUTO:
-        return make(planner, task, cap=PLAN_CAP).fill(task.init, task.goal)
-    answer = make(IN_PROCESS, task).fill(task.init, task.goal)
-    if not isinstance(answer, GaveUp):
-        return answer
-    name = FAST_DOWNWARD_FIRST if find_spec("up_fast_downward") else IN_PROCESS
-    return make(name, task, cap=PLAN_CAP).fill(task.init, task.goal)
+    answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
+    return Solved(answer.plan, answer.cost, optimal=True) if isinstance(answer, Filled) else answer

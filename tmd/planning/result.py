@@ -8,10 +8,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol, TypeAlias
+from typing import TYPE_CHECKING, Protocol, TypeAlias
 
-from tmd.pddl.model import Instruction
-from tmd.pddl.task import Bits, Cube
+if TYPE_CHECKING:
+    from tmd.pddl.model import Instruction
+    from tmd.pddl.task import Bits, Cube
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +45,25 @@ class GaveUp:
 
 
 Answer: TypeAlias = Filled | Unreachable | GaveUp
+
+
+@dataclass(frozen=True, slots=True)
+class Solved:
+    """A plan for a whole problem, executed by our own validator before anybody sees it.
+
+    Attributes:
+        plan: The instructions.
+        cost: The sum of their costs.
+        optimal: Whether the planner proved that there is no cheaper plan; otherwise it was just found.
+    """
+
+    plan: tuple[Instruction, ...]
+    cost: int
+    optimal: bool
+
+
+Solution: TypeAlias = Solved | Unreachable | GaveUp
+"""The answer for a whole problem."""
 
 
 class Planner(Protocol):

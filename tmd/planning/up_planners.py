@@ -9,9 +9,7 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
 import sys
-import tempfile
 import weakref
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -19,19 +17,24 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from tmd.diagnostics import MissingToolError, TmdError
-from tmd.pddl.model import TRUE, And, Domain, Exists, Forall, Formula, Imply, Instruction, Not, Or
+from tmd.diagnostics import MissingToolError, PlannerError, TmdError
+from tmd.pddl.derived import without_derived
+from tmd.pddl.model import TRUE, And, Domain, Exists, Forall, Formula, Imply, Instruction, Not, Or, Problem
 from tmd.pddl.normalise import portable
 from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.validator import validate
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
+from tmd.planning.downward_process import binaries
+from tmd.planning.fast_downward import OPTIMAL_WITH_AXIOMS, OPTIMAL_WITH_CONDITIONS
+from tmd.planning.processes import Conversation, Deadline
+from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
 from tmd.planning.unsolvable import unreachable_reason
 
 SOLVED = ("SOLVED_SATISFICING", "SOLVED_OPTIMALLY")
 """Statuses with a plan."""
 
-GRACE = 30.0
-"""Seconds a worker may stay silent beyond the time limit of its engine."""
+GRACE = 15.0
+"""Seconds a worker may stay silent beyond the time limit of its engine: it imports and reads as well."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,6 @@ class EngineSpec:
         time_limit: Seconds after which it is stopped.
         skip_checks: Whether to leave out the engine's own check of the problem kind, which costs 14 ms a call.
         takes_timeout: Whether the engine can be told the limit.
-        any_plan: Whether the first plan found is good enough, so that the other cubes of a goal need not be asked for.
     """
 
     name: str
@@ -52,7 +54,6 @@ class EngineSpec:
     time_limit: float = 60.0
     skip_checks: bool = False
     takes_timeout: bool = True
-    any_plan: bool = False
 
 
 class UnifiedPlanner:
@@ -71,11 +72,11 @@ class UnifiedPlanner:
     """
 
     def __init__(self, task: Task, engine: EngineSpec) -> None:
-        if find_spec("unified_planning") is None:
-            raise MissingToolError("the package unified-planning is not installed", hint="pip install unified-planning")
+        _needed()
         self.task = task
         self.engine = engine
-        self._worker = _Worker(_opening(task, engine), engine)
+        open_ended = replace(task.problem, init=task.decode(task.init), goal=TRUE)
+        self._worker = _Worker(_opening(open_ended, engine), engine)
 
     def close(self) -> None:
         """Stop the worker process. It also stops with the planner or the program."""
@@ -90,10 +91,9 @@ class UnifiedPlanner:
         if any(cube.holds(state) for cube in goal):
             return Filled((), state, 0)
         answers: list[Answer] = []
-        for cube in sorted((c for c in goal if not c.positive & c.negative), key=lambda c: missing(c, state)):
-            answers.append(self._one(state, cube))
-            if self.engine.any_plan and isinstance(answers[-1], Filled):
-                break
+        for cube in goal:
+            if not cube.positive & cube.negative:
+                answers.append(self._one(state, cube))
         filled = [answer for answer in answers if isinstance(answer, Filled)]
         if filled:
             return min(filled, key=lambda answer: answer.cost)
@@ -123,20 +123,46 @@ class UnifiedPlanner:
         for step in steps:
             operator = self.task.by_instruction.get(step)
             if operator is None or not operator.applicable(state):
-                raise TmdError(f"the plan of {self.engine.name} does not work: {step} cannot be done there")
+                raise PlannerError(f"the plan of {self.engine.name} does not work: {step} cannot be done there")
             state = operator.apply(state)
             cost += operator.cost
         if not cube.holds(state):
-            raise TmdError(f"the plan of {self.engine.name} does not reach its goal")
+            raise PlannerError(f"the plan of {self.engine.name} does not reach its goal")
         return Filled(steps, state, cost)
 
 
-def missing(cube: Cube, state: Bits) -> int:
-    """How many literals of ``cube`` do not hold in ``state``: a first guess at how far off it is."""
-    return (cube.positive & ~state).bit_count() + (cube.negative & state).bit_count()
+def solved_by_engine(problem: Problem, name: str, deadline: Deadline) -> Solution:
+    """A plan for a whole problem by the engine ``name``.
+
+    Raises:
+        MissingToolError: unified-planning or the engine is not installed.
+        PlannerError: The engine died, or what it gave is no plan.
+        TmdError: The engine or unified-planning's reader refuses the problem.
+    """
+    _needed()
+    engine = EngineSpec(name, time_limit=deadline.seconds)
+    worker = _Worker(_opening(problem, engine), engine)
+    try:
+        reply = worker.ask({"state": [], "goal": [], "timeout": deadline.left() if engine.takes_timeout else None})
+    finally:
+        worker.close()
+    if reply is None:
+        return GaveUp(f"{deadline.seconds:g} s of {name}")
+    if reply["status"] not in SOLVED:
+        return judged(reply["status"], engine, f"{name} proved it")
+    plan = tuple(Instruction(action, tuple(args)) for action, *args in reply["plan"])
+    verdict = validate(problem, plan)
+    if not verdict.valid:
+        raise PlannerError(f"the plan of {name} does not work: {verdict.reason}")
+    return Solved(plan, verdict.cost, reply["status"] == "SOLVED_OPTIMALLY")
 
 
-def judged(status: str, engine: EngineSpec, reason: str) -> Answer:
+def _needed() -> None:
+    if find_spec("unified_planning") is None:
+        raise MissingToolError("the package unified-planning is not installed", hint="pip install unified-planning")
+
+
+def judged(status: str, engine: EngineSpec, reason: str) -> Unreachable | GaveUp:
     """What a status without a plan means. ``UNSOLVABLE_INCOMPLETELY`` means "gave up", never "impossible".
 
     Raises:
@@ -154,7 +180,7 @@ def judged(status: str, engine: EngineSpec, reason: str) -> Answer:
         case "UNSUPPORTED_PROBLEM":
             raise TmdError(f"the planner {engine.name} does not take this kind of problem")
         case _:
-            raise TmdError(f"the planner {engine.name} failed with {status}")
+            raise PlannerError(f"the planner {engine.name} failed with {status}")
 
 
 def _literals(task: Task, cube: Cube) -> list[tuple[tuple[str, ...], bool]]:
@@ -162,8 +188,8 @@ def _literals(task: Task, cube: Cube) -> list[tuple[tuple[str, ...], bool]]:
     return true + [((atom.predicate, *atom.args), False) for atom in task.names(cube.negative)]
 
 
-def _opening(task: Task, engine: EngineSpec) -> dict[str, Any]:
-    problem = replace(portable(task.problem), init=task.decode(task.init), goal=TRUE)
+def _opening(source: Problem, engine: EngineSpec) -> dict[str, Any]:
+    problem = portable(without_derived(source))
     return {
         "domain": format_domain(problem.domain),
         "problem": format_problem(problem),
@@ -180,71 +206,58 @@ class _Worker:
     def __init__(self, opening: dict[str, Any], engine: EngineSpec) -> None:
         self.engine = engine
         self.opening = opening
-        self._directory: tempfile.TemporaryDirectory[str] | None = None
-        self._process: subprocess.Popen[str] | None = None
+        self._talk: Conversation | None = None
         self._stop: weakref.finalize[..., Any] | None = None
         self._start()
 
     def _start(self) -> None:
-        self._directory = tempfile.TemporaryDirectory(prefix="tmd-planner-")
         root = str(Path(__file__).resolve().parents[2])
         path = os.pathsep.join(filter(None, (root, os.environ.get("PYTHONPATH", ""))))
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "tmd.planning.up_worker"],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.DEVNULL,
-            cwd=self._directory.name,
-            env={**os.environ, "PYTHONPATH": path},
-            text=True,
-            encoding="utf-8",
-        )
-        self._stop = weakref.finalize(self, _stopped, self._process, self._directory)
-        self._exchange(self.opening, None)
+        command = [sys.executable, "-m", "tmd.planning.up_worker"]
+        self._talk = Conversation(f"the planner {self.engine.name}", command, {"PYTHONPATH": path})
+        self._stop = weakref.finalize(self, self._talk.close)
+        if self._exchange(self.opening) is None:
+            raise PlannerError(f"the planner {self.engine.name} did not start within {self._patience():g} s")
 
     def ask(self, question: dict[str, Any]) -> dict[str, Any] | None:
-        """The answer to a question; ``None`` where it took too long."""
-        if self._process is None:
+        """The answer to a question; ``None`` where it took too long.
+
+        Raises:
+            TmdError: The engine refused the problem, failed, or printed no answer.
+        """
+        if self._talk is None:
             self._start()
-        return self._exchange(question, self.engine.time_limit + GRACE)
+        return self._exchange(question)
 
     def close(self) -> None:
         """Stop the process and remove its directory."""
         if self._stop is not None:
             self._stop()
-        self._process = None
+        self._talk = None
 
-    def _exchange(self, message: dict[str, Any], patience: float | None) -> dict[str, Any] | None:
-        process = self._process
-        assert process is not None and process.stdin is not None and process.stdout is not None
+    def _patience(self) -> float:
+        return self.engine.time_limit + GRACE
+
+    def _exchange(self, message: dict[str, Any]) -> dict[str, Any] | None:
+        assert self._talk is not None
+        process = self._talk.process
         try:
-            process.stdin.write(json.dumps(message) + "\n")
-            process.stdin.flush()
-        except BrokenPipeError:
-            pass  # the end of the output tells the rest
-        line = _read_line(process, patience)
-        if line is None:
+            line = self._talk.ask(json.dumps(message), Deadline(self._patience()))
+            reply: dict[str, Any] | None = None if line is None else json.loads(line)
+        except ValueError as error:
+            failure = process.failed("answered what is no JSON")
+            self.close()
+            raise failure from error
+        except BaseException:
+            self.close()
+            raise
+        if reply is None:
             self.close()
             return None
-        if not line:
-            self.close()
-            raise TmdError(f"the process of the planner {self.engine.name} ended unexpectedly")
-        reply: dict[str, Any] = json.loads(line)
         if "fault" in reply:
+            self.close()
             raise _refusal(reply, self.engine)
         return reply
-
-
-def _read_line(process: subprocess.Popen[str], patience: float | None) -> str | None:
-    """The next line of a process, or ``None`` after ``patience`` seconds."""
-    import selectors
-
-    assert process.stdout is not None
-    with selectors.DefaultSelector() as selector:
-        selector.register(process.stdout, selectors.EVENT_READ)
-        if not selector.select(patience):
-            return None
-    return process.stdout.readline()
 
 
 def _refusal(reply: dict[str, Any], engine: EngineSpec) -> TmdError:
@@ -256,30 +269,7 @@ def _refusal(reply: dict[str, Any], engine: EngineSpec) -> TmdError:
         )
     if kind == "UPUsageError":
         return TmdError(f"the planner {engine.name} does not take this kind of problem: {message}")
-    return TmdError(f"unified-planning failed with {kind}: {message}")
-
-
-def _stopped(process: subprocess.Popen[str], directory: tempfile.TemporaryDirectory[str]) -> None:
-    """End a worker."""
-    process.kill()
-    process.communicate()
-    directory.cleanup()
-
-
-OPTIMAL = "astar(hmax())"
-"""Optimal for every domain that Fast Downward translates without axioms, and the fastest such configuration."""
-
-FIRST = (
-    "let(hff,ff(),let(hlm,landmark_sum(lm_reasonable_orders_hps(lm_rhw())),eager_greedy([hff,hlm],preferred=[hff])))"
-)
-"""Fast, and content with any plan.
-
-FF alone does not see that a full hand takes nothing more: of a goal that clears a table of four things it evaluates two
-million states in vain, with landmarks beside it 1,700. On the bundled problems the plans are as long.
-"""
-
-OPTIMAL_WITH_AXIOMS = "astar(blind())"
-"""Universal preconditions become axioms, under which hmax may overestimate."""
+    return PlannerError(f"unified-planning failed with {kind}: {message}")
 
 
 def fast_downward(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
@@ -292,20 +282,8 @@ def fast_downward(task: Task, *, time_limit: float = 60.0) -> UnifiedPlanner:
     Raises:
         MissingToolError: It is not installed.
     """
-    _installed()
+    binaries()
     return UnifiedPlanner(task, spec(task.problem.domain, time_limit))
-
-
-def first_plan(task: Task) -> UnifiedPlanner:
-    """Fast Downward for ``task``, content with the first plan that it finds in ten seconds; errors as above."""
-    _installed()
-    search = {"fast_downward_search_config": FIRST}
-    return UnifiedPlanner(task, EngineSpec("fast-downward", search, 10.0, skip_checks=True, any_plan=True))
-
-
-def _installed() -> None:
-    if find_spec("up_fast_downward") is None:
-        raise MissingToolError("Fast Downward is not installed", hint="pip install up-fast-downward")
 
 
 def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
@@ -315,7 +293,7 @@ def spec(domain: Domain, time_limit: float = 60.0) -> EngineSpec:
         or any(has_universal(effect.condition, True) for effect in action.effects)
         for action in domain.actions
     )
-    search = OPTIMAL_WITH_AXIOMS if universal else OPTIMAL
+    search = OPTIMAL_WITH_AXIOMS if universal else OPTIMAL_WITH_CONDITIONS
     return EngineSpec("fast-downward", {"fast_downward_search_config": search}, time_limit, skip_checks=True)
 
 

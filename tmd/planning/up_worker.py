@@ -13,7 +13,13 @@ from __future__ import annotations
 import json
 import os
 import sys
+import threading
+import time
+from pathlib import Path
+from shutil import rmtree
 from typing import IO, Any, TypeAlias, cast
+
+from tmd.planning.processes import MARK, end_marked
 
 Message: TypeAlias = dict[str, Any]
 """One line, decoded."""
@@ -28,6 +34,7 @@ class PlannerEngine:
 
         environment = get_environment()  # its reader mixes other ones with this one
         environment.credits_stream = None
+        environment.error_used_name = False  # PDDL lets an action and a predicate share a name
         self.base: Any = PDDLReader().parse_problem_string(opening["domain"], opening["problem"])
         self.planner: Any = environment.factory.OneshotPlanner(name=opening["engine"], params=opening["parameters"])
         self.planner.skip_checks = opening["skip_checks"]
@@ -79,8 +86,20 @@ def serve(questions: IO[str], answers: IO[str]) -> None:
             say(fault(error))
 
 
+def end_with_parent(parent: int) -> None:
+    """End this process, what it started, and its directory, when the program that started it is gone."""
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    mark = os.environ.get(MARK)
+    if mark and Path.cwd().name == mark:  # the directory was made for this process
+        end_marked(mark)
+        rmtree(Path.cwd(), ignore_errors=True)
+    os._exit(1)
+
+
 def main() -> None:
     """Serve on the standard streams; what engines print goes to the error stream instead."""
+    threading.Thread(target=end_with_parent, args=(os.getppid(),), daemon=True).start()
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)
     serve(sys.stdin, answers)

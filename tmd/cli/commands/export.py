@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import click
 
+from tmd.cli.errors import one_line
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -27,7 +28,7 @@ _ALL = "all"
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=click.Path(path_type=Path), metavar="FILE", help="Take this plan; otherwise one is found.")
 @click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
-@click.option("--text", metavar="TEXT", help="What was said, for an environment.")
+@click.option("--text", metavar="TEXT", help="What was said, for an environment (YAML or PDDL).")
 @click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
 @click.option(
     "--goal",
@@ -59,10 +60,12 @@ def command(
 
     The source is a PDDL problem, an environment (with a text, a plan or a goal), a plan of "tmd ground --json", or the
     directory of an experiment. A plan is executed before it is written: ends with 11 where it does not work, with 10,
-    12 or 20 where none is found. One format fills DIR, several a directory each.
+    12 or 20 where none is found. One format fills DIR, several a directory each. A format that fails does not keep the
+    others back: why is told, and the exit code is that of the first failure.
     """
     from tmd.cli.inputs.export import ExportRequest, NoPlan, planned_source
     from tmd.cli.inputs.text import said
+    from tmd.cli.signals import stoppable
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
     from tmd.language.parser import short_enough
@@ -70,21 +73,33 @@ def command(
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
     spoken = None if text is None and text_file is None else short_enough(said(text, text_file))
-    found = planned_source(roots, ExportRequest(source, domain, plan, planner, spoken, goal, example, model))
-    if isinstance(found, NoPlan):
-        emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
-        if as_json:
-            emit_json({"directory": str(directory), "written": {}, "cost": None, "reason": found.reason})
-        return found.code
-    written = chosen_files(found, names)
-    flat = {path: data for files in written.values() for path, data in files.items()}
+    with stoppable():  # planners are to end with us
+        found = planned_source(roots, ExportRequest(source, domain, plan, planner, spoken, goal, example, model))
+        if isinstance(found, NoPlan):
+            emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
+            if as_json:
+                emit_json(_told(directory, {}, None, found.reason, {}))
+            return found.code
+        written = chosen_files(found, names)
+    failures = written.failures
+    if not written.files:
+        raise next(iter(failures.values()))
+    flat = {path: data for files in written.files.values() for path, data in files.items()}
     write_directory(directory, flat, overwrite=overwrite)
     if as_json:
-        listed = {name: list(files) for name, files in written.items()}
-        emit_json({"directory": str(directory), "written": listed, "cost": found.cost, "reason": None})
+        listed = {name: list(files) for name, files in written.files.items()}
+        emit_json(_told(directory, listed, found.cost, None, {name: str(error) for name, error in failures.items()}))
     else:
         emit("".join(f"{directory / path}\n" for path in flat))
-    return ExitCode.OK
+    for name, error in failures.items():
+        emit(f"not written: {name}: {one_line(str(error))}\n", error=True)
+    return next((error.exit_code for error in failures.values()), ExitCode.OK)
+
+
+def _told(
+    directory: Path, written: Mapping[str, list[str]], cost: int | None, reason: str | None, failed: Mapping[str, str]
+) -> Mapping[str, object]:
+    return {"directory": str(directory), "written": written, "cost": cost, "reason": reason, "failed": failed}
 
 
 def _chosen(given: Sequence[str]) -> list[str]:

@@ -14,34 +14,57 @@ from tmd.veil.roots import Roots
 @click.command("plan", short_help="Find a plan for a PDDL problem.")
 @click.argument("domain")
 @click.argument("problem", type=click.Path(path_type=Path))
-@click.option("--planner", metavar="NAME", help="auto (default), in-process, fast-downward[-first], up:ENGINE.")
+@click.option("--planner", metavar="NAME", help="fast-downward (default), kairos, in-process or up:ENGINE.")
+@click.option(
+    "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
+)
+@click.option(
+    "--time-limit",
+    "seconds",
+    type=click.FloatRange(min=0, min_open=True),
+    metavar="SECONDS",
+    help="Stop the planner after this time; 300 by default.",
+)
 @click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the plan to this file.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(
-    roots: Roots, domain: str, problem: Path, planner: str | None, output: Path | None, as_json: bool
+    roots: Roots,
+    domain: str,
+    problem: Path,
+    planner: str | None,
+    optimal: bool,
+    seconds: float | None,
+    output: Path | None,
+    as_json: bool,
 ) -> ExitCode:
     """Find a plan for PROBLEM, one (action argument ...) a line.
 
-    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. By default the plan is the shortest where
-    that is found soon, and otherwise the first that Fast Downward finds. Ends with 0 for a plan, 10 where it is
-    proven that there is none, and 20 where the planner gave up.
+    DOMAIN is a PDDL file, a domain folder or the name of a bundled domain. A comment says whether the plan is optimal
+    or just found. Ends with 0 for a plan, 10 where it is proven that there is none, 20 where the planner gave up at
+    its limit, and 35 where it failed.
     """
-    from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
-    from tmd.files import write_text
-    from tmd.pddl.reading.reader import read_problem
-    from tmd.planning.backends import AUTO, solve
-    from tmd.planning.result import Filled
+    from tmd.cli.signals import stoppable
+    from tmd.planning.downward_process import early_start
 
-    name = planner or AUTO
-    wanted = read_problem(problem, roots.domain(domain))
-    answer = solve(wanted, name)
-    if isinstance(answer, Filled) and output:
-        write_text(output, plan_text(answer, wanted.domain))
+    with stoppable(), early_start(planner, optimal=optimal) as started:  # it starts while we import and read the rest
+        from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
+        from tmd.pddl.reading.reader import read_problem
+        from tmd.planning.backends import AUTO, solve
+        from tmd.planning.result import Solved
+
+        name = planner or AUTO
+        wanted = read_problem(problem, roots.domain(domain))
+        limit = {} if seconds is None else {"seconds": seconds}
+        answer = solve(wanted, name, optimal=optimal, started=started, **limit)
+        if isinstance(answer, Solved) and output:
+            from tmd.files import write_text
+
+            write_text(output, plan_text(answer, wanted.domain))
     if as_json:
         emit_json(answer_json(answer, name))
-    elif isinstance(answer, Filled) and not output:
+    elif isinstance(answer, Solved) and not output:
         emit(plan_text(answer, wanted.domain))
-    if not isinstance(answer, Filled):
+    if not isinstance(answer, Solved):
         emit(f"no plan: {why_none(answer)}\n", error=True)
     return exit_code(answer)

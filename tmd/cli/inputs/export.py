@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import click
 
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
-from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.model import TRUE, Instruction, Problem
 from tmd.pddl.plan_file import Plan, read_plan
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import read_text
@@ -60,14 +60,12 @@ def planned_source(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
         raise click.UsageError(f"--example and --model are for the directory of a run, and {path} is none")
     if path.suffix == ".json":
         return _of_json(roots, path, asked)
-    if path.suffix == ".pddl":
+    if path.suffix == ".pddl" and asked.text is None:
         return _of_problem(roots, path, asked)
     return _of_environment(roots, asked)
 
 
 def _of_problem(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
-    if asked.text is not None:
-        raise click.UsageError("a text is for an environment; a PDDL problem has a goal")
     problem = roots.problem(path, asked.domain)
     if asked.goal:
         problem = with_goal(problem, asked.goal)
@@ -81,7 +79,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     if not (asked.text or asked.plan or asked.goal) or (asked.text and asked.plan):
         raise click.UsageError(f"for the environment {asked.source} give one of --text, --text-file, --plan and --goal")
     corpus, world = roots.world(asked.source, asked.domain)
-    problem = world.task.problem
+    problem = replace(world.task.problem, goal=TRUE)  # what a PDDL environment has as its goal nobody asked for
     if asked.text is not None:
         orders = orders_of_text(asked.text, corpus, world, asked.source, asked.planner or IN_PROCESS)
         if orders.status:
@@ -92,7 +90,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
         return _solved(with_goal(problem, asked.goal or ""), asked.planner)
     if asked.goal:
         return _of_file(with_goal(problem, asked.goal), asked.plan)
-    plan = read_plan(asked.plan)
+    plan = _read_plan(problem, asked.plan)
     refused = _refusal(problem, plan)
     return refused or _checked(problem, plan.instructions, None)
 
@@ -142,11 +140,16 @@ def _checked(problem: Problem, plan: tuple[Instruction, ...], goal: str | None) 
     return planned(with_goal(problem, goal) if goal else with_outcome(problem, plan), plan)
 
 
-def _of_file(problem: Problem, path: Path) -> Planned | NoPlan:
+def _read_plan(problem: Problem, path: Path) -> Plan:
+    """The plan in a file, which may be one for the exported STRIPS."""
     from tmd.export.strips import restored
 
     read = read_plan(path)
-    plan = Plan(restored(problem, read.instructions), read.cost, read.locations)
+    return Plan(restored(problem, read.instructions), read.cost, read.locations)
+
+
+def _of_file(problem: Problem, path: Path) -> Planned | NoPlan:
+    plan = _read_plan(problem, path)
     return _refusal(problem, plan) or planned(problem, plan.instructions)
 
 
@@ -163,9 +166,9 @@ def _refusal(problem: Problem, plan: Plan) -> NoPlan | None:
 def _solved(problem: Problem, planner: str | None) -> Planned | NoPlan:
     from tmd.cli.show.answer import exit_code, why_none
     from tmd.planning.backends import AUTO, solve
-    from tmd.planning.result import Filled
+    from tmd.planning.result import Solved
 
     answer = solve(problem, planner or AUTO)
-    if isinstance(answer, Filled):
+    if isinstance(answer, Solved):
         return planned(problem, answer.plan)
     return NoPlan(why_none(answer), exit_code(answer))

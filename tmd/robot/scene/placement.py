@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 
 from numpy.random import Generator
 
@@ -30,6 +30,7 @@ class Placing:
     Args:
         environment: What there is, and where.
         blueprints: How each object is built.
+        names: What there is, objects and parts, whether it has a shape or not.
         rng: Moves items by millimetres; None: not at all.
 
     Attributes:
@@ -40,8 +41,15 @@ class Placing:
         TmdError: Something does not fit where it should be; with its place in the environment's file.
     """
 
-    def __init__(self, environment: Environment, blueprints: Mapping[str, Blueprint], rng: Generator | None) -> None:
+    def __init__(
+        self,
+        environment: Environment,
+        blueprints: Mapping[str, Blueprint],
+        names: Collection[str],
+        rng: Generator | None,
+    ) -> None:
         self._environment = environment
+        self._names = names
         self._blueprints = blueprints
         self._rng = rng
         self.room = self._room()
@@ -151,6 +159,9 @@ class Placing:
                 return whole, ROOT
             if where.startswith(f"{whole}_") and where[len(whole) + 1 :] in self._parts(whole):
                 return whole, where[len(whole) + 1 :]
+        if where in self._names:
+            message = f"'{where}', where '{name}' is to be, has no shape of its own in the scene"
+            raise self._error(name, message, "say a fitting `shape:` in objects.yaml (docs/scenes.md)")
         raise self._error(name, f"there is no '{where}' that '{name}' could be at", None)
 
     def _parts(self, whole: str) -> set[str]:

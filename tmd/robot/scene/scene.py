@@ -91,7 +91,7 @@ class Scene(Inventory):
     # ------------------------------------------------------------------ building
 
     def _load(self, directory: Path, rng: Generator | None) -> None:
-        placing = Placing(self.environment, self.blueprints, rng)
+        placing = Placing(self.environment, self.blueprints, self.names(), rng)
         self.room: Room = placing.room
         self.placed: dict[str, Pose] = placing.poses
         (directory / CUBE).write_text(cube())

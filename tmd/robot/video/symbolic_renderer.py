@@ -90,7 +90,7 @@ class Still(Catalogue):
         classes = {name: folder.classes.get(entry.class_name) for name, entry in entries}
         parts = {name: [v for v in known.vertices if v != CLASS_ROOT] for name, known in classes.items()}
         super().__init__(environment, blueprints, parts)
-        placing = Placing(environment, blueprints, None)
+        placing = Placing(environment, blueprints, self.names(), None)
         self.room = placing.room
         self._skills = skills
         self._by_sense = {
