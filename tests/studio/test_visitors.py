@@ -16,6 +16,7 @@ pytest.importorskip("viser", reason="needs the extra studio")
 
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
+from tmd.domain_kit import DomainKit
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
@@ -219,3 +220,24 @@ def test_a_correction_may_state_a_goal(server: Server) -> None:
         visitor.press("Save (K)")
         visitor.told("Saved as shown-corner1-")
     assert [record["goal"] for record in corpus(server)] == ["(at cup1 shelf1 on)"]
+
+
+def test_what_is_saved_is_used_and_the_page_says_so(server: Server) -> None:
+    text = "Polish the cup on the shelf."
+    with Wire(server.url) as visitor:
+        visitor.put("Text", text)
+        visitor.press("Plan it")
+        visitor.told("No plan")
+        begin(visitor, text)
+        for name, instruction in zip(OBJECTS, STEPS, strict=True):
+            do(visitor, name, instruction)
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-corner1-01. The same sentence now gives what you showed.")
+        visitor.shows("Learning from what was saved")
+        visitor.told(f"&quot;{text}&quot;: The same sentence now gives what you showed.")
+        teacher, files = server.studio.teacher, server.studio.corpus
+        assert not teacher.learning
+        world = files.world("corner2")
+        here = teacher.ground(text, world, top=3)
+        there = DomainKit(Corpus(files.folder, files.directory)).ground(text, world, top=3)
+        assert [(p.energy, p.instructions) for p in here.plans] == [(p.energy, p.instructions) for p in there.plans]

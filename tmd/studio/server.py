@@ -26,6 +26,8 @@ LOCAL = "127.0.0.1"
 _TRIES = 8
 _WINDOWS = 8
 """Number of windows of one browser that are told from one another when they come back."""
+_LOOK = 0.5
+"""Seconds between two looks at learning that is under way."""
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 
@@ -60,7 +62,9 @@ class Server:
             self._viser: ViserServer = viser.ViserServer(host=host, port=port, label="tmd studio", verbose=False)
         self.port = port
         self.url = f"http://{LOCAL if host in ('0.0.0.0', '::') else host}:{port}"
+        self._ended = Event()
         Thread(target=studio.warm, daemon=True).start()
+        Thread(target=self._follow, daemon=True).start()
         self._viser.on_client_connect(self._arrive)
         self._viser.on_client_disconnect(self._leave)
 
@@ -99,6 +103,18 @@ class Server:
             visitor.leave()
             self.studio.drafts.leave(visitor.identity)
 
+    def _follow(self) -> None:
+        """Tell every visitor how far learning is, while it goes on."""
+        told = False
+        while not self._ended.wait(_LOOK):
+            learning, training = self.studio.teacher.learning, self.studio.teacher.training
+            if learning or told:
+                with self._lock:
+                    visitors = list(self._visitors.values())
+                for visitor in visitors:
+                    visitor.learning(training.share if learning and training is not None else None)
+            told = learning
+
     def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""
         wait = ended or Event()
@@ -108,6 +124,7 @@ class Server:
 
     def close(self) -> None:
         """Stop serving, and what is learned meanwhile."""
+        self._ended.set()
         self.studio.teacher.close()
         with redirect_stdout(StringIO()):
             self._viser.stop()

@@ -110,7 +110,7 @@ class Studio:
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
     def save(self, session: Session, task: str, who: str, *, when: bool, goal: str | None = None) -> Demonstration:
-        """Save a demonstration, and learn from it: the next text is grounded with it.
+        """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:
             session: The demonstration.
@@ -125,6 +125,7 @@ class Studio:
         time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
         saved = self.archive.save(session, task, who=who or None, when=time, goal=goal)
         self.teacher.learn_one(saved)
+        self.teacher.retrain()
         return saved
 
     def examples(self, name: str) -> list[str]:

@@ -18,13 +18,14 @@ from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
-from tmd.studio.panels.html import notice
+from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
 from tmd.studio.panels.say_panel import SayPanel
 from tmd.studio.panels.widgets import put
 from tmd.studio.view3d.performance import perform
 from tmd.studio.view3d.playback import Reel
 from tmd.studio.view3d.scenery import Scenery
+from tmd.veil.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle, NotificationHandle
@@ -91,6 +92,8 @@ class Visitor:
         self._message = gui.add_html(
             notice("Welcome. Say what is to be done, or show it.", "Ctrl-K lists commands and their keys.")
         )
+        self._bar_title = gui.add_html("", visible=False)
+        self._bar = gui.add_progress_bar(0.0, visible=False)
         self._blind = gui.add_html("")
         self._where = gui.add_dropdown("Environment", studio.environments(), initial_value=studio.start)
         self._where.on_update(self.guarded(self._go))
@@ -251,6 +254,21 @@ class Visitor:
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
         self.correct.open(text, plan)
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """A demonstration was saved: plan its text again, and say whether that uses it."""
+        self.say.saved(demonstration)
+
+    def learning(self, share: float | None) -> None:
+        """Tell how far the learning is that goes on; ``None`` when it is done."""
+        self._bar.visible = self._bar_title.visible = share is not None
+        if share is None:
+            self.guarded(self.say.learned)(None)
+            return
+        self._bar_title.content = fragment(
+            f"<p>Learning from what was saved: {share:.0%}. Go on meanwhile; plans may still change at its end.</p>"
+        )
+        put(self._bar, round(100 * share))
 
     def take_over(self, session: Session, goal: str) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved."""

@@ -11,6 +11,7 @@ from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
 from tmd.studio.view3d.playback import Reel
+from tmd.veil.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -59,6 +60,9 @@ class PanelContext(Protocol):
 
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """A demonstration was saved: plan its text again, and say whether that uses it."""
 
     def take_over(self, session: Session, goal: str) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved."""

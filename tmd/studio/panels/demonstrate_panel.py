@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from threading import Thread
 from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
@@ -24,8 +23,6 @@ NONE = "(no object)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
 NUMBERED = 9
 """Number of the instructions that apply with a hot key: 1 to 9."""
-_LOOK = 1.0
-"""Seconds between two looks at learning that is under way."""
 _FEW = 4
 """Maximum number of instructions of an action with a button each; the object itself comes before its parts."""
 
@@ -74,7 +71,6 @@ class DemonstratePanel:
             self._when = gui.add_checkbox("Save the time as well", False)
             gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
             gui.add_button("Throw away").on_click(guarded(self.discard))
-        gui.add_button("Learn everything again").on_click(guarded(self._retrain))
         self._look_for_draft()
 
     def _texts(self) -> list[str]:
@@ -138,7 +134,7 @@ class DemonstratePanel:
             saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
             visitor.studio.drafts.discard(visitor.identity)
             self._close()
-        visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.", aloud=True)
+        visitor.saved(saved)
 
     def discard(self) -> None:
         """Throw the demonstration away."""
@@ -292,15 +288,3 @@ class DemonstratePanel:
             button = gui.add_button(f"Do that {group.action}")
             button.on_click(guarded(lambda: self.do(by_name[chosen(choice)])))
             self._offered += [choice, button]
-
-    def _retrain(self) -> None:
-        visitor = self._visitor
-        training = visitor.studio.teacher.retrain()
-        visitor.tell("Learning from all demonstrations. Go on meanwhile.", aloud=True)
-
-        def follow() -> None:
-            while not training.wait(_LOOK):
-                visitor.tell(f"Learning from all demonstrations: {training.share:.0%}. Go on meanwhile.")
-            visitor.tell("Everything was learned again; the next text uses it.", aloud=True)
-
-        Thread(target=visitor.guarded(follow), args=(None,), daemon=True).start()

@@ -13,11 +13,13 @@ from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, goal_list, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
+from tmd.veil.demonstration import Demonstration
 from tmd.view.candidates import factors_of, grouped
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, in_words
@@ -118,6 +120,7 @@ class SayPanel:
         self._reels: list[Reel] = []
         self._asked: list[ShownGoal] = []
         self._step = 0
+        self._saved: Demonstration | None = None
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
@@ -172,6 +175,36 @@ class SayPanel:
             self._show(grounded)
             took = time.perf_counter() - begun
         self._tell(grounded, took)
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """Plan the text of what was saved again, show that, and say whether it is what was shown."""
+        visitor = self._visitor
+        self._saved = demonstration
+        with visitor.holding():
+            grounded = self._again(demonstration)
+            put(self._text, demonstration.text)
+            self._show(grounded)
+        visitor.tell(f"Saved as {demonstration.id}. {_whether(grounded, demonstration)}", _LATER, aloud=True)
+
+    def learned(self) -> None:
+        """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
+        visitor, saved, self._saved = self._visitor, self._saved, None
+        if saved is None:
+            visitor.tell("Everything that was saved is learned.")
+            return
+        with visitor.holding():
+            grounded = self._again(saved)
+            before = self._grounded
+            same = before is not None and before.parsed.text == grounded.parsed.text
+            if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
+                self._show(grounded)
+        said = " ".join(saved.text.split())
+        visitor.tell(f'Everything is learned. "{said}": {_whether(grounded, saved)}', aloud=True)
+
+    def _again(self, saved: Demonstration) -> Grounded:
+        """The text of a demonstration, planned where it was shown."""
+        studio = self._visitor.studio
+        return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
     def _tell(self, grounded: Grounded, took: float) -> None:
         """Say what came of it: how many plans there are, or why there is none."""
@@ -319,6 +352,26 @@ class SayPanel:
         if grounded is None or not grounded.plans:
             raise TmdError("there is no plan to carry out", hint="plan something first")
         self._visitor.execute(grounded.plans[self._number()])
+
+
+_LATER = "The rest is learned in the background; the sentence is planned once more at its end."
+
+
+def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
+    return [] if grounded is None else [plan.instructions for plan in grounded.plans]
+
+
+def _whether(grounded: Grounded, saved: Demonstration) -> str:
+    """Whether the plans for a text are what was shown for it."""
+    shown = tuple(instruction for segment in saved.segments for instruction in segment.instructions)
+    plans = _plans(grounded)
+    if not plans:
+        return f"The same sentence has no plan yet: {grounded.reason}."
+    if shown == plans[0]:
+        return "The same sentence now gives what you showed."
+    if shown in plans:
+        return f"The same sentence gives what you showed as plan {plans.index(shown) + 1} of {len(plans)}."
+    return "The same sentence still gives another plan."
 
 
 def verb_phrase(verbs: str) -> str:
