@@ -16,6 +16,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import MissingToolError, TmdError
+from tmd.studio import page
+from tmd.studio.guard import TOKEN, Guard, guarding, kept_token
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 
@@ -43,7 +45,8 @@ class Server:
     Attributes:
         studio: As above.
         port: The port.
-        url: Where it is reached from this machine.
+        token: What a visitor must know.
+        url: Where it is reached from this machine, with the token.
 
     Raises:
         TmdError: The port is in use, or may not be listened at.
@@ -56,12 +59,16 @@ class Server:
             logging.getLogger(name).setLevel(logging.CRITICAL)
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio
+        self.token = kept_token(studio.drafts.directory)
+        guard = Guard(host, self.token)
+        guard.listen(port)
         self._lock = Lock()
         self._visitors: dict[int, Visitor] = {}
-        with redirect_stdout(StringIO()):  # it greets in its own way
+        with redirect_stdout(StringIO()), guarding(guard, page.answer, page.with_script):  # it greets in its own way
             self._viser: ViserServer = viser.ViserServer(host=host, port=port, label="tmd studio", verbose=False)
         self.port = port
-        self.url = f"http://{LOCAL if host in ('0.0.0.0', '::') else host}:{port}"
+        name = LOCAL if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
+        self.url = f"http://{name}:{port}/?{TOKEN}={self.token}"
         self._ended = Event()
         Thread(target=studio.warm, daemon=True).start()
         Thread(target=self._follow, daemon=True).start()

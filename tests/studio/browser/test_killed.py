@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from .conftest import Served
 from .test_browser import choose, entry, press, tab, told, visiting
@@ -49,7 +50,7 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
             do(page, *step, number)
         table_studio.kill()
         assert len(corpus(table_studio, "shown")) == 1
-        port = table_studio.url.rpartition(":")[2]
+        port = str(urlsplit(table_studio.url).port)
         table_studio.arguments[table_studio.arguments.index("--port") + 1] = port
         table_studio.start()
         page.reload()

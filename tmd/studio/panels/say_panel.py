@@ -184,7 +184,9 @@ class SayPanel:
             grounded = self._again(demonstration)
             put(self._text, demonstration.text)
             self._show(grounded)
-        visitor.tell(f"Saved as {demonstration.id}. {_whether(grounded, demonstration)}", _LATER, aloud=True)
+        visitor.tell(
+            f"Saved as {demonstration.id}. {whether_used(demonstration.instructions, grounded)}", _LATER, aloud=True
+        )
 
     def learned(self) -> None:
         """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
@@ -199,7 +201,7 @@ class SayPanel:
             if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
                 self._show(grounded)
         said = " ".join(saved.text.split())
-        visitor.tell(f'Everything is learned. "{said}": {_whether(grounded, saved)}', aloud=True)
+        visitor.tell(f'Everything is learned. "{said}": {whether_used(saved.instructions, grounded)}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """The text of a demonstration, planned where it was shown."""
@@ -361,17 +363,30 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
     return [] if grounded is None else [plan.instructions for plan in grounded.plans]
 
 
-def _whether(grounded: Grounded, saved: Demonstration) -> str:
+def whether_used(shown: Sequence[Instruction], grounded: Grounded) -> str:
     """Whether the plans for a text are what was shown for it."""
-    shown = tuple(instruction for segment in saved.segments for instruction in segment.instructions)
     plans = _plans(grounded)
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
-    if shown == plans[0]:
-        return "The same sentence now gives what you showed."
-    if shown in plans:
-        return f"The same sentence gives what you showed as plan {plans.index(shown) + 1} of {len(plans)}."
+    for place, plan in enumerate(plans, start=1):
+        more = _beside(shown, plan)
+        if more is None:
+            continue
+        also = f", and does more: {', '.join(map(str, more))}" if more else ""
+        so = f"as plan {place} of {len(plans)}" if place > 1 else ""
+        return f"The same sentence {'' if so else 'now '}gives what you showed{so and ' '}{so}{also}."
     return "The same sentence still gives another plan."
+
+
+def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
+    """What a plan has beside all of ``shown``, in its order; ``None`` where it has not all of it."""
+    rest, more = list(shown), []
+    for instruction in plan:
+        if rest and rest[0] == instruction:
+            rest.pop(0)
+        else:
+            more.append(instruction)
+    return None if rest else more
 
 
 def verb_phrase(verbs: str) -> str:
