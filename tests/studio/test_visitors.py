@@ -200,6 +200,29 @@ def test_goals_are_ticked_off_and_refusals_say_what_to_do(server: Server) -> Non
         visitor.press("Plan it")
         visitor.told("No plan: clause 1: nothing here is called &#x27;zebra&#x27;.")
         visitor.told("name a thing that is there")
+        visitor.told("try: Put the cup on")
+
+
+def test_what_is_refused_leaves_no_other_plan_behind(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        for text, answer in (
+            ("x" * 30_000, "characters"),
+            ("kettle " * 1_400, "at most 1,000"),
+            ("", "the text is empty"),
+            ("<b onclick=alert(1)>zzz</b>", "No plan"),
+            ("Where is the cup?", "this is a question"),
+            ("Do not take the cup.", "only forbids something"),
+        ):
+            visitor.put("Text", f"{TEXT}.")
+            visitor.press("Plan it")
+            visitor.told("Planned in")
+            visitor.shows("reaches its goals")
+            visitor.put("Text", text)
+            visitor.press("Plan it")
+            visitor.told(answer)
+            visitor.until(
+                lambda: not any("cup1 is on shelf1" in str(e.get("content")) for e in visitor.elements.values())
+            )
 
 
 def test_a_correction_may_state_a_goal(server: Server) -> None:

@@ -132,6 +132,15 @@ class Studio:
         """Texts that can be tried in an environment."""
         return [known.text for known in self._texts if known.environment == name]
 
+    def nearest_example(self, text: str, name: str) -> str:
+        """The text that can be tried in an environment and has most words in common with ``text``; empty for none."""
+        words = set(text.lower().split())
+
+        def alike(known: str) -> tuple[int, int]:
+            return len(words & set(known.lower().split())), -len(known)
+
+        return max(self.examples(name), key=alike, default="")
+
     def warm(self) -> None:
         """Ground a text, so that what is compiled and looked up once is there when the first visitor asks."""
         texts = self.examples(self.start)

@@ -33,6 +33,7 @@ white-space:nowrap}
 .tmd .numbers tbody th{text-align:left;font-weight:400}.tmd .numbers tr{border-bottom:1px solid #bbb}
 @media (max-width:36em){.mantine-Paper-root[style*="20em"],.mantine-Paper-root[style*="20em"] div[style*="20em"]
 {width:100vw!important}}
+.tmd .outcome{font-weight:600}.tmd .doubts{border-left:.3rem solid #e69f00;padding-left:1.4rem!important}
 .tmd .goals{list-style:none;padding-left:.2rem}
 .tmd summary{cursor:pointer;margin-top:.4rem}
 </style>"""
@@ -78,6 +79,13 @@ def step_list(
         below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
         rows.append(f'<li>{name}<span class="tag">{escape(purpose)}</span>{below}</li>')
     return fragment(f"<ol>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+
+
+def judgement(outcome: str, lines: Iterable[str]) -> str:
+    """What a plan is good for, and what is doubtful about it."""
+    rows = "".join(f"<li>{escape(line)}</li>" for line in lines)
+    doubtful = f'<ul class="doubts" aria-label="doubts">{rows}</ul>' if rows else ""
+    return fragment(f'<p class="outcome">{escape(outcome)}</p>{doubtful}')
 
 
 def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str:

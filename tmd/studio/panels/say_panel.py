@@ -16,13 +16,13 @@ from tmd.inference.ranking import RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, fragment, goal_list, step_list
+from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
 from tmd.veil.demonstration import Demonstration
 from tmd.view.candidates import factors_of, grouped
 from tmd.view.clauses import lit_choice, lit_sentence
-from tmd.view.goals import ShownGoal, in_words
+from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.markup import number, style
 
 if TYPE_CHECKING:
@@ -127,6 +127,7 @@ class SayPanel:
         self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
         gui.add_button("Plan it", color="blue").on_click(guarded(self.plan))
         self._understood = gui.add_html("")
+        self._judged = gui.add_html("")
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
         self._which.on_update(guarded(lambda: self._choose(self._number())))
         self._buttons = gui.add_button_group("Step", _BUTTONS, visible=False)
@@ -156,10 +157,15 @@ class SayPanel:
         """Another environment: its examples, and no plan yet."""
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
+        self._clear()
+
+    def _clear(self) -> None:
+        """No plan; the picture shows the beginning."""
         self._grounded, self._reels = None, []
-        self._understood.content = self._goals.content = self._steps.content = ""
+        self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
         for handle in (self._which, self._buttons, self._speed, self._more, self._after):
             handle.visible = False
+        self._visitor.watch(Reel(self._visitor.setting), 0)
 
     # planning
 
@@ -168,6 +174,7 @@ class SayPanel:
         visitor = self._visitor
         with visitor.holding():
             visitor.stop()
+            self._clear()  # what is refused must not leave another sentence's plan below it
             begun = time.perf_counter()
             text = visitor.studio.checked_text(self._text.value)
             visitor.tell("Planning …")
@@ -210,22 +217,25 @@ class SayPanel:
 
     def _tell(self, grounded: Grounded, took: float) -> None:
         """Say what came of it: how many plans there are, or why there is none."""
-        visitor = self._visitor
+        visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            valid = grounded.verdicts[0].valid
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
-            so = "" if grounded.plans[0].steps else " There is nothing to do: it is so already."
-            visitor.tell(f"Planned in {took:.1f} s: {count}." + (so if valid else " The best is not valid."))
-        elif grounded.refused is not None:
+            so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
+            visitor.tell(f"Planned in {took:.1f} s: {count}.{so}")
+            return
+        example = visitor.studio.nearest_example(parsed.text, visitor.setting.name)
+        tried = f"try: {' '.join(example.split())}" if example else None
+        if grounded.refused is not None:
             clause, refused = grounded.refused
-            shown = "Show it under Demonstrate." if refused.why is Why.UNKNOWN_VERB else None
-            hint = "; or: ".join(filter(None, (refused.hint, shown))) or None
+            shown = "show it under Demonstrate" if refused.why is Why.UNKNOWN_VERB else None
+            hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
             visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
-        elif grounded.unseen:
-            verbs = ", ".join(f"'{verb}'" for verb in grounded.unseen)
-            visitor.tell(f"No plan: nobody has shown {verb_phrase(verbs)}.", "Show it under Demonstrate.", fault=True)
+        elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
+            visitor.tell(f"No plan: this is a question; {grounded.reason}.", tried, fault=True)
         else:
-            visitor.tell("No plan was found for this here.", "Show it under Demonstrate.", fault=True)
+            shown = "show it under Demonstrate" if grounded.unseen else None
+            hint = "; or ".join(filter(None, (shown, tried)))
+            visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
 
     def _show(self, grounded: Grounded) -> None:
         self._grounded = grounded
@@ -247,10 +257,11 @@ class SayPanel:
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
-            self._goals.content = self._steps.content = ""
+            self._judged.content = self._goals.content = self._steps.content = ""
+            self._visitor.watch(Reel(self._visitor.setting), 0)
             return
         self._which.options = tuple(
-            f"{number}: energy {plan.energy:.3g}, {len(plan.steps)} steps"
+            f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
             for number, plan in enumerate(grounded.plans, start=1)
         )
         put(self._which, self._which.options[0])
@@ -266,6 +277,11 @@ class SayPanel:
         world = self._visitor.setting.world
         self._understood.content = _styled(lit_choice(self._grounded.parsed, plan, world))
         self._asked = in_words(plan.goals, world.task.problem)
+        reached = followed(plan.goals, world.task.problem, plan.instructions)
+        verdict = self._grounded.verdicts[number]
+        told = [*(self._grounded.warnings if not number else ()), *doubts(self._grounded.parsed, plan, world)]
+        good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
+        self._judged.content = judgement(good, told)
         self._step = 0
         self._look()
 
@@ -356,6 +372,8 @@ class SayPanel:
         self._visitor.execute(grounded.plans[self._number()])
 
 
+_IDLE = "There is nothing to do: it is so already."
+_FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
 
 
@@ -387,11 +405,6 @@ def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[I
         else:
             more.append(instruction)
     return None if rest else more
-
-
-def verb_phrase(verbs: str) -> str:
-    """How to do things, in words."""
-    return f"how to {verbs.replace(chr(39), '')}" if "," not in verbs else f"these: {verbs}"
 
 
 def _styled(content: str) -> str:
