@@ -17,6 +17,7 @@ pytest.importorskip("viser", reason="needs the extra studio")
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
+from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
@@ -147,7 +148,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
         begin(visitor, f"{TEXT}.")
         for label, value in (
             ("With", "no such object"), ("With", 7), ("With", None), ("Text", 5), ("Text", "x" * 100_000),
-            ("Text", "\x00\ud7ff\u202e"), ("After step", 10**9), ("After step", "one"), ("It serves", "17"),
+            ("Text", "\x00\ud7ff\u202e"), ("Step", 10**9), ("Step", "one"), ("It serves", "17"),
             ("Environment", "../../etc"), ("Environment", []), ("Task name", {"a": 1}), ("Steps a second", -1),
         ):  # fmt: skip
             visitor.put(label, value)
@@ -156,7 +157,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
             "Start over",
             "Save (K)",
             "Throw away",
-            "Insert before this step",
+            "Insert behind this step",
             "Correct this plan",
         ):
             visitor.press(label)
@@ -231,7 +232,7 @@ def test_a_correction_may_state_a_goal(server: Server) -> None:
         visitor.press("Plan it")
         visitor.told("Planned in")
         visitor.press("Correct this plan")
-        visitor.told("The plan is under Correct.")
+        visitor.told("The plan is under Correct")
         for goal, answer in (("(at cup9 shelf1 on)", "unknown object"), ("(at cup1 shelf1 on)", "under Demonstrate")):
             visitor.put("What must hold at the end", goal)
             visitor.press("Done: look at it, and save it")
@@ -264,3 +265,84 @@ def test_what_is_saved_is_used_and_the_page_says_so(server: Server) -> None:
         here = teacher.ground(text, world, top=3)
         there = DomainKit(Corpus(files.folder, files.directory)).ground(text, world, top=3)
         assert [(p.energy, p.instructions) for p in here.plans] == [(p.energy, p.instructions) for p in there.plans]
+
+
+def test_nothing_is_thrown_away_without_asking(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        visitor.press("Start over")
+        visitor.shows("was shown with 1 step in corner1 and is not saved")
+        visitor.press("Cancel")
+        do(visitor, "cup1", STEPS[1])
+        visitor.put("Text", "Take the cup.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.press("Done: look at it, and save it")
+        visitor.press("Throw it away, and take the plan")
+        visitor.told("The corrected plan is under Demonstrate")
+
+
+def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Environment", "corner2")
+        visitor.put("Text", "Put the cup on the first table.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.happens(step=2, list="say")
+        visitor.shows("2 / ")
+        visitor.happens(tab="Object")
+        visitor.until(lambda: any("tab=Object" in told.get("link", "") for told in visitor.told_page))
+        link = visitor.told_page[-1]["link"]
+        identity = visitor.identity
+    assert link == "?environment=corner2&say=Put+the+cup+on+the+first+table.&step=2&tab=Object"
+    with Wire(server.url, identity, link) as again:
+        again.told("Planned in")
+        again.shows("2 / ")
+        assert again.elements[again.find("Environment")]["value"] == "corner2"
+        again.until(lambda: {"tab": "Object"} in again.told_page)
+    for odd in (
+        "?environment=../x&plan=9999999999&step=-1&tab=<b>&say=" + "x" * 30_000,
+        "?%00",
+        "?plan=²&say=Take+the+cup.",
+    ):
+        with Wire(server.url, None, odd) as visitor:
+            visitor.told("")
+            begin(visitor, "Take the cup.")
+
+
+def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        identity = visitor.identity
+    with Wire(server.url, identity, "?tab=Demonstrate") as again:
+        again.told("Here is what was not saved: 1 steps")
+        again.shows(f"▸ {STEPS[0]}")
+
+
+def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
+        visitor.happens(step=3, list="correct")
+        visitor.shows(f"▸ {STEPS[2]}")
+        visitor.shows("3 / 4 ")
+        visitor.happens(move=1, to=2)
+        visitor.shows("Step 1 does not apply.")
+        visitor.happens(move=2, to=1)
+        visitor.shows("Every step applies.")
+        for event in (
+            {"step": 99, "list": "correct"},
+            {"step": True, "list": 5},
+            {"move": 0, "to": 77},
+            {"dark": "yes"},
+        ):
+            visitor.happens(**event)
+        visitor.put(EVENT, "[" * 9_000)
+        visitor.happens(step=1, list="correct")
+        visitor.shows(f"▸ {STEPS[0]}")

@@ -8,15 +8,20 @@ and gives names to what has none.
 from __future__ import annotations
 
 import gzip
+import json
 import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlencode
 
 from tmd.studio.guard import response
 
 if TYPE_CHECKING:
+    from viser import ClientHandle
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
@@ -25,6 +30,16 @@ ALIVE = "/alive"
 _INSTANCE = secrets.token_hex(8)
 """Of this process: the page knows by it that the studio was started again."""
 _HEAD = b"<head>"
+KEY = "tmd-page"
+"""The key in the window's storage under which the script answers."""
+EVENT = "tmdevent"
+"""The label of the input through which it tells what happens."""
+_PATIENCE = 5.0
+"""Seconds that a window may take to answer."""
+_LONGEST = 20_000
+"""Characters of an event, or of an address, that are read."""
+_WHOLE = 6
+"""Digits of a number in an address."""
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:
@@ -57,3 +72,98 @@ def _extended(body: bytes, *, packed: bool) -> bytes:
 
 def _path(request: Request) -> str:
     return request.path.partition("?")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """What a window looks at, as its address says it.
+
+    Attributes:
+        environment: The environment; empty for the first.
+        say: The sentence; empty for none.
+        plan: The number of its plan, from 1.
+        step: After how many steps it is seen.
+        tab: The tab that is open.
+    """
+
+    environment: str = ""
+    say: str = ""
+    plan: int = 1
+    step: int = 0
+    tab: str = ""
+
+    def query(self) -> str:
+        """The address, from the question mark on."""
+        told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
+        return f"?{urlencode(told)}" if told else ""
+
+
+_NOWHERE = Link()
+
+
+def read_link(query: str) -> Link:
+    """What an address says; what it cannot say is left out."""
+    try:
+        said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
+    except ValueError:
+        return _NOWHERE
+    return Link(
+        said.get("environment", ""),
+        said.get("say", ""),
+        _number(said, "plan", 1),
+        _number(said, "step", 0),
+        said.get("tab", ""),
+    )
+
+
+def _number(said: Mapping[str, str], name: str, usual: int) -> int:
+    text = said.get(name, "")
+    return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
+
+
+class Window:
+    """A window of a browser, beside what viser shows in it.
+
+    Args:
+        client: viser's side of it.
+        told: Called with what happens in it.
+
+    Attributes:
+        dark: Whether its system is dark.
+        link: What its address said when it was loaded.
+    """
+
+    def __init__(self, client: ClientHandle, told: Callable[[Mapping[str, Any]], None]) -> None:
+        self._client = client
+        try:
+            said = json.loads(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
+        except (RuntimeError, TimeoutError, ValueError):
+            said = {}
+        said = said if isinstance(said, dict) else {}
+        self.dark = said.get("dark") is True
+        self.link = read_link(str(said.get("search", "")))
+        self._kept = self.link
+        self._told = told
+        self._event = client.gui.add_text(EVENT, "")
+        self._event.on_update(lambda _: self._happened())
+
+    def _happened(self) -> None:
+        try:
+            event = json.loads(self._event.value[:_LONGEST])
+        except (TypeError, ValueError, RecursionError):
+            return
+        if isinstance(event, dict):
+            self._told(event)
+
+    def keep(self, link: Link) -> None:
+        """Let the address say what is looked at."""
+        if link != self._kept:
+            self._kept = link
+            self._tell({"link": link.query()})
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab."""
+        self._tell({"tab": name})
+
+    def _tell(self, words: Mapping[str, str]) -> None:
+        self._client.local_storage.set_item(KEY, json.dumps(words))

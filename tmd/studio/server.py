@@ -79,6 +79,7 @@ class Server:
         visitor = Visitor(self.studio, client, self._identity(client))
         with self._lock:
             self._visitors[client.client_id] = visitor
+        visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
         """Who a browser is: random names that it keeps, one a window, so that what was not saved is offered again.

@@ -165,7 +165,7 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         page.get_by_text("Every step applies.").wait_for()
         choose(page, "Insert with", "cup1")
         choose(page, "Instruction", "find(cup1)")
-        press(page, "Insert before this step")
+        press(page, "Insert behind this step")
         page.locator("ol:visible > li").filter(has_text="find(cup1)").wait_for()
         press(page, "Done: look at it, and save it")
         tab(page, "Demonstrate")

@@ -2,7 +2,7 @@
 // speaks to the server through an input that is not seen.
 "use strict";
 (() => {
-  const KEY = "tmd-page", EVENT = "tmd-event", LOOK = 1500, LATE = 350;
+  const KEY = "tmd-page", EVENT = "tmdevent", LOOK = 1500, LATE = 350;
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -105,6 +105,16 @@
   addEventListener("click", step);
   addEventListener("keydown", step);
 
+  // a click on nothing in the picture: the server knows whether it was on an object
+  let down = null;
+  addEventListener("pointerdown", (event) => { down = event.target instanceof HTMLCanvasElement ? event : null; }, true);
+  addEventListener("pointerup", (event) => {
+    if (!down || !(event.target instanceof HTMLCanvasElement)) return;
+    if (Math.hypot(event.clientX - down.clientX, event.clientY - down.clientY) < 4) {
+      setTimeout(() => send({ clicked: true }), 700);
+    }
+  }, true);
+
   // a step is dragged to the place of another
   let dragged = null;
   addEventListener("dragstart", (event) => {
@@ -139,8 +149,18 @@
     return ["", null];
   }
 
+  function unwarn() { // where graphics are drawn by software, that is said for a while, and then the picture is free again
+    for (const each of document.querySelectorAll(".mantine-Notification-root")) {
+      if (each.textContent.includes("Software WebGL") && !each.dataset.tmd) {
+        each.dataset.tmd = "seen";
+        setTimeout(() => each.querySelector("button")?.click(), 6000);
+      }
+    }
+  }
+
   function tidy() {
     waiting = false;
+    unwarn();
     for (const input of document.querySelectorAll("input:not([data-tmd]), textarea:not([data-tmd])")) {
       if (!input.isConnected || input.type === "hidden") continue;
       const [name, row] = label(input);
@@ -153,12 +173,19 @@
     }
     for (const button of document.querySelectorAll("button:not([aria-label]), [role=button]:not([aria-label])")) {
       if (button.textContent.trim()) continue;
+      if (button.className.includes("CloseButton")) button.setAttribute("aria-label", "Close");
       const icon = button.querySelector("svg[class*=tabler-icon-]");
       const kind = icon && [...icon.classList].find((each) => each.startsWith("tabler-icon-"));
       if (kind) button.setAttribute("aria-label", NAMES[kind] || kind.slice(12).replaceAll("-", " "));
     }
+    theme();
     caption();
     follow();
+  }
+
+  function theme() { // the pieces that tmd draws are as dark as viser's
+    const scheme = document.documentElement.dataset.mantineColorScheme === "dark" ? "dark" : "light";
+    if (document.documentElement.dataset.theme !== scheme) document.documentElement.dataset.theme = scheme;
   }
 
   function caption() {
@@ -189,7 +216,8 @@
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(() => {
       if (!waiting) waiting = true, requestAnimationFrame(tidy);
-    }).observe(document.body, { subtree: true, childList: true, characterData: true });
+    }).observe(document.documentElement, {
+      subtree: true, childList: true, characterData: true, attributeFilter: ["data-mantine-color-scheme"] });
     addEventListener("click", (event) => {
       const found = event.target instanceof Element && event.target.closest("[role=tab]");
       if (found) send({ tab: found.textContent.trim() });

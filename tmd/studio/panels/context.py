@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from tmd.inference.ranking import RankedPlan
+from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
@@ -15,6 +16,13 @@ from tmd.veil.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle
+
+
+class Played(Protocol):
+    """A panel whose steps are looked at."""
+
+    def goto(self, step: int) -> None:
+        """Look at the state after so many steps."""
 
 
 class PanelContext(Protocol):
@@ -40,8 +48,17 @@ class PanelContext(Protocol):
     def enter(self, name: str) -> None:
         """Go to another environment."""
 
-    def watch(self, reel: Reel, step: int) -> None:
-        """Look at a state of some states."""
+    def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
+        """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
+
+    def keep_link(self) -> None:
+        """Let the window's address say what is looked at."""
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab."""
+
+    def ask(self, title: str, question: str, yes: str, act: Callable[[], Any]) -> None:
+        """Do something if the visitor says so."""
 
     def select(self, name: str | None) -> None:
         """Point at an object."""

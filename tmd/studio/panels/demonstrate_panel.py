@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
@@ -49,8 +50,6 @@ class DemonstratePanel:
         self._resume = gui.add_button("Go on with what was not saved", visible=False)
         self._resume.on_click(guarded(self.resume))
         self._steps = gui.add_html("")
-        self._which = gui.add_slider("After step", 0, 1, 1, 0, visible=False)
-        self._which.on_update(guarded(self._goto))
         self._clause: GuiDropdownHandle[str] = gui.add_dropdown("It serves", ("1",), visible=False)
         self._clause.on_update(guarded(self._mark))
         self._edit = gui.add_button_group("Change", ("Undo", "Redo"), visible=False)
@@ -93,15 +92,34 @@ class DemonstratePanel:
     def begin(self) -> None:
         """A new demonstration of the text."""
         visitor = self._visitor
-        self._open(visitor.studio.session(visitor.setting, self._text.value))
-        visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
+
+        def go() -> None:
+            self._open(visitor.studio.session(visitor.setting, self._text.value))
+            visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
+
+        self._over("Begin anew?", "Throw it away, and begin", go)
 
     def take(self, session: Session, goal: str = "") -> None:
         """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
-        put(self._text, session.text)
-        self._open(session)
-        put(self._goal, goal)
-        self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
+
+        def go() -> None:
+            put(self._text, session.text)
+            self._open(session)
+            put(self._goal, goal)
+            self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
+
+        self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
+
+    def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
+        """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
+        draft = self._visitor.studio.drafts.of(self._visitor.identity)
+        if draft is None or not draft.instructions:
+            act()
+            return
+        count = len(draft.instructions)
+        steps = f"{count} step{'' if count == 1 else 's'}"
+        said = " ".join(draft.text.split())
+        self._visitor.ask(title, f'"{said}" was shown with {steps} in {draft.environment} and is not saved.', yes, act)
 
     def _open(self, session: Session) -> None:
         visitor = self._visitor
@@ -119,7 +137,7 @@ class DemonstratePanel:
     def _close(self) -> None:
         self._session = None
         self._numbered = []
-        for handle in (self._edit, self._do, self._keep, self._which, self._clause):
+        for handle in (self._edit, self._do, self._keep, self._clause):
             handle.visible = False
         self._begin.label = "Begin"
         self._steps.content = ""
@@ -168,6 +186,11 @@ class DemonstratePanel:
         self._open(session)
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
 
+    def come_back(self) -> None:
+        """The page was loaded again: go on with what was not saved, if there is something."""
+        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity) is not None:
+            self.resume()
+
     # doing
 
     def do(self, instruction: Instruction) -> None:
@@ -201,12 +224,13 @@ class DemonstratePanel:
     def _changed(self) -> None:
         {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
 
-    def _goto(self) -> None:
+    def goto(self, step: int) -> None:
+        """Look at the state after so many steps; nothing is undone."""
         with self._visitor.holding():
             session = self._going()
-            if self._which.value != session.cursor:
-                session.goto(int(self._which.value))
-                self.refresh()
+            if step != session.cursor:
+                session.goto(step)
+            self.refresh()
 
     def _mark(self) -> None:
         with self._visitor.holding():
@@ -229,19 +253,18 @@ class DemonstratePanel:
         with visitor.client.atomic():
             self._reel.become(session.states)
             cursor = session.cursor
-            visitor.watch(self._reel, cursor)
+            visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
             change = session.changes(cursor) if cursor else None
-            gains = changed(change.added, change.removed) if change else []
+            said = visitor.studio.offers(visitor.setting.name).wording.fact
+            gains = changed(change.added, change.removed, said) if change else []
             lines = [
                 (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
                 for step in session.steps
             ]
-            self._steps.content = step_list(lines, cursor, gains)
-            self._which.visible = self._clause.visible = bool(session.steps)
+            self._steps.content = step_list(lines, cursor, gains, of="demonstrate")
+            self._clause.visible = bool(session.steps)
             if session.steps:
-                self._which.max = len(session.steps)
-                put(self._which, cursor)
                 self._clause.options = tuple(titles)
                 put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
             self.offers()

@@ -5,7 +5,7 @@ Colours are those of Okabe and Ito, which colour-blind people tell apart; nothin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from html import escape
 
 from tmd.pddl.model import GroundAtom, Problem, State
@@ -24,7 +24,9 @@ STYLE = """<style>
 .tmd .latent{font-style:italic}.tmd .broken{text-decoration:underline wavy #d55e00}
 .tmd .tag{font-size:.72rem;border:1px solid currentColor;border-radius:.6rem;padding:0 .35rem;margin-left:.35rem;
 white-space:nowrap}
-.tmd .plus{color:#00664b;font-weight:600}.tmd .minus{color:#a34700;font-weight:600}
+.tmd .plus{color:var(--tmd-added,#00664b);font-weight:600}.tmd .minus{color:var(--tmd-removed,#a34700);font-weight:600}
+.tmd [data-step]{cursor:pointer}.tmd [data-step]:hover{text-decoration:underline}
+.tmd .folded{list-style:none;opacity:.75}
 .tmd h4{margin:.5rem 0 .15rem;font-size:.85rem}.tmd p{margin:.25rem 0}.tmd .quiet{opacity:.75}
 .tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
 .tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
@@ -34,6 +36,7 @@ white-space:nowrap}
 @media (max-width:36em){.mantine-Paper-root[style*="20em"],.mantine-Paper-root[style*="20em"] div[style*="20em"]
 {width:100vw!important}}
 .tmd .outcome{font-weight:600}.tmd .doubts{border-left:.3rem solid #e69f00;padding-left:1.4rem!important}
+.tmd .sides td{font-size:.78rem;border-bottom:1px solid #bbb;overflow-wrap:anywhere;width:50%}
 .tmd .goals{list-style:none;padding-left:.2rem}
 .tmd summary{cursor:pointer;margin-top:.4rem}
 </style>"""
@@ -41,7 +44,7 @@ white-space:nowrap}
 
 def fragment(content: str) -> str:
     """Content with the studio's style."""
-    return f'{STYLE}<div class="tmd tmd-panel" data-theme="light">{content}</div>'
+    return f'{STYLE}<div class="tmd tmd-panel">{content}</div>'
 
 
 def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str:
@@ -56,6 +59,10 @@ def step_list(
     current: int,
     gains: Sequence[str] = (),
     faults: Mapping[int, Sequence[str]] | None = None,
+    *,
+    of: str = "",
+    folded: Collection[int] = (),
+    draggable: bool = False,
 ) -> str:
     """Numbered steps.
 
@@ -64,9 +71,18 @@ def step_list(
         current: The step that was taken last, from 1; 0 is the beginning.
         gains: What it changed, as HTML; shown below it.
         faults: What is wrong with steps, by number.
+        of: The panel whose steps they are; a click on one is told to it.
+        folded: The numbers of steps that are not listed, but counted.
+        draggable: Whether a step can be dragged to the place of another.
     """
-    rows = []
+    rows: list[str] = []
+    hidden = 0
     for number, (instruction, purpose, latent) in enumerate(lines, start=1):
+        if number in folded and number != current and not (faults or {}).get(number):
+            hidden += 1
+            continue
+        rows += [_hidden(hidden)] if hidden else []
+        hidden = 0
         name = escape(instruction)
         if latent:
             name = f'<span class="latent">{name}</span>'
@@ -77,8 +93,17 @@ def step_list(
             name = f'<span class="broken">{name}</span>'
         notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
         below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
-        rows.append(f'<li>{name}<span class="tag">{escape(purpose)}</span>{below}</li>')
-    return fragment(f"<ol>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+        drag = ' draggable="true"' if draggable else ""
+        step = f'data-step="{number}" tabindex="0" role="button"{drag}'
+        rows.append(
+            f'<li value="{number}"><span {step}>{name}</span><span class="tag">{escape(purpose)}</span>{below}</li>'
+        )
+    rows += [_hidden(hidden)] if hidden else []
+    return fragment(f"<ol data-list='{of}'>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+
+
+def _hidden(count: int) -> str:
+    return f'<li class="folded">… {count} step{"" if count == 1 else "s"} to find things and to get there</li>'
 
 
 def judgement(outcome: str, lines: Iterable[str]) -> str:
@@ -101,10 +126,16 @@ def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str
     return fragment(f'<ul class="goals">{"".join(rows)}</ul>') if rows else ""
 
 
-def changed(added: Iterable[GroundAtom], removed: Iterable[GroundAtom]) -> list[str]:
-    """Facts that came and went, as HTML with a sign and a colour."""
-    plus = [f'<span class="plus">+ {escape(str(atom))}</span>' for atom in added]
-    return plus + [f'<span class="minus">− {escape(str(atom))}</span>' for atom in removed]
+def changed(
+    added: Iterable[GroundAtom], removed: Iterable[GroundAtom], said: Callable[[GroundAtom], str] = str
+) -> list[str]:
+    """Facts that came and went, as HTML with a sign and a colour; ``said`` tells them in words, PDDL is on hover."""
+
+    def told(atom: GroundAtom) -> str:
+        return f'<span title="{escape(str(atom))}">{escape(said(atom))}</span>'
+
+    plus = [f'<span class="plus">+ {told(atom)}</span>' for atom in added]
+    return plus + [f'<span class="minus">− {told(atom)}</span>' for atom in removed]
 
 
 def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:

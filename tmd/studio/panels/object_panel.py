@@ -54,11 +54,12 @@ class ObjectPanel:
         world = visitor.setting.world
         now = reel.facts(step)
         before = reel.facts(step - 1) if step else now
-        gains = changed(*(sorted(a for a in more if name in a.args) for more in (now - before, before - now)))
+        said = visitor.studio.offers(visitor.setting.name).wording.fact
+        came, went = (sorted(a for a in more if name in a.args) for more in (now - before, before - now))
+        gains = changed(came, went, said)
         lines = "".join(f"<li>{line}</li>" for line in gains)
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
         graph = object_graph(world, now, name, GraphChanges(now - before, before - now))
-        said = visitor.studio.offers(visitor.setting.name).wording.fact
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
         facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)
         self._facts.content = fragment(f"<style>{style()}</style>{news}{graph}{facts}")

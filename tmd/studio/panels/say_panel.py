@@ -2,28 +2,36 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Sequence
+from dataclasses import replace
+from difflib import SequenceMatcher
 from html import escape
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
+from tmd.export.end_goal import asked_problem
 from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan, Refusal
 from tmd.pddl.model import Instruction
+from tmd.pddl.plan_file import format_plan
+from tmd.pddl.writer import format_problem
 from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.page import Link
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
 from tmd.veil.demonstration import Demonstration
+from tmd.veil.world import World
 from tmd.view.candidates import factors_of, grouped
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.markup import number, style
+from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
@@ -104,7 +112,7 @@ def _refused(refusals: Sequence[Refusal]) -> str:
 TOP = 3
 """How many plans are ranked."""
 OWN = "(own words)"
-_BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
+_FILES = ("plan", "problem", "page")
 
 
 class SayPanel:
@@ -130,10 +138,9 @@ class SayPanel:
         self._judged = gui.add_html("")
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
         self._which.on_update(guarded(lambda: self._choose(self._number())))
-        self._buttons = gui.add_button_group("Step", _BUTTONS, visible=False)
-        self._buttons.on_click(guarded(self._pressed))
-        self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
         self._goals = gui.add_html("")
+        self._fold = gui.add_checkbox("Fold away finding and going", False, visible=False)
+        self._fold.on_update(guarded(self._look))
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
         self._more.visible = False
@@ -145,6 +152,8 @@ class SayPanel:
             gui.add_button("Correct this plan").on_click(guarded(self._correct))
             gui.add_button("Let the robot do it (simulated)").on_click(guarded(self._execute))
             gui.add_button("Stop").on_click(guarded(visitor.stop))
+            self._files = gui.add_button_group("Download", _FILES)
+            self._files.on_click(guarded(self._download))
 
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
@@ -163,7 +172,7 @@ class SayPanel:
         """No plan; the picture shows the beginning."""
         self._grounded, self._reels = None, []
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
-        for handle in (self._which, self._buttons, self._speed, self._more, self._after):
+        for handle in (self._which, self._fold, self._more, self._after):
             handle.visible = False
         self._visitor.watch(Reel(self._visitor.setting), 0)
 
@@ -182,6 +191,22 @@ class SayPanel:
             self._show(grounded)
             took = time.perf_counter() - begun
         self._tell(grounded, took)
+        visitor.keep_link()
+
+    def come_back(self, link: Link) -> None:
+        """Plan what an address says, and look at what it looked at."""
+        put(self._text, link.say)
+        self.plan()
+        if self._grounded is not None and link.plan <= len(self._grounded.plans):
+            put(self._which, self._which.options[link.plan - 1])
+            self._choose(link.plan - 1)
+            self.goto(link.step)
+
+    def looked_at(self) -> tuple[int, int, str]:
+        """The number of the plan that is shown, the step, and the sentence, for the window's address."""
+        if self._grounded is None:
+            return 1, 0, ""
+        return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
@@ -249,11 +274,14 @@ class SayPanel:
             reel.become(states)
             self._reels.append(reel)
         found = bool(grounded.plans)
-        for handle in (self._which, self._buttons, self._speed, self._after):
+        for handle in (self._which, self._fold, self._after):
             handle.visible = found
         self._more.visible = found or bool(grounded.refusals)
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        self._energies.content = fragment(energies(grounded.plans, lines, grounded.refusals))
+        world_words = Wording(world.task.problem)
+        self._energies.content = fragment(
+            side_by_side(grounded.plans, world, world_words) + energies(grounded.plans, lines, grounded.refusals)
+        )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
@@ -287,16 +315,17 @@ class SayPanel:
 
     # stepping
 
-    def move(self, by: int) -> None:
-        """Go some steps on, or back."""
-        if self._reels:
-            self.goto(self._step + by)
-
     def goto(self, step: int) -> None:
         """Look at the state after so many steps."""
-        self._visitor.stop()
-        self._step = min(max(step, 0), self._last())
-        self._look()
+        if self._reels:
+            self._step = min(max(step, 0), self._last())
+            self._look()
+
+    def mark(self, step: int) -> None:
+        """Mark a step as the one that is being done; the picture stays."""
+        if self._reels:
+            self._step = min(max(step, 0), self._last())
+            self._list()
 
     def _last(self) -> int:
         return len(self._reels[self._number()].states) - 1 if self._reels else 0
@@ -307,54 +336,43 @@ class SayPanel:
             return
         number = self._number()
         reel, plan = self._reels[number], grounded.plans[number]
-        self._visitor.watch(reel, self._step)
+        self._visitor.watch(reel, self._step, self, plan.instructions)
         problem = self._visitor.setting.world.task.problem
         self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
+        self._list()
+        self._visitor.keep_link()
+
+    def _list(self) -> None:
+        """List the steps, with what the one that is looked at changed."""
+        grounded = self._grounded
+        if grounded is None or not self._reels:
+            return
+        number = self._number()
+        reel, plan = self._reels[number], grounded.plans[number]
         gains: list[str] = []
+        said = self._visitor.studio.offers(self._visitor.setting.name).wording.fact
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now))
+            gains = changed(sorted(now - before), sorted(before - now), said)
         lines = [
             (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
             for s in plan.steps
         ]
-        self._steps.content = step_list(lines, self._step, gains)
+        folded = self._only_there(reel) if self._fold.value else ()
+        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded)
 
-    def _pressed(self) -> None:
-        act = dict(zip(_BUTTONS, (self._first, self._back, self.toggle, self._on, self._end), strict=True))
-        act[chosen(self._buttons)]()
-
-    def _first(self) -> None:
-        self.goto(0)
-
-    def _back(self) -> None:
-        self.move(-1)
-
-    def _on(self) -> None:
-        self.move(1)
-
-    def _end(self) -> None:
-        self.goto(self._last())
-
-    def toggle(self) -> None:
-        """Play, or pause."""
-        visitor = self._visitor
-        if not self._reels:
-            return
-        if visitor.is_playing():
-            visitor.stop()
-            return
-        if self._step >= self._last():
-            self._step = 0
-        visitor.play(self._frames)
-
-    def _frames(self, ended: threading.Event) -> None:
-        due = time.monotonic()
-        while not ended.is_set() and self._step < self._last():
-            self._step += 1
-            self._look()
-            due = max(due + 1 / min(max(self._speed.value, 1), 10), time.monotonic())
-            ended.wait(due - time.monotonic())
+    def _only_there(self, reel: Reel) -> set[int]:
+        """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
+        world = self._visitor.setting.world
+        constants, states = world.profiles.constants, reel.states
+        return {
+            number
+            for number in range(1, len(states))
+            if all(
+                atom.args and atom.args[0] in constants
+                for atom in world.task.names(states[number - 1] ^ states[number])
+            )
+        }
 
     # what next
 
@@ -364,6 +382,27 @@ class SayPanel:
             parsed, plan = grounded.parsed, grounded.plans[self._number()]
             steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
             self._visitor.open_correction(parsed.text, steps)
+
+    def _download(self) -> None:
+        """Send the plan, the problem with the text's goal, or the page of `tmd view` as a file."""
+        grounded = self._grounded
+        if grounded is None or not grounded.plans:
+            raise TmdError("there is no plan to download", hint="plan something first")
+        number, kind = self._number(), chosen(self._files)
+        plans = (grounded.plans[number], *(p for n, p in enumerate(grounded.plans) if n != number))
+        verdicts = (grounded.verdicts[number], *(v for n, v in enumerate(grounded.verdicts) if n != number))
+        looked_at = replace(grounded, plans=plans, verdicts=verdicts)
+        name = self._visitor.setting.name
+        if kind == "plan":
+            file, content = f"{name}.plan", format_plan(plans[0].instructions)
+        elif kind == "problem":
+            file, content = f"{name}.pddl", format_problem(asked_problem(looked_at) or grounded.world.task.problem)
+        else:
+            from tmd.view.page import render
+            from tmd.view.subject import text_subject
+
+            file, content = f"{name}.html", render(text_subject(looked_at)).html
+        self._visitor.client.send_file_download(file, content.encode(), save_immediately=True)
 
     def _execute(self) -> None:
         grounded = self._grounded
@@ -405,6 +444,37 @@ def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[I
         else:
             more.append(instruction)
     return None if rest else more
+
+
+def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
+    """The first plan beside each other one, step by step, and the difference of the states that they end in."""
+    return "".join(
+        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan)}"
+        f"{_ends(plans[0], plan, number, world, wording)}</details>"
+        for number, plan in enumerate(plans[1:], start=2)
+    )
+
+
+def _beside_each_other(one: RankedPlan, other: RankedPlan) -> str:
+    left, right = one.instructions, other.instructions
+    rows: list[tuple[str, str]] = []
+    for kind, a, b, c, d in SequenceMatcher(None, left, right, autojunk=False).get_opcodes():
+        sides = zip_longest(map(str, left[a:b]), map(str, right[c:d]), fillvalue="")
+        rows += [(x, y) if kind == "equal" else (x and f"− {x}", y and f"+ {y}") for x, y in sides]
+    body = "".join(f"<tr><td>{escape(x)}</td><td>{escape(y)}</td></tr>" for x, y in rows)
+    return f"<table class='sides'><tbody>{body}</tbody></table>"
+
+
+def _ends(one: RankedPlan, other: RankedPlan, number: int, world: World, wording: Wording) -> str:
+    names = world.task.names
+    only = ((1, names(one.state & ~other.state)), (number, names(other.state & ~one.state)))
+    lines = [
+        f"<li>only after plan {plan}: {escape(wording.fact(atom))}</li>"
+        for plan, atoms in only
+        for atom in sorted(atoms)
+        if not atom.args or atom.args[0] not in world.profiles.constants
+    ]
+    return f"<p>At the end</p><ul>{''.join(lines)}</ul>" if lines else "<p>Both end alike.</p>"
 
 
 def _styled(content: str) -> str:
