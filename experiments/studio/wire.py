@@ -68,7 +68,7 @@ class Wire:
             said = self.page if message["key"] == KEY else self.identity
             answer = {"value": said, "error": None, "request_uuid": message["request_uuid"]}
             self.send({"type": "LocalStorageGetItemResponseMessage", **answer})
-        elif kind == "LocalStorageSetItemMessage" and message["key"] == KEY:
+        elif kind == "LocalStorageSetItemMessage" and message["key"].endswith(KEY):
             self.told_page.append(json.loads(message["value"]))
         elif kind == "LocalStorageSetItemMessage":
             self.identity = message["value"]

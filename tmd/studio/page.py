@@ -166,4 +166,5 @@ class Window:
         self._tell({"tab": name})
 
     def _tell(self, words: Mapping[str, str]) -> None:
-        self._client.local_storage.set_item(KEY, json.dumps(words))
+        (kind,) = words
+        self._client.local_storage.set_item(f"{kind}-{KEY}", json.dumps(words))  # of one key viser sends the last only

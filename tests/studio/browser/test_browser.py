@@ -157,7 +157,6 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         told(page, "Planned in")
         before = [step.split("\n")[0] for step in shown(page)]
         press(page, "Correct this plan")
-        tab(page, "Correct")
         press(page, "Delete")
         page.get_by_text("does not apply").wait_for()
         page.screenshot(path=screens / "10-broken.png")
@@ -168,7 +167,6 @@ def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: 
         press(page, "Insert behind this step")
         page.locator("ol:visible > li").filter(has_text="find(cup1)").wait_for()
         press(page, "Done: look at it, and save it")
-        tab(page, "Demonstrate")
         press(page, "Save (K)")
         told(page, "Saved as shown-kitchen1-01")
         record = json.loads(corpus.read_text().splitlines()[-1])

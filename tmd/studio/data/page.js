@@ -22,8 +22,16 @@
 
   function tab(name, tries) {
     const found = [...document.querySelectorAll("[role=tab]")].find((each) => each.textContent.trim() === name);
-    if (found) found.click();
-    else if (tries) setTimeout(() => tab(name, tries - 1), 100);
+    if (!found) {
+      if (tries) setTimeout(() => tab(name, tries - 1), 100);
+    } else if (found.getAttribute("aria-selected") !== "true") { // it can be dragged: a click alone does not open it
+      const { left, top, width, height } = found.getBoundingClientRect();
+      const at = { bubbles: true, cancelable: true, pointerId: 1, pointerType: "mouse", isPrimary: true, button: 0,
+        clientX: left + width / 2, clientY: top + height / 2 };
+      found.dispatchEvent(new PointerEvent("pointerdown", { ...at, buttons: 1 }));
+      found.dispatchEvent(new PointerEvent("pointerup", at));
+      found.dispatchEvent(new MouseEvent("click", at));
+    }
   }
 
   function labelled(name) {
