@@ -13,8 +13,9 @@ from tmd.diagnostics import TmdError
 from tmd.inference.learned import Knowledge, known, library_to_json, place, recall, study
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
+from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.demo_store import Archive
-from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
@@ -174,6 +175,18 @@ def test_learning_that_fails_or_is_stopped_changes_nothing(table: Corpus) -> Non
     with pytest.raises(TmdError, match="a demonstration is a JSON object"):
         teacher.retrain().wait(120)
     assert teacher.knowledge is before
+
+
+def test_that_nothing_is_to_be_done_is_a_correction_that_is_saved_and_learned_from(table: Corpus) -> None:
+    world, text = table.world("corner1"), "Polish the cup."
+    correction = Correction(world, text, [DemonstratedStep(parse_instruction(TABLE[0]), 0)], table.lexicon)
+    correction.delete(1)
+    saved = Archive(table).save(correction.session())
+    assert saved.instructions == () and [str(i) for i in saved.proposed or ()] == TABLE[:1]
+    teacher = Teacher(table)
+    assert teacher.retrain().wait(120)
+    assert saved in table.demonstrations()
+    assert answer(teacher, "Put the cup on the shelf.", "corner1")
 
 
 def test_where_nothing_can_be_kept_it_is_learned_all_the_same(

@@ -346,3 +346,19 @@ def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
         visitor.put(EVENT, "[" * 9_000)
         visitor.happens(step=1, list="correct")
         visitor.shows(f"▸ {STEPS[0]}")
+
+
+def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        visitor.put("With", "cup1")
+        visitor.put("Not possible yet", "keep(cup1, shelf1, on)")
+        visitor.press("Do that, and first what it needs")
+        visitor.told("Done, with 3 steps before it.")
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-corner1-01")
+    (record,) = corpus(server)
+    segments = record["segments"]
+    assert isinstance(segments, list)
+    done = [instruction for segment in segments for instruction in segment["instructions"]]
+    assert len(done) == len(STEPS) and done[-1] == STEPS[-1]

@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
+from tmd.planning.backends import IN_PROCESS, make
 from tmd.studio.applicable_actions import ActionGroup
+from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.panels.context import PanelContext
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
 
 OWN = "(own words)"
 NONE = "(no object)"
+NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
 NUMBERED = 9
 """Number of the instructions that apply with a hot key: 1 to 9."""
@@ -41,6 +44,7 @@ class DemonstratePanel:
         self._reel = Reel(visitor.setting)
         self._offered: list[Any] = []
         self._numbered: list[Instruction] = []
+        self._waiting: dict[str, Instruction] = {}
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Tasks", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
@@ -59,9 +63,8 @@ class DemonstratePanel:
             self._object: GuiDropdownHandle[str] = gui.add_dropdown("With", (NONE, *visitor.setting.names()))
             self._object.on_update(guarded(self._point))
             self._buttons = gui.add_folder("Possible now")
-            self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False)
-            with self._refused:
-                self._reasons = gui.add_html("")
+            self._later: GuiDropdownHandle[str] = gui.add_dropdown("Not possible yet", (NOTHING,))
+            gui.add_button("Do that, and first what it needs").on_click(guarded(self._do_later))
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
@@ -70,6 +73,9 @@ class DemonstratePanel:
             self._when = gui.add_checkbox("Save the time as well", False)
             gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
             gui.add_button("Throw away").on_click(guarded(self.discard))
+        self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
+        with self._refused:
+            self._reasons = gui.add_html("")
         self._look_for_draft()
 
     def _texts(self) -> list[str]:
@@ -128,7 +134,7 @@ class DemonstratePanel:
             self._session = session
             put(self._goal, "")
             self._reel = Reel(visitor.setting)
-            for handle in (self._edit, self._do, self._keep):
+            for handle in (self._edit, self._do, self._keep, self._refused):
                 handle.visible = True
             self._begin.label = "Start over"
             self._resume.visible = False
@@ -137,7 +143,7 @@ class DemonstratePanel:
     def _close(self) -> None:
         self._session = None
         self._numbered = []
-        for handle in (self._edit, self._do, self._keep, self._clause):
+        for handle in (self._edit, self._do, self._keep, self._refused, self._clause):
             handle.visible = False
         self._begin.label = "Begin"
         self._steps.content = ""
@@ -206,6 +212,20 @@ class DemonstratePanel:
             if number > len(self._numbered):
                 raise TmdError(f"there is no instruction {number}", hint="point at an object first")
             self.do(self._numbered[number - 1])
+
+    def _do_later(self) -> None:
+        """Carry out an instruction that does not apply yet, after what the planner finds that it needs."""
+        visitor = self._visitor
+        with visitor.holding():
+            session, world = self._going(), visitor.setting.world
+            instruction = self._waiting.get(self._later.value)
+            if instruction is None:
+                raise TmdError("choose an instruction first", hint="point at an object")
+            needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
+            for each in (*needed, instruction):
+                session.do(each)
+            self.refresh()
+        visitor.tell(f"Done, with {len(needed)} step{'' if len(needed) == 1 else 's'} before it.")
 
     def undo(self) -> None:
         """Take the last change back."""
@@ -291,6 +311,12 @@ class DemonstratePanel:
                 self._offered, self._numbered = [], []
                 for group in groups:
                     self._offer(group)
+            waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
+            waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
+            self._waiting = {str(instruction): instruction for instruction in waiting}
+            options = (NOTHING, *self._waiting)
+            if self._later.options != options:
+                self._later.options = options
             self._reasons.content = fragment(refused(groups))
 
     def _offer(self, group: ActionGroup) -> None:

@@ -14,8 +14,10 @@ from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
 from tmd.view.goals import ShownGoal
 
-MOST = 60
-"""Maximum number of instructions listed that do not apply."""
+MOST = 30
+"""Maximum number of reasons listed why instructions do not apply."""
+_NAMED = 6
+"""How many instructions are named for each."""
 
 STYLE = """<style>
 .tmd-panel{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}
@@ -161,12 +163,20 @@ def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
 
 
 def refused(groups: Iterable[ActionGroup]) -> str:
-    """Instructions that do not apply, each with what it lacks."""
+    """Instructions that do not apply, by what they lack: the reason that most of them share first."""
+    reasons: dict[str, list[str]] = {}
+    for group in groups:
+        for offer in group.offers:
+            if not offer.applies:
+                reasons.setdefault(offer.why, []).append(str(offer.instruction))
     lines = [
-        f'<li class="quiet">{escape(str(offer.instruction))}<br><small>✗ {escape(offer.why)}</small></li>'
-        for group in groups
-        for offer in group.offers
-        if not offer.applies
+        f'<li>✗ {escape(why)}<br><small class="quiet">{escape(_some(names))}</small></li>'
+        for why, names in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
     ]
-    more = f"<p>… and {len(lines) - MOST} more.</p>" if len(lines) > MOST else ""
+    more = f"<p>… and {len(lines) - MOST} more reasons.</p>" if len(lines) > MOST else ""
     return f"<ul>{''.join(lines[:MOST])}</ul>{more}" if lines else "<p>Nothing is out of reach.</p>"
+
+
+def _some(names: Sequence[str]) -> str:
+    rest = len(names) - _NAMED
+    return ", ".join(names[:_NAMED]) + (f" and {rest} more" if rest > 0 else "")
