@@ -352,6 +352,8 @@ def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> 
     with Wire(server.url) as visitor:
         begin(visitor, f"{TEXT}.")
         visitor.put("With", "cup1")
+        wanted = "keep(cup1, shelf1, on)"
+        visitor.until(lambda: wanted in visitor.elements[visitor.find("Not possible yet")]["options"])
         visitor.put("Not possible yet", "keep(cup1, shelf1, on)")
         visitor.press("Do that, and first what it needs")
         visitor.told("Done, with 3 steps before it.")
@@ -362,3 +364,44 @@ def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> 
     assert isinstance(segments, list)
     done = [instruction for segment in segments for instruction in segment["instructions"]]
     assert len(done) == len(STEPS) and done[-1] == STEPS[-1]
+
+
+def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> None:
+    directory = server.studio.corpus.directory / "environments"
+    before = (directory / "corner1.yaml").read_text()
+    with Wire(server.url) as visitor:
+        visitor.put("Object", "cup1")
+        visitor.shows("<h4>cup1: cup")
+        visitor.put("of", "shelf1")
+        visitor.press("Put the object there")
+        visitor.told("Changed: cup1 is on shelf1.")
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("There is nothing to do: it is so already.")
+        visitor.put("A new", "cup")
+        visitor.put("of", "shelf1")
+        visitor.press("Add it there")
+        visitor.told("Changed: a cup is on shelf1.")
+        visitor.put("Object", "shelf1")
+        visitor.shows("<h4>shelf1: shelf")
+        visitor.press("Take the object away")
+        visitor.told("would be nowhere")
+        for name, answer in (
+            ("../../x", "cannot be called"),
+            ("corner1", "already"),
+            ("full_shelf", "Saved as the environment"),
+        ):
+            visitor.put("Name", name)
+            visitor.press("Save as an environment")
+            visitor.told(answer)
+        begin(visitor, "Take the second cup.")
+        visitor.put("With", "cup2")
+        visitor.until(lambda: "grasp(cup2)" in visitor.elements[visitor.find("Not possible yet")]["options"])
+        visitor.put("Not possible yet", "grasp(cup2)")
+        visitor.press("Do that, and first what it needs")
+        visitor.told("before it")
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-full_shelf-01")
+    assert (directory / "corner1.yaml").read_text() == before
+    assert "cup2" in (directory / "full_shelf.yaml").read_text()
+    assert Corpus(server.studio.corpus.folder, server.studio.corpus.directory).demonstrations()

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from functools import cache
+from itertools import count
 from pathlib import Path
 from threading import RLock
 
@@ -16,6 +19,7 @@ from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.demonstrations.tasks import task_texts
+from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.robot_mesh import Figure
@@ -24,6 +28,8 @@ from tmd.veil.demonstration import Demonstration
 from tmd.veil.world import make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
+
+_CHANGED = re.compile(r"_changed\d+$")
 
 
 class Studio:
@@ -65,6 +71,39 @@ class Studio:
         if start is not None and start not in names:
             raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
         self.start = start or names[0]
+
+    def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
+        """Make an environment of a changed one, for whoever changed it, and return its name; both files stay.
+
+        Raises:
+            TmdError: It cannot be changed so.
+        """
+        edited = EditedEnvironment(setting.path, self.corpus.folder)
+        change(edited)
+        with self._lock:
+            taken = {*self.corpus.environments(), *self._extra}
+            stem = _CHANGED.sub("", setting.name)
+            name = next(name for n in count(1) if (name := f"{stem}_changed{n}") not in taken)
+            self._extra[name] = edited.write(self.drafts.directory / "environments", name)
+            try:
+                self.setting(name)
+            except TmdError:
+                del self._extra[name]
+                raise
+        return name
+
+    def keep_environment(self, setting: Setting, name: str) -> str:
+        """Save an environment among those of the domain, and return its name.
+
+        Raises:
+            TmdError: There is one of that name, or it cannot be written.
+        """
+        if name in self.corpus.environments():
+            raise TmdError(f"there is an environment '{name}' already", hint="take another name")
+        with self._lock:
+            edited = EditedEnvironment(setting.path, self.corpus.folder)
+            self.corpus.take_in(edited.write(self.corpus.directory / "environments", name))
+        return name
 
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""

@@ -200,6 +200,9 @@ class Visitor:
         with self._lock:
             self.stop()
             self.setting = self.studio.setting(name)
+            names = tuple(self.studio.environments())
+            if self._where.options != names:
+                self._where.options = names
             self.reel = Reel(self.setting)
             self.cursor, self.selected = 0, None
             if self._where.value != name:
