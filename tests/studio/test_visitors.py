@@ -22,6 +22,7 @@ from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
 
 VISITORS = 10
 TEXT = "Put the cup on the shelf"
@@ -405,3 +406,21 @@ def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> Non
     assert (directory / "corner1.yaml").read_text() == before
     assert "cup2" in (directory / "full_shelf.yaml").read_text()
     assert Corpus(server.studio.corpus.folder, server.studio.corpus.directory).demonstrations()
+
+
+def test_what_has_no_picture_has_its_object_graphs_drawn_and_no_robot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    root = Path(__file__).parents[2]
+    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), root / "problems" / "01_blocks")
+    served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            visitor.shows("<svg")
+            visitor.put("Text", served.studio.examples(served.studio.start)[0])
+            visitor.press("Plan it")
+            visitor.told("Planned in")
+            assert not visitor.elements[visitor.find("Let the robot do it (simulated)")]["visible"]
+    finally:
+        served.close()

@@ -116,6 +116,12 @@ def read_link(query: str) -> Link:
     )
 
 
+def width_of(said: Mapping[str, Any]) -> int:
+    """The width of a window, as its script told it; 0 where it did not."""
+    width = said.get("width")
+    return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
+
+
 def _number(said: Mapping[str, str], name: str, usual: int) -> int:
     text = said.get(name, "")
     return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
@@ -130,6 +136,7 @@ class Window:
 
     Attributes:
         dark: Whether its system is dark.
+        width: Pixels from its left to its right; 0 where it does not say.
         link: What its address said when it was loaded.
     """
 
@@ -141,6 +148,7 @@ class Window:
             said = {}
         said = said if isinstance(said, dict) else {}
         self.dark = said.get("dark") is True
+        self.width = width_of(said)
         self.link = read_link(str(said.get("search", "")))
         self._kept = self.link
         self._told = told

@@ -29,6 +29,7 @@ from tmd.veil.world import make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
 
+SKILLS = "skills.yaml"
 _CHANGED = re.compile(r"_changed\d+$")
 
 
@@ -138,6 +139,10 @@ class Studio:
         """The robot; ``None`` where its model is not installed."""
         with self._lock:
             return _figure()
+
+    def executable(self, setting: Setting) -> bool:
+        """Whether a robot could carry plans out: there are shapes, and the domain has skills."""
+        return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
 
     def session(self, setting: Setting, text: str) -> Session:
         """A demonstration of a text, at its beginning.

@@ -20,7 +20,7 @@ from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
-from tmd.studio.page import Link, Window
+from tmd.studio.page import Link, Window, width_of
 from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -45,6 +45,10 @@ NARROW = 576
 """Pixels: in a window of this width or less viser puts the panel before the lower part of the view."""
 SHEET = 0.6
 """How much of the view it covers there."""
+WELCOME = (
+    "Welcome. Say: type what is to be done, or take an example, and press Enter. Demonstrate: show how it is done, and "
+    "the next sentence uses it. Correct: change a plan that was made."
+)
 ROOM, EYES = "the whole room", "with the robot's eyes"
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 """Of messages and of faults, as on the page."""
@@ -97,12 +101,13 @@ class Visitor:
         gui.set_panel_label("tmd studio")
         self.window = Window(self.client, lambda event: self.guarded(lambda: self._happened(event))(None))
         self._theme(dark=self.window.dark)
+        self._width = self.window.width
         gui.main_panel.dock_right()
         gui.main_panel.set_width(min(WIDTH, max(LEAST_WIDTH, self.client.camera.image_width * 2 // 5)))
         self.setting: Setting = studio.setting(studio.start)
         self.reel = Reel(self.setting)
         self._message = gui.add_html(
-            notice("Welcome. Say what is to be done, or show it.", "Ctrl-K lists commands and their keys.")
+            notice(WELCOME, "Click on a thing in the picture to see what it is. Ctrl-K lists commands and their keys.")
         )
         self._bar_title = gui.add_html("", visible=False)
         self._bar = gui.add_progress_bar(0.0, visible=False)
@@ -112,6 +117,8 @@ class Visitor:
         view = gui.add_dropdown("View (V)", (ROOM, EYES))
         view.on_update(self.guarded(lambda: self.first_person(view.value == EYES)))
         self._view = view
+        self._names = gui.add_checkbox("Names (L)", False)
+        self._names.on_update(self.guarded(self._name))
         self.player = PlayerPanel(self)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Say"):
@@ -148,6 +155,9 @@ class Visitor:
         step, to = event.get("step"), event.get("to")
         if isinstance(event.get("dark"), bool):
             self._theme(dark=event["dark"])
+        elif width_of(event):
+            self._width = width_of(event)
+            self._camera()
         elif event.get("tab") in TABS:
             self._tab = str(event["tab"])
             self.keep_link()
@@ -217,13 +227,15 @@ class Visitor:
         self.client.scene.reset()
         look = self.setting.look
         self._scenery = None
-        self._view.visible = look is not None
-        self._blind.content = "" if look is not None else notice(self.setting.blind)
+        self._view.visible = self._names.visible = look is not None
+        graphs = "How its objects belong together is drawn under Object."
+        self._blind.content = "" if look is not None else notice(self.setting.blind, graphs)
         if look is None:
             self.client.scene.add_label("/blind", "no picture of this environment")
             return
         with self.client.atomic():
             self._scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
+            self._scenery.names(shown=self._names.value)
         self._camera()
         if self.studio.figure() is None:
             self.tell("The PR2 is not shown: its model is not installed.", "pip install 'tmd[robot]'")
@@ -251,6 +263,10 @@ class Visitor:
             self.object.refresh()
             self.demonstrate.offers()
 
+    def _name(self) -> None:
+        if self._scenery is not None:
+            self._scenery.names(shown=self._names.value)
+
     def _pointed(self, name: str) -> None:
         self._pointed_at = time.monotonic()
         self.guarded(lambda: self.select(name))(None)
@@ -270,7 +286,7 @@ class Visitor:
         if self._first_person:
             eye, target = self._scenery.eyes(picture)
         else:
-            covered = SHEET if camera.image_width <= NARROW else 0.0
+            covered = SHEET if (self._width or camera.image_width) <= NARROW else 0.0
             eye, target = self._scenery.overview(camera.fov, camera.aspect, covered)
         self._aimed = camera.aspect, eye
         with self.client.atomic():
@@ -413,6 +429,7 @@ class Visitor:
             ("Next step", "N", lambda: self.player.move(1)),
             ("Step back", "B", lambda: self.player.move(-1)),
             ("Play or pause", "P", self.player.toggle),
+            ("Show or hide the names", "L", lambda: put(self._names, not self._names.value)),
             ("Point at no object", "O", lambda: self.select(None)),
             ("See with the robot's eyes, or the whole room", "V", lambda: self.first_person(not self._first_person)),
             ("Undo", "U", self.demonstrate.undo),

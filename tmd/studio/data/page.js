@@ -11,7 +11,7 @@
   // what the server asks this window for, and tells it
   Storage.prototype.getItem = function (key) {
     if (!mine(key)) return getItem.call(this, key);
-    return JSON.stringify({ search: location.search, dark: dark.matches });
+    return JSON.stringify({ search: location.search, dark: dark.matches, width: innerWidth });
   };
   Storage.prototype.setItem = function (key, value) {
     if (!mine(key)) return setItem.call(this, key, value);
@@ -48,6 +48,12 @@
   }
 
   dark.addEventListener("change", () => send({ dark: dark.matches }));
+
+  let sized = 0;
+  addEventListener("resize", () => {
+    clearTimeout(sized);
+    sized = setTimeout(() => send({ width: innerWidth }), LATE);
+  });
 
   // whether the studio is there
   let instance = "", banner = null;
@@ -177,7 +183,7 @@
       if (!input.getAttribute("aria-label")) input.setAttribute("aria-label", name);
       if (name === EVENT && row) row.classList.add("tmd-unseen");
       if (name === EVENT) input.tabIndex = -1;
-      if (input instanceof HTMLTextAreaElement) input.placeholder ||= "What is to be done, in English: Boil some water.";
+      if (input instanceof HTMLTextAreaElement) input.placeholder ||= "What is to be done, in English. Enter goes on.";
     }
     for (const button of document.querySelectorAll("button:not([aria-label]), [role=button]:not([aria-label])")) {
       if (button.textContent.trim()) continue;

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from viser import GuiDropdownHandle
 
 NOTHING = "(nothing)"
+DRAWN = 24
+"""Maximum number of object graphs drawn at once."""
 RELATIONS = ("on", "in", "next_to")
 """Those that domains know; what one does not have is refused."""
 
@@ -131,12 +133,24 @@ class ObjectPanel:
             visitor.enter(name)
         visitor.tell(f"Saved as the environment {name}.", aloud=True)
 
+    def _all(self) -> str:
+        """The object graphs of an environment of which there is no picture."""
+        visitor = self._visitor
+        if visitor.setting.look is not None:
+            return ""
+        reel, step = visitor.reel, visitor.cursor
+        now = reel.facts(step)
+        before = reel.facts(step - 1) if step else now
+        changes = GraphChanges(now - before, before - now)
+        return "".join(object_graph(visitor.setting.world, now, name, changes) for name in self._names()[:DRAWN])
+
     def refresh(self) -> None:
         """Show the state that is seen now."""
         visitor = self._visitor
         name = visitor.selected
         if name is None:
-            self._facts.content = fragment("<p>Click on an object, or choose one: its parts and states are shown.</p>")
+            hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
+            self._facts.content = fragment(f"<style>{style()}</style>{hint}{self._all()}")
             return
         if self._which.value != name:
             put(self._which, name)

@@ -150,7 +150,8 @@ class SayPanel:
         self._after.visible = False
         with self._after:
             gui.add_button("Correct this plan").on_click(guarded(self._correct))
-            gui.add_button("Let the robot do it (simulated)").on_click(guarded(self._execute))
+            self._robot = gui.add_button("Let the robot do it (simulated)")
+            self._robot.on_click(guarded(self._execute))
             gui.add_button("Stop").on_click(guarded(visitor.stop))
             self._files = gui.add_button_group("Download", _FILES)
             self._files.on_click(guarded(self._download))
@@ -276,6 +277,7 @@ class SayPanel:
         found = bool(grounded.plans)
         for handle in (self._which, self._fold, self._after):
             handle.visible = found
+        self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
         self._more.visible = found or bool(grounded.refusals)
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         world_words = Wording(world.task.problem)
