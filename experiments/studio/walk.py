@@ -24,7 +24,8 @@ from playwright.sync_api import Browser, Page, sync_playwright
 SIZES = ((420, 900), (900, 700), (1920, 1080))
 FLAGS = (
     "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist",
-    "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--no-first-run",
+    "--disable-quic", "--disable-background-networking", "--disable-component-update", "--disable-sync",
+    "--no-first-run",
 )  # fmt: skip
 TEXT = "Boil some water in the pot."
 WAIT = 60_000

@@ -75,7 +75,7 @@ def _path(request: Request) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class PageLink:
     """What a window looks at, as its address says it.
 
     Attributes:
@@ -98,16 +98,16 @@ class Link:
         return f"?{urlencode(told)}" if told else ""
 
 
-_NOWHERE = Link()
+_NOWHERE = PageLink()
 
 
-def read_link(query: str) -> Link:
+def read_link(query: str) -> PageLink:
     """What an address says; what it cannot say is left out."""
     try:
         said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
     except ValueError:
         return _NOWHERE
-    return Link(
+    return PageLink(
         said.get("environment", ""),
         said.get("say", ""),
         _number(said, "plan", 1),
@@ -163,7 +163,7 @@ class Window:
         if isinstance(event, dict):
             self._told(event)
 
-    def keep(self, link: Link) -> None:
+    def keep(self, link: PageLink) -> None:
         """Let the address say what is looked at."""
         if link != self._kept:
             self._kept = link

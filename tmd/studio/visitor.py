@@ -20,7 +20,7 @@ from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
-from tmd.studio.page import Link, Window, width_of
+from tmd.studio.page import PageLink, Window, width_of
 from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -177,7 +177,7 @@ class Visitor:
         """Let the window's address say what is looked at."""
         plan, step, text = self.say.looked_at()
         tab = self._tab if self._tab != "Say" else ""
-        self.window.keep(Link(self.setting.name, text, plan, step, tab))
+        self.window.keep(PageLink(self.setting.name, text, plan, step, tab))
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""

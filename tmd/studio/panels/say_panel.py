@@ -20,7 +20,7 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.writer import format_problem
 from tmd.studio.demonstrations.correction import steps_of
-from tmd.studio.page import Link
+from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
 from tmd.studio.panels.widgets import chosen, put
@@ -194,7 +194,7 @@ class SayPanel:
         self._tell(grounded, took)
         visitor.keep_link()
 
-    def come_back(self, link: Link) -> None:
+    def come_back(self, link: PageLink) -> None:
         """Plan what an address says, and look at what it looked at."""
         put(self._text, link.say)
         self.plan()
