@@ -2,7 +2,7 @@
 // speaks to the server through an input that is not seen.
 "use strict";
 (() => {
-  const KEY = "tmd-page", EVENT = "tmdevent", LOOK = 1500, LATE = 350;
+  const KEY = "tmd-page", EVENT = "tmdevent", LOOK = 1500, LATE = 350, PATIENCE = 12000;
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -56,7 +56,7 @@
   });
 
   // whether the studio is there
-  let instance = "", banner = null;
+  let instance = "", banner = null, before = null;
 
   function say(words) {
     if (!words) return banner && banner.remove(), (banner = null);
@@ -74,9 +74,13 @@
       const answer = await fetch("/alive", { cache: "no-store", signal: AbortSignal.timeout(4000) });
       if (answer.status === 403) return say("The studio has another token now: open the address that tmd studio printed.");
       const now = await answer.text();
-      if (banner || (instance && instance !== now)) return location.reload();
+      if (instance && instance !== now) { // viser connects again by itself; where nothing new comes of that, load anew
+        setTimeout(() => { if (before && before.isConnected) location.reload(); }, PATIENCE);
+      }
+      say("");
       instance = now;
     } catch {
+      before = document.querySelector("[role=status]");
       say("The studio has ended, or cannot be reached. What you did is kept. Start it again with tmd studio: "
         + "this page comes back by itself.");
     }

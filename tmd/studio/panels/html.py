@@ -96,7 +96,7 @@ def step_list(
         notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
         below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
         drag = ' draggable="true"' if draggable else ""
-        step = f'data-step="{number}" tabindex="0" role="button"{drag}'
+        step = f'data-step="{number}" tabindex="0" role="link"{drag}'
         rows.append(
             f'<li value="{number}"><span {step}>{name}</span><span class="tag">{escape(purpose)}</span>{below}</li>'
         )
