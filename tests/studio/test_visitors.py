@@ -303,13 +303,13 @@ def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None
         again.shows("2 / ")
         assert again.elements[again.find("Environment")]["value"] == "corner2"
         again.until(lambda: {"tab": "Object"} in again.told_page)
-    for odd in (
-        "?environment=../x&plan=9999999999&step=-1&tab=<b>&say=" + "x" * 30_000,
-        "?%00",
-        "?plan=²&say=Take+the+cup.",
+    for odd, answer in (
+        ("?environment=../x&plan=9999999999&step=-1&tab=<b>&say=" + "x" * 30_000, "No plan"),
+        ("?%00", "Welcome"),
+        ("?plan=²&say=Take+the+cup.", "Planned in"),
     ):
         with Wire(server.url, None, odd) as visitor:
-            visitor.told("")
+            visitor.told(answer)
             begin(visitor, "Take the cup.")
 
 
