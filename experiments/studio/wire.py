@@ -34,6 +34,7 @@ class Wire:
         )  # fmt: skip
         self.identity = identity
         self.page = json.dumps({"search": search, "dark": dark})
+        self._happened: list[dict[str, object]] = []
         self.told_page: list[dict[str, str]] = []
         self.elements: dict[str, dict[str, Any]] = {}
         self._news = threading.Condition()
@@ -116,7 +117,8 @@ class Wire:
 
     def happens(self, **event: object) -> None:
         """Tell the server what the page's script would."""
-        self.put(EVENT, json.dumps(event))
+        self._happened.append({**event, "number": len(self._happened) + 1})
+        self.put(EVENT, json.dumps(self._happened[-8:]))
 
     def press(self, label: str) -> None:
         """Press a button."""

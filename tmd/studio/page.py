@@ -15,6 +15,7 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
+from threading import Lock
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlencode
 
@@ -152,16 +153,27 @@ class Window:
         self.link = read_link(str(said.get("search", "")))
         self._kept = self.link
         self._told = told
+        self._seen = 0
+        self._lock = Lock()
         self._event = client.gui.add_text(EVENT, "")
         self._event.on_update(lambda _: self._happened())
 
     def _happened(self) -> None:
+        """Tell what has happened since the last time; the script sends the last few events together."""
         try:
-            event = json.loads(self._event.value[:_LONGEST])
+            events = json.loads(self._event.value[:_LONGEST])
         except (TypeError, ValueError, RecursionError):
             return
-        if isinstance(event, dict):
-            self._told(event)
+        for event in events if isinstance(events, list) else ():
+            number = event.get("number") if isinstance(event, dict) else None
+            if isinstance(number, int) and self._is_new(number):
+                self._told(event)
+
+    def _is_new(self, number: int) -> bool:
+        """Whether an event was not told yet; from now on it is."""
+        with self._lock:
+            new, self._seen = number > self._seen, max(number, self._seen)
+            return new
 
     def keep(self, link: PageLink) -> None:
         """Let the address say what is looked at."""

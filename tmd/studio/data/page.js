@@ -6,11 +6,12 @@
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
-  let number = 0;
+  let number = 0, recent = [];
 
   // what the server asks this window for, and tells it
   Storage.prototype.getItem = function (key) {
     if (!mine(key)) return getItem.call(this, key);
+    recent = []; // the studio begins anew with this window
     return JSON.stringify({ search: location.search, dark: dark.matches, width: innerWidth });
   };
   Storage.prototype.setItem = function (key, value) {
@@ -43,7 +44,8 @@
     const input = labelled(EVENT);
     if (!input) return;
     const set = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set;
-    set.call(input, JSON.stringify({ ...event, number: ++number }));
+    recent = [...recent, { ...event, number: ++number }].slice(-8); // what was sent just before may not be read yet
+    set.call(input, JSON.stringify(recent));
     input.dispatchEvent(new Event("input", { bubbles: true }));
   }
 
