@@ -288,6 +288,7 @@ def test_nothing_is_thrown_away_without_asking(server: Server) -> None:
 def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None:
     with Wire(server.url) as visitor:
         visitor.put("Environment", "corner2")
+        visitor.until(lambda: {"link": "?environment=corner2"} in visitor.told_page)
         visitor.put("Text", "Put the cup on the first table.")
         visitor.press("Plan it")
         visitor.told("Planned in")

@@ -222,6 +222,7 @@ class Visitor:
             self.demonstrate.entered()
             self.correct.entered()
             self.object.entered()
+        self.keep_link()
 
     def _build(self) -> None:
         self.client.scene.reset()
