@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import threading
 import time
 from collections.abc import Callable
@@ -14,7 +15,9 @@ import zstandard
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-WAIT = 60.0
+from tmd.studio.page import EVENT, KEY
+
+WAIT = 30.0
 _CAMERA = {
     "type": "ViewerCameraMessage", "wxyz": (1.0, 0.0, 0.0, 0.0), "position": (0.0, 0.0, 1.0), "fov": 1.0, "near": 0.01,
     "far": 100.0, "image_height": 480, "image_width": 640, "look_at": (1.0, 0.0, 1.0), "up_direction": (0.0, 0.0, 1.0),
@@ -25,11 +28,14 @@ _CAMERA = {
 class Wire:
     """One connection; what the page would show is in ``elements``."""
 
-    def __init__(self, url: str, identity: str | None = None) -> None:
+    def __init__(self, url: str, identity: str | None = None, search: str = "", *, dark: bool = False) -> None:
         self._socket: ClientConnection = connect(
             url.replace("http", "ws"), subprotocols=[f"viser-v{viser.__version__}"], max_size=None  # type: ignore[list-item]
         )  # fmt: skip
         self.identity = identity
+        self.page = json.dumps({"search": search, "dark": dark})
+        self._happened: list[dict[str, object]] = []
+        self.told_page: list[dict[str, str]] = []
         self.elements: dict[str, dict[str, Any]] = {}
         self._news = threading.Condition()
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -60,8 +66,11 @@ class Wire:
     def _take(self, message: dict[str, Any]) -> None:
         kind = message["type"]
         if kind == "LocalStorageGetItemRequestMessage":
-            answer = {"value": self.identity, "error": None, "request_uuid": message["request_uuid"]}
+            said = self.page if message["key"] == KEY else self.identity
+            answer = {"value": said, "error": None, "request_uuid": message["request_uuid"]}
             self.send({"type": "LocalStorageGetItemResponseMessage", **answer})
+        elif kind == "LocalStorageSetItemMessage" and message["key"].endswith(KEY):
+            self.told_page.append(json.loads(message["value"]))
         elif kind == "LocalStorageSetItemMessage":
             self.identity = message["value"]
         elif kind == "GuiUpdateMessage":
@@ -105,6 +114,11 @@ class Wire:
         uuid = self.find(label)
         self.elements[uuid]["value"] = value
         self.send({"type": "GuiUpdateMessage", "uuid": uuid, "updates": {"value": value}})
+
+    def happens(self, **event: object) -> None:
+        """Tell the server what the page's script would."""
+        self._happened.append({**event, "number": len(self._happened) + 1})
+        self.put(EVENT, json.dumps(self._happened[-8:]))
 
     def press(self, label: str) -> None:
         """Press a button."""

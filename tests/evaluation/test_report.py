@@ -17,11 +17,13 @@ from rich.console import Console
 
 from tmd.diagnostics import OutputError, TmdError
 from tmd.evaluation.report.examples import best_and_worst
+from tmd.evaluation.report.in_words import in_words
 from tmd.evaluation.report.report import print_table, write_report
 from tmd.evaluation.runs.finished_run import read_run
 from tmd.evaluation.runs.summary import summarise
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
+from tmd.records.trial import Trial, TrialRequest
 
 EVIL = "<script>alert('é $x$')</script> & <b onclick=\"x\">\u2028[bold]"
 
@@ -203,6 +205,47 @@ def test_a_run_of_few_rows_has_a_page(tmp_path: Path, models: tuple[str, ...]) -
     page = write_report(finished(tmp_path, models, ("study_night",))).read_text(encoding="utf-8")
     assert "This run has no row and task in common with Table II" in page
     assert ("No row predicts anything" in page) == (models == ("empty",))
+
+
+def test_the_report_says_what_its_numbers_mean(tmp_path: Path) -> None:
+    said = Reader(write_report(finished(tmp_path, ("full", "nearest", "empty"))).read_text(encoding="utf-8")).said()
+    assert (
+        "By IED, Our full model leads with 67.0, 20.0 points ahead of Nearest Environment Instantiation (47.0)" in said
+    )
+    assert "as in the paper, where it is 11.9 points ahead of Nearest Environment Instantiation, on other data" in said
+
+
+def test_a_full_model_that_is_behind_a_baseline_is_said_to_be() -> None:
+    rows = [line("full", n, "ramen", 20.0 + n, success=n < 2) for n in range(10)]
+    rows += [line("templates", n, "ramen", 40.0 + n, success=n < 6) for n in range(10)]
+    config = {"config": {"task": "ramen", "data": "bundled", "seed": 0}, "folds": {}}
+    said = " ".join(in_words(Metrics.model_validate(summarise(rows, ("full", "templates")) | config)))
+    assert "A prediction succeeds if it can be executed" in said
+    assert "By success, Predefined Templates leads with 60.0, 40.0 points ahead of Our full model (20.0)" in said
+    assert "Our full model (24.5) is 20.0 points behind the best baseline here, Predefined Templates (44.5)" in said
+    assert "unlike in the paper, where it is 42.3 points ahead of Predefined Templates" in said
+
+
+def test_films_stay_files_beside_the_page(tmp_path: Path) -> None:
+    run = finished(tmp_path)
+    (run / "robot").mkdir()
+    asked = TrialRequest(
+        environment="kitchen1",
+        model="full",
+        id="ramen-1",
+        text="x",
+        plan=("wait()",),
+        mode="kinematic",
+        seed=0,
+        version="1",
+    )
+    trial = Trial(asked=asked, status="done", film="kitchen 1.mp4", strip="gone.png")
+    (run / "robot" / "kitchen1.json").write_text(trial.model_dump_json())
+    (run / "robot" / "kitchen 1.mp4").write_bytes(b"0" * 3_000_000)
+    page = write_report(run).read_text(encoding="utf-8")
+    assert 'src="robot/kitchen%201.mp4#t=1"' in page and "gone.png" not in page and "base64" not in page
+    assert len(page.encode()) < 2_000_000
+    assert "Without physics" in page
 
 
 def test_the_paper_stands_beside_rows_and_tasks_that_both_have(tmp_path: Path) -> None:

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.inference.learned import Knowledge, library_to_json, place, recall, study
+from tmd.inference.learned import Knowledge, known, library_to_json, place, recall, study
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
+from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.demo_store import Archive
-from tmd.studio.demonstrations.session import Session
+from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
@@ -126,28 +127,39 @@ def test_what_is_in_no_file_is_not_learned(table: Corpus) -> None:
         teacher.learn_one(found)
 
 
-def test_retraining_is_what_tmd_learn_does(table: Corpus) -> None:
+def test_what_is_learned_in_the_background_is_what_tmd_ground_has(table: Corpus) -> None:
     teacher = Teacher(table)
     teacher.learn_one(show(table, "corner1", "Hide the cup on the shelf.", TABLE))
     training = teacher.retrain()
-    with pytest.raises(TmdError, match="under way already"):
-        teacher.retrain()
+    assert teacher.learning and teacher.retrain() is training
     assert training.wait(120)
-    assert training.share == 1.0
+    assert training.share == 1.0 and not teacher.learning
     later = Corpus(table.folder, table.directory)
     assert same(teacher.knowledge, study(later))
-    saved = recall(later, place(later))
-    assert saved is not None
-    assert same(teacher.knowledge, saved)
+    assert same(teacher.knowledge, known(later))
+    assert recall(later, place(later)) is None  # what `tmd learn` saves is not touched
     assert answer(teacher, "Hide the cup on the shelf.", "corner1") == TABLE
 
 
-def test_what_is_saved_while_it_is_learned_is_not_lost(table: Corpus) -> None:
+def test_what_is_saved_while_it_is_learned_is_learned_once_more(table: Corpus) -> None:
     teacher = Teacher(table)
-    training = teacher.retrain()
+    first = teacher.retrain()
     teacher.learn_one(show(table, "corner1", "Hide the cup on the shelf.", TABLE))
-    assert training.wait(120)
+    assert teacher.retrain() is first or first.trained
+    assert first.wait(120)
     assert "hide" in teacher.knowledge.library.verbs()
+    while teacher.learning and teacher.training is not None:
+        assert teacher.training.wait(120)
+    assert same(teacher.knowledge, study(Corpus(table.folder, table.directory)))
+
+
+def test_what_others_save_is_known_with_the_next_sentence(table: Corpus) -> None:
+    teacher = Teacher(table)
+    assert answer(teacher, "Polish the cup on the shelf.", "corner1") == []
+    show(Corpus(table.folder, table.directory), "corner1", "Polish the cup on the shelf.", TABLE)
+    assert answer(teacher, "Polish the cup on the shelf.", "corner1") == TABLE
+    assert teacher.training is not None and teacher.training.wait(120)
+    assert same(teacher.knowledge, known(Corpus(table.folder, table.directory)))
 
 
 def test_learning_that_fails_or_is_stopped_changes_nothing(table: Corpus) -> None:
@@ -157,6 +169,7 @@ def test_learning_that_fails_or_is_stopped_changes_nothing(table: Corpus) -> Non
     teacher.close()
     with pytest.raises(TmdError, match="learning was stopped"):
         training.wait()
+    assert not teacher.learning
     (table.directory / "shown").mkdir()
     (table.directory / "shown" / "demonstrations.jsonl").write_text("[]\n")
     with pytest.raises(TmdError, match="a demonstration is a JSON object"):
@@ -164,14 +177,27 @@ def test_learning_that_fails_or_is_stopped_changes_nothing(table: Corpus) -> Non
     assert teacher.knowledge is before
 
 
-def test_what_cannot_be_saved_is_used_all_the_same(table: Corpus, tmp_path: Path) -> None:
+def test_that_nothing_is_to_be_done_is_a_correction_that_is_saved_and_learned_from(table: Corpus) -> None:
+    world, text = table.world("corner1"), "Polish the cup."
+    correction = Correction(world, text, [DemonstratedStep(parse_instruction(TABLE[0]), 0)], table.lexicon)
+    correction.delete(1)
+    saved = Archive(table).save(correction.session())
+    assert saved.instructions == () and [str(i) for i in saved.proposed or ()] == TABLE[:1]
+    teacher = Teacher(table)
+    assert teacher.retrain().wait(120)
+    assert saved in table.demonstrations()
+    assert answer(teacher, "Put the cup on the shelf.", "corner1")
+
+
+def test_where_nothing_can_be_kept_it_is_learned_all_the_same(
+    table: Corpus, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     (tmp_path / "file").write_text("")
-    teacher = Teacher(table, tmp_path / "file")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
+    teacher = Teacher(table)
     training = teacher.retrain()
     assert training.wait(120)
     assert training.trained is not None
-    assert training.trained.saved is None
-    assert "cannot be made" in training.trained.remark
     assert same(teacher.knowledge, study(table))
 
 

@@ -16,10 +16,13 @@ pytest.importorskip("viser", reason="needs the extra studio")
 
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
+from tmd.domain_kit import DomainKit
+from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
+from tmd.world.folder import DomainFolder
 
 VISITORS = 10
 TEXT = "Put the cup on the shelf"
@@ -146,7 +149,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
         begin(visitor, f"{TEXT}.")
         for label, value in (
             ("With", "no such object"), ("With", 7), ("With", None), ("Text", 5), ("Text", "x" * 100_000),
-            ("Text", "\x00\ud7ff\u202e"), ("After step", 10**9), ("After step", "one"), ("It serves", "17"),
+            ("Text", "\x00\ud7ff\u202e"), ("Step", 10**9), ("Step", "one"), ("It serves", "17"),
             ("Environment", "../../etc"), ("Environment", []), ("Task name", {"a": 1}), ("Steps a second", -1),
         ):  # fmt: skip
             visitor.put(label, value)
@@ -155,7 +158,7 @@ def test_what_no_page_would_send(server: Server, capfd: pytest.CaptureFixture[st
             "Start over",
             "Save (K)",
             "Throw away",
-            "Insert before this step",
+            "Insert behind this step",
             "Correct this plan",
         ):
             visitor.press(label)
@@ -199,6 +202,29 @@ def test_goals_are_ticked_off_and_refusals_say_what_to_do(server: Server) -> Non
         visitor.press("Plan it")
         visitor.told("No plan: clause 1: nothing here is called &#x27;zebra&#x27;.")
         visitor.told("name a thing that is there")
+        visitor.told("try: Put the cup on")
+
+
+def test_what_is_refused_leaves_no_other_plan_behind(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        for text, answer in (
+            ("x" * 30_000, "characters"),
+            ("kettle " * 1_400, "at most 1,000"),
+            ("", "the text is empty"),
+            ("<b onclick=alert(1)>zzz</b>", "No plan"),
+            ("Where is the cup?", "this is a question"),
+            ("Do not take the cup.", "only forbids something"),
+        ):
+            visitor.put("Text", f"{TEXT}.")
+            visitor.press("Plan it")
+            visitor.told("Planned in")
+            visitor.shows("reaches its goals")
+            visitor.put("Text", text)
+            visitor.press("Plan it")
+            visitor.told(answer)
+            visitor.until(
+                lambda: not any("cup1 is on shelf1" in str(e.get("content")) for e in visitor.elements.values())
+            )
 
 
 def test_a_correction_may_state_a_goal(server: Server) -> None:
@@ -207,7 +233,7 @@ def test_a_correction_may_state_a_goal(server: Server) -> None:
         visitor.press("Plan it")
         visitor.told("Planned in")
         visitor.press("Correct this plan")
-        visitor.told("The plan is under Correct.")
+        visitor.told("The plan is under Correct")
         for goal, answer in (("(at cup9 shelf1 on)", "unknown object"), ("(at cup1 shelf1 on)", "under Demonstrate")):
             visitor.put("What must hold at the end", goal)
             visitor.press("Done: look at it, and save it")
@@ -219,3 +245,183 @@ def test_a_correction_may_state_a_goal(server: Server) -> None:
         visitor.press("Save (K)")
         visitor.told("Saved as shown-corner1-")
     assert [record["goal"] for record in corpus(server)] == ["(at cup1 shelf1 on)"]
+
+
+def test_what_is_saved_is_used_and_the_page_says_so(server: Server) -> None:
+    text = "Polish the cup on the shelf."
+    with Wire(server.url) as visitor:
+        visitor.put("Text", text)
+        visitor.press("Plan it")
+        visitor.told("No plan")
+        begin(visitor, text)
+        for name, instruction in zip(OBJECTS, STEPS, strict=True):
+            do(visitor, name, instruction)
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-corner1-01. The same sentence now gives what you showed.")
+        visitor.shows("Learning from what was saved")
+        visitor.told(f"&quot;{text}&quot;: The same sentence now gives what you showed.")
+        teacher, files = server.studio.teacher, server.studio.corpus
+        assert not teacher.learning
+        world = files.world("corner2")
+        here = teacher.ground(text, world, top=3)
+        there = DomainKit(Corpus(files.folder, files.directory)).ground(text, world, top=3)
+        assert [(p.energy, p.instructions) for p in here.plans] == [(p.energy, p.instructions) for p in there.plans]
+
+
+def test_nothing_is_thrown_away_without_asking(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        visitor.press("Start over")
+        visitor.shows("was shown with 1 step in corner1 and is not saved")
+        visitor.press("Cancel")
+        do(visitor, "cup1", STEPS[1])
+        visitor.put("Text", "Take the cup.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.press("Done: look at it, and save it")
+        visitor.press("Throw it away, and take the plan")
+        visitor.told("The corrected plan is under Demonstrate")
+
+
+def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Environment", "corner2")
+        visitor.until(lambda: {"link": "?environment=corner2"} in visitor.told_page)
+        visitor.put("Text", "Put the cup on the first table.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.happens(step=2, list="say")
+        visitor.shows("2 / ")
+        visitor.happens(tab="Object")
+        visitor.until(lambda: any("tab=Object" in told.get("link", "") for told in visitor.told_page))
+        link = visitor.told_page[-1]["link"]
+        identity = visitor.identity
+    assert link == "?environment=corner2&say=Put+the+cup+on+the+first+table.&step=2&tab=Object"
+    with Wire(server.url, identity, link) as again:
+        again.told("Planned in")
+        again.shows("2 / ")
+        assert again.elements[again.find("Environment")]["value"] == "corner2"
+        again.until(lambda: {"tab": "Object"} in again.told_page)
+    for odd, answer in (
+        ("?environment=../x&plan=9999999999&step=-1&tab=<b>&say=" + "x" * 30_000, "No plan"),
+        ("?%00", "Welcome"),
+        ("?plan=²&say=Take+the+cup.", "Planned in"),
+    ):
+        with Wire(server.url, None, odd) as visitor:
+            visitor.told(answer)
+            begin(visitor, "Take the cup.")
+
+
+def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        do(visitor, "cup1", STEPS[0])
+        identity = visitor.identity
+    with Wire(server.url, identity, "?tab=Demonstrate") as again:
+        again.told("Here is what was not saved: 1 steps")
+        again.shows(f"▸ {STEPS[0]}")
+
+
+def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
+        visitor.happens(step=3, list="correct")
+        visitor.shows(f"▸ {STEPS[2]}")
+        visitor.shows("3 / 4 ")
+        visitor.happens(move=1, to=2)
+        visitor.shows("Step 1 does not apply.")
+        visitor.happens(move=2, to=1)
+        visitor.shows("Every step applies.")
+        for event in (
+            {"step": 99, "list": "correct"},
+            {"step": True, "list": 5},
+            {"move": 0, "to": 77},
+            {"dark": "yes"},
+        ):
+            visitor.happens(**event)
+        visitor.put(EVENT, "[" * 9_000)
+        visitor.happens(step=1, list="correct")
+        visitor.shows(f"▸ {STEPS[0]}")
+
+
+def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        begin(visitor, f"{TEXT}.")
+        visitor.put("With", "cup1")
+        wanted = "keep(cup1, shelf1, on)"
+        visitor.until(lambda: wanted in visitor.elements[visitor.find("Not possible yet")]["options"])
+        visitor.put("Not possible yet", "keep(cup1, shelf1, on)")
+        visitor.press("Do that, and first what it needs")
+        visitor.told("Done, with 3 steps before it.")
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-corner1-01")
+    (record,) = corpus(server)
+    segments = record["segments"]
+    assert isinstance(segments, list)
+    done = [instruction for segment in segments for instruction in segment["instructions"]]
+    assert len(done) == len(STEPS) and done[-1] == STEPS[-1]
+
+
+def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> None:
+    directory = server.studio.corpus.directory / "environments"
+    before = (directory / "corner1.yaml").read_text()
+    with Wire(server.url) as visitor:
+        visitor.put("Object", "cup1")
+        visitor.shows("<h4>cup1: cup")
+        visitor.put("of", "shelf1")
+        visitor.press("Put the object there")
+        visitor.told("Changed: cup1 is on shelf1.")
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("There is nothing to do: it is so already.")
+        visitor.put("A new", "cup")
+        visitor.put("of", "shelf1")
+        visitor.press("Add it there")
+        visitor.told("Changed: a cup is on shelf1.")
+        visitor.put("Object", "shelf1")
+        visitor.shows("<h4>shelf1: shelf")
+        visitor.press("Take the object away")
+        visitor.told("would be nowhere")
+        for name, answer in (
+            ("../../x", "cannot be called"),
+            ("corner1", "already"),
+            ("full_shelf", "Saved as the environment"),
+        ):
+            visitor.put("Name", name)
+            visitor.press("Save as an environment")
+            visitor.told(answer)
+        begin(visitor, "Take the second cup.")
+        visitor.put("With", "cup2")
+        visitor.until(lambda: "grasp(cup2)" in visitor.elements[visitor.find("Not possible yet")]["options"])
+        visitor.put("Not possible yet", "grasp(cup2)")
+        visitor.press("Do that, and first what it needs")
+        visitor.told("before it")
+        visitor.press("Save (K)")
+        visitor.told("Saved as shown-full_shelf-01")
+    assert (directory / "corner1.yaml").read_text() == before
+    assert "cup2" in (directory / "full_shelf.yaml").read_text()
+    assert Corpus(server.studio.corpus.folder, server.studio.corpus.directory).demonstrations()
+
+
+def test_what_has_no_picture_has_its_object_graphs_drawn_and_no_robot(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("TMD_STUDIO_STATE", str(tmp_path / "drafts"))
+    root = Path(__file__).parents[2]
+    blocks = Corpus(DomainFolder(root / "domains" / "01_blocks"), root / "problems" / "01_blocks")
+    served = Server(Studio(blocks, Teacher(blocks)), "127.0.0.1", 0)
+    try:
+        with Wire(served.url) as visitor:
+            visitor.shows("<svg")
+            visitor.put("Text", served.studio.examples(served.studio.start)[0])
+            visitor.press("Plan it")
+            visitor.told("Planned in")
+            assert not visitor.elements[visitor.find("Let the robot do it (simulated)")]["visible"]
+    finally:
+        served.close()

@@ -22,7 +22,7 @@ from tmd.records.grounding import GroundingRecord
 from tmd.studio.panels.say_panel import energies
 from tmd.veil.world import World
 from tmd.view.candidates import candidates
-from tmd.view.goals import ShownGoal, all_reached, followed
+from tmd.view.goals import ShownGoal, all_reached, doubts, followed
 from tmd.view.grounding_record import grounding_record
 from tmd.view.meaning import meanings
 from tmd.view.page import render
@@ -148,3 +148,21 @@ def test_steps_need_not_follow_the_clauses(study: World) -> None:
     assert "✓ reaches its goals" in reader.text
     assert re.findall(r'<tr><th scope="row">(\d)</th>', candidates(found.plans)) == ["1", "1", "3"]
     assert re.findall(r"<li value='(\d)'>", energies(found.plans)) == ["1", "1", "3"]
+
+
+def test_what_is_left_open_or_in_a_hand_is_doubtful_unless_it_was_asked_for(study: World) -> None:
+    def told(text: str) -> list[str]:
+        grounded = ground(text, study, known(corpus("03_drawer")).library)
+        return doubts(grounded.parsed, grounded.plans[0], study)
+
+    assert told("Open the drawer.") == []
+    assert told("Put the key on the table.") == ["left at the end, not asked for: the drawer desk1_drawer is open"]
+    assert told("Put the key on the table. Close the drawer.") == []
+
+
+def test_what_was_named_and_is_not_touched_is_doubtful(study: World) -> None:
+    grounded = ground("Put the key on the table.", study, known(corpus("03_drawer")).library)
+    plan = grounded.plans[0]
+    idle = replace(plan, choices=tuple(replace(choice, steps=()) for choice in plan.choices), state=study.task.init)
+    lines = doubts(grounded.parsed, idle, study)
+    assert "'key' was named, and no step touches key1" in lines

@@ -407,19 +407,19 @@ def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
     return Knowledge(library, reward, weights, goals)
 
 
-def known(corpus: Corpus, root: Path | None = None) -> Knowledge:
+def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None] | None = None) -> Knowledge:
     """What was saved or kept of a domain, or else what its demonstrations teach now, which is kept.
-
-    Learning that takes long is told of on standard error.
 
     Args:
         corpus: The domain.
         root: Where ``tmd learn --out`` saved; beside the demonstrations where none is given.
+        tell: Is told which share of the learning is done; without it, learning that takes long is told of on standard
+            error.
 
     Raises:
         TmdError: Nothing was saved that still holds, and a demonstration is wrong.
     """
-    return recall(corpus, place(corpus, root)) or _from_cache(corpus, digest(corpus))
+    return recall(corpus, place(corpus, root)) or _from_cache(corpus, digest(corpus), tell)
 
 
 def cache_directory() -> Path | None:
@@ -437,14 +437,14 @@ def cache_directory() -> Path | None:
     return home / ".cache" / "tmd" / "learned" if home.is_absolute() and home.is_dir() else None
 
 
-def _from_cache(corpus: Corpus, made_from: str) -> Knowledge:
+def _from_cache(corpus: Corpus, made_from: str, tell: Callable[[float], None] | None) -> Knowledge:
     """What is kept, or else learned now and kept."""
     cache = cache_directory()
     kept = cache / corpus.folder.name / made_from[:_DIGITS] if cache is not None else None
     found = recall(corpus, kept) if kept is not None else None
     if found is None:
         with Progress(f"learning from the demonstrations of {corpus.folder.name}") as progress:
-            found = study(corpus, progress.tell)
+            found = study(corpus, tell or progress.tell)
         if kept is not None and len(found.library):
             with suppress(OutputError):
                 save(found, corpus, kept, made_from)

@@ -16,6 +16,8 @@ from types import ModuleType
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import MissingToolError, TmdError
+from tmd.studio import page
+from tmd.studio.guard import TOKEN, Guard, guarding, kept_token
 from tmd.studio.studio import Studio
 from tmd.studio.visitor import KEY, Visitor
 
@@ -26,6 +28,8 @@ LOCAL = "127.0.0.1"
 _TRIES = 8
 _WINDOWS = 8
 """Number of windows of one browser that are told from one another when they come back."""
+_LOOK = 0.5
+"""Seconds between two looks at learning that is under way."""
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 
@@ -41,7 +45,8 @@ class Server:
     Attributes:
         studio: As above.
         port: The port.
-        url: Where it is reached from this machine.
+        token: What a visitor must know.
+        url: Where it is reached from this machine, with the token.
 
     Raises:
         TmdError: The port is in use, or may not be listened at.
@@ -54,13 +59,19 @@ class Server:
             logging.getLogger(name).setLevel(logging.CRITICAL)
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio
+        self.token = kept_token(studio.drafts.directory)
+        guard = Guard(host, self.token)
+        guard.listen(port)
         self._lock = Lock()
         self._visitors: dict[int, Visitor] = {}
-        with redirect_stdout(StringIO()):  # it greets in its own way
+        with redirect_stdout(StringIO()), guarding(guard, page.answer, page.with_script):  # it greets in its own way
             self._viser: ViserServer = viser.ViserServer(host=host, port=port, label="tmd studio", verbose=False)
         self.port = port
-        self.url = f"http://{LOCAL if host in ('0.0.0.0', '::') else host}:{port}"
+        name = LOCAL if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
+        self.url = f"http://{name}:{port}/?{TOKEN}={self.token}"
+        self._ended = Event()
         Thread(target=studio.warm, daemon=True).start()
+        Thread(target=self._follow, daemon=True).start()
         self._viser.on_client_connect(self._arrive)
         self._viser.on_client_disconnect(self._leave)
 
@@ -68,6 +79,7 @@ class Server:
         visitor = Visitor(self.studio, client, self._identity(client))
         with self._lock:
             self._visitors[client.client_id] = visitor
+        visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
         """Who a browser is: random names that it keeps, one a window, so that what was not saved is offered again.
@@ -99,6 +111,18 @@ class Server:
             visitor.leave()
             self.studio.drafts.leave(visitor.identity)
 
+    def _follow(self) -> None:
+        """Tell every visitor how far learning is, while it goes on."""
+        told = False
+        while not self._ended.wait(_LOOK):
+            learning, training = self.studio.teacher.learning, self.studio.teacher.training
+            if learning or told:
+                with self._lock:
+                    visitors = list(self._visitors.values())
+                for visitor in visitors:
+                    visitor.learning(training.share if learning and training is not None else None)
+            told = learning
+
     def serve(self, ended: Event | None = None, tick: Callable[[], None] = lambda: None) -> None:
         """Serve until ``ended`` is set, or until the user stops it."""
         wait = ended or Event()
@@ -108,6 +132,7 @@ class Server:
 
     def close(self) -> None:
         """Stop serving, and what is learned meanwhile."""
+        self._ended.set()
         self.studio.teacher.close()
         with redirect_stdout(StringIO()):
             self._viser.stop()

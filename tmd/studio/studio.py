@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Callable
 from contextlib import suppress
 from datetime import datetime
 from functools import cache
+from itertools import count
 from pathlib import Path
 from threading import RLock
 
@@ -16,6 +19,7 @@ from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.demonstrations.tasks import task_texts
+from tmd.studio.environment_edit import EditedEnvironment
 from tmd.studio.environment_view import Setting, open_setting
 from tmd.studio.teaching import Teacher
 from tmd.studio.view3d.robot_mesh import Figure
@@ -24,6 +28,9 @@ from tmd.veil.demonstration import Demonstration
 from tmd.veil.world import make_world
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
+
+SKILLS = "skills.yaml"
+_CHANGED = re.compile(r"_changed\d+$")
 
 
 class Studio:
@@ -66,6 +73,39 @@ class Studio:
             raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
         self.start = start or names[0]
 
+    def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
+        """Make an environment of a changed one, for whoever changed it, and return its name; both files stay.
+
+        Raises:
+            TmdError: It cannot be changed so.
+        """
+        edited = EditedEnvironment(setting.path, self.corpus.folder)
+        change(edited)
+        with self._lock:
+            taken = {*self.corpus.environments(), *self._extra}
+            stem = _CHANGED.sub("", setting.name)
+            name = next(name for n in count(1) if (name := f"{stem}_changed{n}") not in taken)
+            self._extra[name] = edited.write(self.drafts.directory / "environments", name)
+            try:
+                self.setting(name)
+            except TmdError:
+                del self._extra[name]
+                raise
+        return name
+
+    def keep_environment(self, setting: Setting, name: str) -> str:
+        """Save an environment among those of the domain, and return its name.
+
+        Raises:
+            TmdError: There is one of that name, or it cannot be written.
+        """
+        if name in self.corpus.environments():
+            raise TmdError(f"there is an environment '{name}' already", hint="take another name")
+        with self._lock:
+            edited = EditedEnvironment(setting.path, self.corpus.folder)
+            self.corpus.take_in(edited.write(self.corpus.directory / "environments", name))
+        return name
+
     def environments(self) -> list[str]:
         """The names of the environments, sorted."""
         return sorted({*self.corpus.environments(), *self._extra})
@@ -100,6 +140,10 @@ class Studio:
         with self._lock:
             return _figure()
 
+    def executable(self, setting: Setting) -> bool:
+        """Whether a robot could carry plans out: there are shapes, and the domain has skills."""
+        return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
+
     def session(self, setting: Setting, text: str) -> Session:
         """A demonstration of a text, at its beginning.
 
@@ -110,7 +154,7 @@ class Studio:
         return Session(setting.world, text, self.corpus.lexicon, habits=self.teacher.habits)
 
     def save(self, session: Session, task: str, who: str, *, when: bool, goal: str | None = None) -> Demonstration:
-        """Save a demonstration, and learn from it: the next text is grounded with it.
+        """Save a demonstration: the next text is grounded with it, and the rest is learned in the background.
 
         Args:
             session: The demonstration.
@@ -125,11 +169,21 @@ class Studio:
         time = datetime.now().astimezone().isoformat(timespec="seconds") if when else None
         saved = self.archive.save(session, task, who=who or None, when=time, goal=goal)
         self.teacher.learn_one(saved)
+        self.teacher.retrain()
         return saved
 
     def examples(self, name: str) -> list[str]:
         """Texts that can be tried in an environment."""
         return [known.text for known in self._texts if known.environment == name]
+
+    def nearest_example(self, text: str, name: str) -> str:
+        """The text that can be tried in an environment and has most words in common with ``text``; empty for none."""
+        words = set(text.lower().split())
+
+        def alike(known: str) -> tuple[int, int]:
+            return len(words & set(known.lower().split())), -len(known)
+
+        return max(self.examples(name), key=alike, default="")
 
     def warm(self) -> None:
         """Ground a text, so that what is compiled and looked up once is there when the first visitor asks."""

@@ -1,13 +1,14 @@
 """What a domain's demonstrations teach, while more of them come.
 
 A demonstration that was just saved is in the library at once; the policy and what verbs mean, which take longer, are
-learned again when somebody asks for it. Whoever grounds a text meanwhile has what was known when they began, all of one
-piece.
+learned in the background. Whoever grounds a text meanwhile has what was known when they began, all of one piece; at
+the end it is what ``tmd ground`` has of the same files.
 """
 
 from __future__ import annotations
 
 import multiprocessing
+import os
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -23,11 +24,8 @@ from tmd.inference.learned import (
     Knowledge,
     digest,
     known,
-    place,
     reward_from_json,
     reward_to_json,
-    save,
-    study,
     weights_bytes,
 )
 from tmd.inference.policy import Reward
@@ -40,6 +38,8 @@ from tmd.world.folder import DomainFolder
 
 _SHARE = 0.95
 """The share of the work that learning is, roughly; the rest is saving."""
+_NICE = 10
+"""How much the process that learns stands back behind the studio's own (POSIX)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,18 +47,16 @@ class Trained:
     """What came of it.
 
     Attributes:
+        made_from: The digest of the files that it was learned from.
         demonstrations: How many were learned from.
         reward: What the policy was learned to be.
         goals: What verbs were learned to mean.
-        saved: The directory in which ``tmd ground`` finds it; ``None`` where it could not be written to.
-        remark: Why not, in one line; empty where it was saved.
     """
 
+    made_from: str
     demonstrations: int
     reward: Reward | None
     goals: GoalTable | None
-    saved: Path | None
-    remark: str = ""
 
 
 class Training:
@@ -67,10 +65,10 @@ class Training:
     Args:
         corpus: The demonstrations.
         root: Where what is learned is kept; beside the demonstrations where none is given.
-        finish: Called in a thread of its own with what came of it, before :meth:`wait` returns; not if it failed.
+        finish: Called in a thread of its own with what came of it, before :meth:`wait` returns; ``None`` if it failed.
     """
 
-    def __init__(self, corpus: Corpus, root: Path | None, finish: Callable[[Trained], None]) -> None:
+    def __init__(self, corpus: Corpus, root: Path | None, finish: Callable[[Trained | None], None]) -> None:
         context = multiprocessing.get_context("spawn")
         self._mine, theirs = context.Pipe()
         arguments = (theirs, corpus.folder.path, corpus.directory, root)
@@ -143,6 +141,8 @@ class Training:
         except TmdError as error:
             self._error = error
         finally:
+            if self._error is not None:
+                self._finish(None)
             self._process.join()
             self._mine.close()
 
@@ -153,35 +153,24 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
     def tell(share: float) -> None:
         connection.send(("share", _SHARE * share))
 
+    os.nice(_NICE)
     try:
         corpus = Corpus(DomainFolder(folder), directory)
         made_from = digest(corpus)
-        knowledge = study(corpus, tell)
-        connection.send(
-            ("done", _packed(len(corpus.demonstrations()), knowledge, _saved(knowledge, corpus, root, made_from)))
-        )
+        knowledge = known(corpus, root, tell)
+        connection.send(("done", _packed(made_from, len(corpus.demonstrations()), knowledge)))
     except TmdError as error:
         connection.send(("error", str(error)))
 
 
-def _saved(knowledge: Knowledge, corpus: Corpus, root: Path | None, made_from: str) -> tuple[Path, str]:
-    """Where it was saved, and why it was not if so."""
-    target = place(corpus, root)
-    try:
-        save(knowledge, corpus, target, made_from)
-    except TmdError as error:
-        return target, str(error)
-    return target, ""
-
-
-def _packed(count: int, knowledge: Knowledge, saved: tuple[Path, str]) -> tuple[Any, ...]:
+def _packed(made_from: str, count: int, knowledge: Knowledge) -> tuple[Any, ...]:
     reward = knowledge.reward
-    return count, reward and (reward_to_json(reward), weights_bytes(reward)), knowledge.goals, *saved
+    return made_from, count, reward and (reward_to_json(reward), weights_bytes(reward)), knowledge.goals
 
 
 def _unpacked(data: tuple[Any, ...]) -> Trained:
-    count, reward, goals, target, remark = data
-    return Trained(count, reward and reward_from_json(*reward), goals, None if remark else target, remark)
+    made_from, count, reward, goals = data
+    return Trained(made_from, count, reward and reward_from_json(*reward), goals)
 
 
 class Teacher:
@@ -199,11 +188,13 @@ class Teacher:
     def __init__(self, corpus: Corpus, root: Path | None = None) -> None:
         self.corpus = corpus
         self._root = root
+        self._digest = digest(corpus)
         self._knowledge = known(corpus, root)
         self._learned_from = tuple(corpus.demonstrations())
         self._habits = Habits.of(self._knowledge.library)
         self._guard = threading.RLock()
         self._training: Training | None = None
+        self._learning = False
 
     @property
     def knowledge(self) -> Knowledge:
@@ -223,7 +214,8 @@ class Teacher:
     def learn_one(self, demonstration: Demonstration) -> Knowledge:
         """Take up a demonstration that was just saved, and any that others have saved since.
 
-        The library is then what ``tmd learn`` makes of the same files. The policy stays as it is.
+        The library is then what ``tmd learn`` makes of the same files. The policy, and what verbs mean, stay as they
+        are until :meth:`retrain` is done.
 
         Args:
             demonstration: As :meth:`tmd.studio.demonstrations.demo_store.Archive.save` gave it back.
@@ -235,39 +227,46 @@ class Teacher:
             TmdError: A file of demonstrations is wrong, or the demonstration is in none. What was known stays.
         """
         with self._guard:
-            self.corpus.reread()
-            found = tuple(self.corpus.demonstrations())
-            if demonstration not in found:
-                raise TmdError(f"'{demonstration.id}' is not among the demonstrations", hint="save it first")
-            library = self._library(found)
-            self._habits = Habits.of(library)
-            self._knowledge = replace(self._knowledge, library=library)
-            self._learned_from = found
+            self._take_up(demonstration)
             return self._knowledge
 
     def retrain(self) -> Training:
-        """Learn everything from all demonstrations, in a process of its own, as ``tmd learn --no-weights`` does.
+        """Learn everything from all demonstrations, in a process of its own, as ``tmd ground`` does when it is asked.
 
-        What is learned is used as soon as it is there, and saved for ``tmd ground`` where that can be written to.
-
-        Raises:
-            TmdError: It is under way already.
+        What is learned is used as soon as it is there, and kept where ``tmd ground`` finds it. Where learning is under
+        way already, that goes on; if demonstrations came meanwhile, it begins once more at its end.
         """
         with self._guard:
-            if self._training is not None and self._training.running:
-                raise TmdError("learning is under way already", hint="wait for its end")
-            self._training = Training(self.corpus, self._root, self._become)
+            if self._training is None or not self._learning:
+                self._learning = True
+                self._training = Training(self.corpus, self._root, self._become)
             return self._training
 
+    @property
+    def learning(self) -> bool:
+        """Whether what is known is not yet all that the files teach: it is being learned."""
+        return self._learning
+
     def ground(self, text: str, world: World, top: int = 1) -> Grounded:
-        """Ground a text with what is known now, as ``tmd ground`` does with its usual options."""
-        now = self._knowledge
+        """Ground a text with what is known now, as ``tmd ground`` does with its usual options.
+
+        What others did to the files since is taken up first, and learned in the background.
+
+        Raises:
+            TmdError: A file of demonstrations is wrong.
+        """
+        with self._guard:
+            if digest(self.corpus) != self._digest:
+                self._take_up()
+                self.retrain()
+            now = self._knowledge
         return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top)
 
     def close(self) -> None:
         """End what is under way."""
-        if self._training is not None and self._training.running:
-            self._training.stop()
+        training = self._training
+        if training is not None and training.running:
+            training.stop()
 
     def _library(self, found: tuple[Demonstration, ...]) -> Library:
         """What ``found`` teaches: only what is new is learned, where nothing went and each id stands for one."""
@@ -278,12 +277,25 @@ class Teacher:
         new = [teach(d, corpus.world(d.environment), corpus.lexicon) for d in found if d not in before]
         return self._knowledge.library.extended(new, order)
 
-    def _become(self, trained: Trained) -> None:
-        """Use a policy that was learned; the library may know more by now."""
+    def _take_up(self, wanted: Demonstration | None = None) -> None:
+        """Have a library of the files as they are now; ``wanted`` must be in them."""
+        made_from = digest(self.corpus)
+        self.corpus.reread()
+        found = tuple(self.corpus.demonstrations())
+        if wanted is not None and wanted not in found:
+            raise TmdError(f"'{wanted.id}' is not among the demonstrations", hint="save it first")
+        library = self._library(found)
+        self._habits = Habits.of(library)
+        self._knowledge = replace(self._knowledge, library=library)
+        self._learned_from, self._digest = found, made_from
+
+    def _become(self, trained: Trained | None) -> None:
+        """Use what was learned; the library may know more by now, and then it is learned once more."""
         with self._guard:
-            self.corpus.reread()
-            found = tuple(self.corpus.demonstrations())
-            library = self._library(found)
-            self._habits = Habits.of(library)
-            self._knowledge = Knowledge(library, trained.reward, goals=trained.goals)
-            self._learned_from = found
+            self._learning = False
+            if trained is None:
+                return
+            self._take_up()
+            self._knowledge = Knowledge(self._knowledge.library, trained.reward, goals=trained.goals)
+            if trained.made_from != self._digest:
+                self.retrain()

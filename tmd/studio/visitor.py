@@ -4,27 +4,35 @@ from __future__ import annotations
 
 import sys
 import threading
+import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial, wraps
+from html import escape
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
+from tmd.pddl.model import Instruction
+from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
+from tmd.studio.page import PageLink, Window, width_of
+from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
-from tmd.studio.panels.html import notice
+from tmd.studio.panels.html import fragment, notice
 from tmd.studio.panels.object_panel import ObjectPanel
+from tmd.studio.panels.player_panel import PlayerPanel
 from tmd.studio.panels.say_panel import SayPanel
 from tmd.studio.panels.widgets import put
 from tmd.studio.view3d.performance import perform
 from tmd.studio.view3d.playback import Reel
 from tmd.studio.view3d.scenery import Scenery
+from tmd.veil.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle, NotificationHandle
@@ -37,11 +45,18 @@ NARROW = 576
 """Pixels: in a window of this width or less viser puts the panel before the lower part of the view."""
 SHEET = 0.6
 """How much of the view it covers there."""
+WELCOME = (
+    "Welcome. Say: type what is to be done, or take an example, and press Enter. Demonstrate: show how it is done, and "
+    "the next sentence uses it. Correct: change a plan that was made."
+)
 ROOM, EYES = "the whole room", "with the robot's eyes"
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
 """Of messages and of faults, as on the page."""
+_CLICK = 1.5
+"""Seconds within which a click in the picture is the one that an object was pointed at with."""
 ALOUD = 8.0
 """Seconds that a message over the view stays."""
+TABS = ("Say", "Demonstrate", "Correct", "Object")
 KEY = "tmd-visitor"
 """Under this name a browser keeps which visitors its windows are."""
 
@@ -69,6 +84,7 @@ class Visitor:
         self.identity = identity
         self.cursor = 0
         self.selected: str | None = None
+        self._pointed_at = -_CLICK
         self._lock = threading.RLock()
         self._scenery: Scenery | None = None
         self._first_person = False
@@ -83,20 +99,27 @@ class Visitor:
         """Make the panels and the view."""
         studio, gui = self.studio, self.client.gui
         gui.set_panel_label("tmd studio")
-        gui.configure_theme(show_logo=False, show_share_button=False)
+        self.window = Window(self.client, lambda event: self.guarded(lambda: self._happened(event))(None))
+        self._theme(dark=self.window.dark)
+        self._width = self.window.width
         gui.main_panel.dock_right()
         gui.main_panel.set_width(min(WIDTH, max(LEAST_WIDTH, self.client.camera.image_width * 2 // 5)))
         self.setting: Setting = studio.setting(studio.start)
         self.reel = Reel(self.setting)
         self._message = gui.add_html(
-            notice("Welcome. Say what is to be done, or show it.", "Ctrl-K lists commands and their keys.")
+            notice(WELCOME, "Click on a thing in the picture to see what it is. Ctrl-K lists commands and their keys.")
         )
+        self._bar_title = gui.add_html("", visible=False)
+        self._bar = gui.add_progress_bar(0.0, visible=False)
         self._blind = gui.add_html("")
         self._where = gui.add_dropdown("Environment", studio.environments(), initial_value=studio.start)
         self._where.on_update(self.guarded(self._go))
         view = gui.add_dropdown("View (V)", (ROOM, EYES))
         view.on_update(self.guarded(lambda: self.first_person(view.value == EYES)))
         self._view = view
+        self._names = gui.add_checkbox("Names (L)", False)
+        self._names.on_update(self.guarded(self._name))
+        self.player = PlayerPanel(self)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Say"):
             self.say = SayPanel(self)
@@ -106,9 +129,75 @@ class Visitor:
             self.correct = CorrectPanel(self)
         with tabs.add_tab("Object"):
             self.object = ObjectPanel(self)
+        self._tab = "Say"
         self._commands()
         self._build()
         self.client.camera.on_update(self.guarded(self._resized))
+
+    def come_back(self) -> None:
+        """Look at what the window's address says, as before it was loaded again, or as somebody sent it."""
+        link = self.window.link
+        if link.environment in self.studio.environments() and link.environment != self.setting.name:
+            self.enter(link.environment)
+        if link.say:
+            self.say.come_back(link)
+        if link.tab in TABS:
+            self._tab = link.tab
+            self.window.show_tab(link.tab)
+        if link.tab == "Demonstrate":
+            self.demonstrate.come_back()
+
+    def _theme(self, *, dark: bool) -> None:
+        self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
+
+    def _happened(self, event: Mapping[str, Any]) -> None:
+        """Something that the page's own script tells."""
+        step, to = event.get("step"), event.get("to")
+        if isinstance(event.get("dark"), bool):
+            self._theme(dark=event["dark"])
+        elif width_of(event):
+            self._width = width_of(event)
+            self._camera()
+        elif event.get("tab") in TABS:
+            self._tab = str(event["tab"])
+            self.keep_link()
+        elif isinstance(step, int):
+            owners: dict[str, Played] = {"say": self.say, "demonstrate": self.demonstrate, "correct": self.correct}
+            owner = owners.get(str(event.get("list")))
+            if owner is not None:
+                self.stop()
+                owner.goto(step)
+        elif event.get("clicked") is True:  # in the picture; a click on an object has come before
+            if time.monotonic() - self._pointed_at > _CLICK:
+                self.select(None)
+        elif isinstance(event.get("move"), int) and isinstance(to, int):
+            self.correct.move(event["move"], to)
+
+    def keep_link(self) -> None:
+        """Let the window's address say what is looked at."""
+        plan, step, text = self.say.looked_at()
+        tab = self._tab if self._tab != "Say" else ""
+        self.window.keep(PageLink(self.setting.name, text, plan, step, tab))
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab."""
+        self._tab = name
+        self.window.show_tab(name)
+        self.keep_link()
+
+    def ask(self, title: str, question: str, yes: str, act: Callable[[], Any]) -> None:
+        """Do something if the visitor says so."""
+        gui = self.client.gui
+        box = gui.add_modal(title)
+
+        def agreed() -> None:
+            box.close()
+            act()
+
+        with box:
+            gui.add_html(fragment(f"<p>{escape(question)}</p>"))
+            gui.add_button(yes, color="orange").on_click(self.guarded(agreed))
+            gui.add_button("Cancel").on_click(self.guarded(box.close))
 
     # what is looked at
 
@@ -121,6 +210,9 @@ class Visitor:
         with self._lock:
             self.stop()
             self.setting = self.studio.setting(name)
+            names = tuple(self.studio.environments())
+            if self._where.options != names:
+                self._where.options = names
             self.reel = Reel(self.setting)
             self.cursor, self.selected = 0, None
             if self._where.value != name:
@@ -130,26 +222,30 @@ class Visitor:
             self.demonstrate.entered()
             self.correct.entered()
             self.object.entered()
+        self.keep_link()
 
     def _build(self) -> None:
         self.client.scene.reset()
         look = self.setting.look
         self._scenery = None
-        self._view.visible = look is not None
-        self._blind.content = "" if look is not None else notice(self.setting.blind)
+        self._view.visible = self._names.visible = look is not None
+        graphs = "How its objects belong together is drawn under Object."
+        self._blind.content = "" if look is not None else notice(self.setting.blind, graphs)
         if look is None:
             self.client.scene.add_label("/blind", "no picture of this environment")
             return
         with self.client.atomic():
             self._scenery = Scenery(self.client.scene, look, self.studio.figure(), self._pointed)
+            self._scenery.names(shown=self._names.value)
         self._camera()
         if self.studio.figure() is None:
             self.tell("The PR2 is not shown: its model is not installed.", "pip install 'tmd[robot]'")
 
-    def watch(self, reel: Reel, step: int) -> None:
-        """Look at a state of some states."""
+    def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
+        """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
         with self._lock:
             self.reel, self.cursor = reel, step
+            self.player.show(by, tuple(instructions), step)
             picture = reel.picture(step)
             if picture is not None and self._scenery is not None:
                 self._scenery.draw(picture)
@@ -168,7 +264,12 @@ class Visitor:
             self.object.refresh()
             self.demonstrate.offers()
 
+    def _name(self) -> None:
+        if self._scenery is not None:
+            self._scenery.names(shown=self._names.value)
+
     def _pointed(self, name: str) -> None:
+        self._pointed_at = time.monotonic()
         self.guarded(lambda: self.select(name))(None)
 
     @property
@@ -186,7 +287,7 @@ class Visitor:
         if self._first_person:
             eye, target = self._scenery.eyes(picture)
         else:
-            covered = SHEET if camera.image_width <= NARROW else 0.0
+            covered = SHEET if (self._width or camera.image_width) <= NARROW else 0.0
             eye, target = self._scenery.overview(camera.fov, camera.aspect, covered)
         self._aimed = camera.aspect, eye
         with self.client.atomic():
@@ -237,7 +338,14 @@ class Visitor:
         def frames(ended: threading.Event) -> None:
             self.tell("The simulation is being set up …", aloud=True)
             folder = self.studio.corpus.folder
-            self.tell(perform(self.setting, folder, plan, scenery, figure, ended, self.tell), aloud=True)
+
+            def begun(title: Title) -> None:
+                repair = "repair: " if title.repair else ""
+                self.player.say(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
+                self.tell(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
+                self.say.mark(title.number)
+
+            self.tell(perform(self.setting, folder, plan, scenery, figure, ended, begun), aloud=True)
             ended.set()
 
         self.play(frames)
@@ -251,10 +359,27 @@ class Visitor:
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
         self.correct.open(text, plan)
+        self.show_tab("Correct")
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """A demonstration was saved: plan its text again, and say whether that uses it."""
+        self.say.saved(demonstration)
+
+    def learning(self, share: float | None) -> None:
+        """Tell how far the learning is that goes on; ``None`` when it is done."""
+        self._bar.visible = self._bar_title.visible = share is not None
+        if share is None:
+            self.guarded(self.say.learned)(None)
+            return
+        self._bar_title.content = fragment(
+            f"<p>Learning from what was saved: {share:.0%}. Go on meanwhile; plans may still change at its end.</p>"
+        )
+        put(self._bar, round(100 * share))
 
     def take_over(self, session: Session, goal: str) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved."""
         self.demonstrate.take(session, goal)
+        self.show_tab("Demonstrate")
 
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Say something to the visitor, at the top of the panel.
@@ -302,9 +427,11 @@ class Visitor:
         """Hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses what has the focus."""
         gui = self.client.gui
         for label, key, act in (
-            ("Next step", "N", lambda: self.say.move(1)),
-            ("Step back", "B", lambda: self.say.move(-1)),
-            ("Play or pause", "P", self.say.toggle),
+            ("Next step", "N", lambda: self.player.move(1)),
+            ("Step back", "B", lambda: self.player.move(-1)),
+            ("Play or pause", "P", self.player.toggle),
+            ("Show or hide the names", "L", lambda: put(self._names, not self._names.value)),
+            ("Point at no object", "O", lambda: self.select(None)),
             ("See with the robot's eyes, or the whole room", "V", lambda: self.first_person(not self._first_person)),
             ("Undo", "U", self.demonstrate.undo),
             ("Redo", "R", self.demonstrate.redo),

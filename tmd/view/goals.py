@@ -1,14 +1,17 @@
-"""What the steps of a text ask for, in words, and where in a plan each of it comes to hold."""
+"""What the steps of a text ask for, in words, where in a plan it comes to hold, and what of a plan is doubtful."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from tmd.inference.ranking import StepGoal
-from tmd.pddl.model import TRUE, Formula, Instruction, Problem, State, universe
+from tmd.inference.ranking import RankedPlan, StepGoal
+from tmd.language.clause import Parsed
+from tmd.pddl.model import TRUE, Formula, GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import holds
-from tmd.pddl.validator import validate
+from tmd.pddl.validator import Verdict, validate
+from tmd.veil.world import World
+from tmd.view.meaning import meanings
 from tmd.view.wording import Wording
 
 GUESS = "a guess"
@@ -106,3 +109,71 @@ def _placed(shown: ShownGoal, states: Sequence[State], problem: Problem) -> Show
 def all_reached(goals: Iterable[ShownGoal]) -> bool:
     """Whether every goal was reached, and nothing was guessed."""
     return all(shown.reached if shown.asked else not shown.goal.note.startswith(GUESS) for shown in goals)
+
+
+def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) -> str:
+    """What a plan is good for, in a word or two: to be executable is not yet to reach what was asked for.
+
+    Args:
+        verdict: What the validator says of it.
+        goals: What was said, as :func:`followed`.
+        goal: The goal of the problem, where nothing was said.
+    """
+    if not verdict.valid:
+        return "✗ does not work"
+    if goals:
+        return "✓ reaches its goals" if all_reached(goals) else "✗ executable, but not all of its goals are reached"
+    return "✓ executable" if goal == TRUE else "✓ reaches its goal"
+
+
+def doubts(parsed: Parsed, plan: RankedPlan, world: World) -> list[str]:
+    """What whoever trusts a plan should know, a line each: what was named and is not touched, and what it leaves so."""
+    wording = Wording(world.task.problem)
+    left = [f"left at the end, not asked for: {wording.fact(atom)}" for atom in left_behind(plan, world)]
+    return [
+        *(f"'{noun}' was named, and no step touches {names}" for noun, names in not_touched(parsed, plan, world)),
+        *left,
+    ]
+
+
+def left_behind(plan: RankedPlan, world: World) -> list[GroundAtom]:
+    """What a plan leaves on, open or in a hand: what it made so, nobody asked for, and one step with that thing ends.
+
+    A step with that thing is one that names it, or a part of the same whole, and nothing else.
+    """
+    task, wholes, constants = world.task, world.profiles.wholes, world.profiles.constants
+
+    def thing(args: Iterable[str]) -> str | None:
+        names = {wholes.get(name, name) for name in args if name not in constants}
+        return names.pop() if len(names) == 1 else None
+
+    formulas = [goal.formula for goal in plan.goals if goal.formula is not None]
+    found = []
+    for atom in task.names(plan.state & ~task.init):
+        name, bit = thing(atom.args), 1 << task.index[atom]
+        ends = any(
+            bit & operator.delete or any(bit & deleted for _, _, deleted in operator.conditional)
+            for operator in task.operators
+            if name is not None and thing(operator.instruction.args) == name
+        )
+        if ends and not any(_requires(formula, atom, task.decode(plan.state), task.problem) for formula in formulas):
+            found.append(atom)
+    return sorted(found)
+
+
+def _requires(formula: Formula, atom: GroundAtom, state: State, problem: Problem) -> bool:
+    """Whether a goal that holds in a state would not without an atom."""
+    objects = universe(problem)
+    return holds(formula, state, objects) and not holds(formula, state - {atom}, objects)
+
+
+def not_touched(parsed: Parsed, plan: RankedPlan, world: World) -> list[tuple[str, str]]:
+    """The nouns of which a plan touches nothing, each with what it would mean; not where nothing was to be done."""
+    idle = {goal.clause for goal in plan.goals if goal.already or goal.formula in (None, TRUE)}
+    found: dict[tuple[str, str], None] = {}
+    for clause, meant in enumerate(meanings(parsed, plan, world)):
+        for noun, names in meant.items():
+            things = [name.strip("()") for name in names if name.strip("()") not in world.profiles.constants]
+            if clause not in idle and noun and things and all(name.startswith("(") for name in names):
+                found[noun.replace("_", " "), ", ".join(things)] = None
+    return list(found)

@@ -11,18 +11,18 @@ from hashlib import sha256
 
 from tmd import __version__
 from tmd.language.clause import Clause, print_clause
-from tmd.pddl.model import TRUE
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
 from tmd.records.run import RanStep
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
-from tmd.view.goals import ShownGoal, all_reached, followed
+from tmd.view.goals import ShownGoal, followed, outcome
 from tmd.view.markup import data, style, templates
 from tmd.view.pictures import Strip, Tile
 from tmd.view.run_record import Ran
 from tmd.view.steps import ShownStep, shown_steps
 from tmd.view.subject import Said, Subject
+from tmd.view.wording import Wording
 
 FEW = 60
 """A plan with more steps than this has them folded."""
@@ -72,8 +72,10 @@ def render(subject: Subject) -> Page:
         .render(
             subject=subject,
             verdict=verdict,
-            outcome=_outcome(subject, verdict, goals),
+            outcome=outcome(verdict, goals, subject.problem.goal),
             goals=goals,
+            doubts=subject.doubts,
+            in_words=Wording(subject.problem).fact,
             ticks=_ticks(goals),
             pddl=format_formula,
             steps=steps,
@@ -90,15 +92,6 @@ def render(subject: Subject) -> Page:
         )
     )
     return Page(_UNFIT.sub("\N{REPLACEMENT CHARACTER}", html), verdict)
-
-
-def _outcome(subject: Subject, verdict: Verdict, goals: Sequence[ShownGoal]) -> str:
-    """What the plan is good for, in a word or two: to be executable is not yet to reach what was asked for."""
-    if not verdict.valid:
-        return "✗ does not work"
-    if goals:
-        return "✓ reaches its goals" if all_reached(goals) else "✗ executable, but not all of its goals are reached"
-    return "✓ executable" if subject.problem.goal == TRUE else "✓ reaches its goal"
 
 
 def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:

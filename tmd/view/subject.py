@@ -10,6 +10,7 @@ from tmd.inference.ranking import RankedPlan, Refusal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
 from tmd.veil.world import World
+from tmd.view.goals import doubts
 from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
@@ -67,6 +68,7 @@ class Subject:
         strip: The pictures of that.
         made: What decides all this, as names and values.
         refused: Why there is no plan for what was said; empty where there is one, or where nobody knows.
+        doubts: What whoever trusts the plan should know.
     """
 
     title: str
@@ -79,6 +81,7 @@ class Subject:
     strip: Strip | None = None
     made: tuple[tuple[str, str], ...] = ()
     refused: str = ""
+    doubts: tuple[str, ...] = ()
 
     @property
     def goals(self) -> tuple[StepGoal, ...]:
@@ -141,4 +144,5 @@ def grounded_subject(
         strip,
         tuple(made),
         refused,
+        tuple(doubts(parsed, plans[0], world)) if plans else (),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 from typing import TYPE_CHECKING
+from urllib.parse import urlsplit
 
 from .conftest import Served
 from .test_browser import choose, entry, press, tab, told, visiting
@@ -49,14 +50,12 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
             do(page, *step, number)
         table_studio.kill()
         assert len(corpus(table_studio, "shown")) == 1
-        port = table_studio.url.rpartition(":")[2]
+        port = str(urlsplit(table_studio.url).port)
         table_studio.arguments[table_studio.arguments.index("--port") + 1] = port
+        page.get_by_role("alert").filter(has_text="The studio has ended").wait_for()
         table_studio.start()
-        page.reload()
-        page.get_by_text("Welcome").wait_for()
-        tab(page, "Demonstrate")
-        press(page, "Go on with what was not saved")
-        told(page, "3 steps")
+        told(page, "Here is what was not saved: 3 steps")  # the page has come back by itself
+        assert page.get_by_role("tab", name="Demonstrate").get_attribute("aria-selected") == "true"
         do(page, *LAST, 4)
         press(page, "Save (K)")
         told(page, "Saved as shown-corner1-02")

@@ -50,12 +50,10 @@ def command(
         emit(f"The studio of {studio.corpus.folder.name} is open: {server.url}\n")
         emit(f"Demonstrations are saved below {studio.corpus.directory}.\n")
         if host == LOCAL:
-            emit(
-                "Only this machine can see it. To share it safely: ssh -L 8080:127.0.0.1:8080 THIS-MACHINE\n",
-                error=True,
-            )
+            forward = f"ssh -L {server.port}:{LOCAL}:{server.port} THIS-MACHINE"
+            emit(f"Only who has this address can see it, from this machine. To share it: {forward}\n", error=True)
         else:
-            emit(f"Whoever reaches {host} can see it, and save demonstrations: it asks for no password.\n", error=True)
+            emit(f"Whoever has this address and reaches {host} can see it and save demonstrations.\n", error=True)
         with stoppable():
             server.serve()
     finally:

@@ -17,6 +17,7 @@ from tmd.evaluation.report.alignment import Mark
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, VerbErrors, by_instruction, by_verb
 from tmd.evaluation.report.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.report.figures import LABELS, learning_curves, overall_bars, task_bars, tasks_of
+from tmd.evaluation.report.in_words import in_words
 from tmd.evaluation.report.reference_row import ALPHA, differing, reference
 from tmd.evaluation.runs.finished_run import Run
 from tmd.evaluation.runs.summary import EMPTY, average
@@ -164,6 +165,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         others=others,
         order=order,
         reference=chief,
+        meaning=in_words(metrics),
         marked=differing(metrics.significance.pairs, chief) if chief else frozenset(),
         alpha=ALPHA,
         against=differences(metrics, chief, order),

@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from base64 import b64encode
 from dataclasses import dataclass
 from pathlib import Path
+from urllib.parse import quote
 
 from tmd.pddl.reading.syntax import read_text
 from tmd.records.trial import Skip, Trial
@@ -57,15 +57,14 @@ def read_trial(path: Path) -> Trial:
     return Trial.from_text(read_text(path), str(path))
 
 
-_MEDIA = {".mp4": "video/mp4", ".gif": "image/gif", ".png": "image/png"}
+_MEDIA = frozenset({".mp4", ".gif", ".png"})
 
 
 def films(trials: Trials | None) -> dict[str, str]:
-    """Films and filmstrips by file name, as ``data:`` addresses: a page with them still loads nothing."""
+    """Films and filmstrips by file name, as addresses from the run's directory: they stay files beside the page."""
     names = [name for trial in (trials.found if trials else ()) for name in (trial.film, trial.strip) if name]
-    found = {}
-    for name in names:
-        path = trials.directory / Path(name).name if trials else Path(name)
-        if path.suffix in _MEDIA and path.is_file():
-            found[name] = f"data:{_MEDIA[path.suffix]};base64,{b64encode(path.read_bytes()).decode()}"
-    return found
+    return {
+        name: f"{trials.directory.name}/{quote(Path(name).name)}"
+        for name in names
+        if trials and Path(name).suffix in _MEDIA and (trials.directory / Path(name).name).is_file()
+    }

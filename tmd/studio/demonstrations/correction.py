@@ -173,17 +173,11 @@ class Correction:
             state, found = self._played(self.steps)
             if found is None:
                 return ()
-            operator = self.world.task.by_instruction.get(found.instruction)
-            if operator is None:
-                raise TmdError(f"{found.instruction} can never be done here", hint="delete it, or swap an object")
             if self._planner is None:
                 self._planner = make(IN_PROCESS, self.world.task)
-            answer = self._planner.fill(state, get_constraints([operator])[0])
-            if not isinstance(answer, Filled):
-                why = answer.reason if isinstance(answer, Unreachable) else f"the planner gave up at {answer.limit}"
-                raise TmdError(f"nothing makes {found.instruction} possible as step {found.step}: {why}")
-            self._put_in(found.step, answer.plan, self.steps[found.step - 1].clause)
-            return answer.plan
+            needed = what_it_needs(found.instruction, state, self.world, self._planner)
+            self._put_in(found.step, needed, self.steps[found.step - 1].clause)
+            return needed
 
     def session(self, habits: Habits = NO_HABITS) -> Session:
         """The corrected plan as a session, with the plan that was proposed.
@@ -238,6 +232,22 @@ class Correction:
     def _known(self, step: int) -> None:
         if not 0 < step <= len(self.steps):
             raise TmdError(f"there is no step {step}", hint=f"the plan has {len(self.steps)} steps")
+
+
+def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: Planner) -> tuple[Instruction, ...]:
+    """What the planner does in ``state`` so that ``instruction`` applies.
+
+    Raises:
+        TmdError: Nothing leads there, or nothing was found.
+    """
+    operator = world.task.by_instruction.get(instruction)
+    if operator is None:
+        raise TmdError(f"{instruction} can never be done here", hint="take another object")
+    answer = planner.fill(state, get_constraints([operator])[0])
+    if not isinstance(answer, Filled):
+        why = answer.reason if isinstance(answer, Unreachable) else f"the planner gave up at {answer.limit}"
+        raise TmdError(f"nothing makes {instruction} possible: {why}")
+    return answer.plan
 
 
 def steps_of(

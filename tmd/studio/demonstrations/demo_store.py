@@ -105,14 +105,14 @@ class Archive:
             The demonstration as it stands in the file now.
 
         Raises:
-            TmdError: There are no steps, the task cannot have that name, the environment is none of the domain's, the
-                file holds a line that is not a demonstration, the goal is not a condition of the environment or does
-                not hold at the end. Nothing was written.
+            TmdError: There are no steps and no plan that is corrected, the task cannot have that name, the environment
+                is none of the domain's, the file holds a line that is not a demonstration, the goal is not a condition
+                of the environment or does not hold at the end. Nothing was written.
             OutputError: The file cannot be written. It is as it was.
         """
         file = self.file(task)
         segments = session.segments()
-        if not session.steps:
+        if not session.steps and not session.proposed:  # that nothing is to be done is a correction as well
             raise TmdError("nothing was demonstrated yet", hint="carry out at least one instruction")
         self.refuse(session.world)
         who, when = (clean(value)[:_LONGEST] if value and value.strip() else None for value in (who, when))

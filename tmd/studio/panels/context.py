@@ -7,13 +7,22 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any, Protocol
 
 from tmd.inference.ranking import RankedPlan
+from tmd.pddl.model import Instruction
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
 from tmd.studio.view3d.playback import Reel
+from tmd.veil.demonstration import Demonstration
 
 if TYPE_CHECKING:
     from viser import ClientHandle
+
+
+class Played(Protocol):
+    """A panel whose steps are looked at."""
+
+    def goto(self, step: int) -> None:
+        """Look at the state after so many steps."""
 
 
 class PanelContext(Protocol):
@@ -39,8 +48,17 @@ class PanelContext(Protocol):
     def enter(self, name: str) -> None:
         """Go to another environment."""
 
-    def watch(self, reel: Reel, step: int) -> None:
-        """Look at a state of some states."""
+    def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
+        """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
+
+    def keep_link(self) -> None:
+        """Let the window's address say what is looked at."""
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab."""
+
+    def ask(self, title: str, question: str, yes: str, act: Callable[[], Any]) -> None:
+        """Do something if the visitor says so."""
 
     def select(self, name: str | None) -> None:
         """Point at an object."""
@@ -59,6 +77,9 @@ class PanelContext(Protocol):
 
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """A demonstration was saved: plan its text again, and say whether that uses it."""
 
     def take_over(self, session: Session, goal: str) -> None:
         """Go on with a corrected plan in the panel where demonstrations are saved."""

@@ -13,6 +13,7 @@ from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
 from tmd.studio.panels.html import fragment, step_list
 from tmd.studio.panels.widgets import chosen, put
+from tmd.studio.view3d.playback import Reel
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 EVERYWHERE = "in every step"
 HERE = "in this step"
 NOTHING = "(nothing)"
+NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
 _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
@@ -37,12 +39,12 @@ class CorrectPanel:
         self._visitor = visitor
         self._correction: Correction | None = None
         self._insertable: dict[str, Instruction] = {}
+        self._at = 0
+        self._reel = Reel(visitor.setting)
         gui, guarded = visitor.client.gui, visitor.guarded
         self._text = gui.add_html(fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>"))
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
-            self._step = gui.add_slider("Step", 1, 2, 1, 1)
-            self._step.on_update(guarded(self._chosen))
             self._edits = gui.add_button_group("Change", _EDITS)
             self._edits.on_click(guarded(self._edit))
             self._old: GuiDropdownHandle[str] = gui.add_dropdown("Instead of", (NOTHING,))
@@ -52,7 +54,7 @@ class CorrectPanel:
             self._with: GuiDropdownHandle[str] = gui.add_dropdown("Insert with", (NOTHING,))
             self._with.on_update(guarded(self._instructions))
             self._what: GuiDropdownHandle[str] = gui.add_dropdown("Instruction", (NOTHING,))
-            gui.add_button("Insert before this step").on_click(guarded(self._insert))
+            gui.add_button("Insert behind this step").on_click(guarded(self._insert))
             gui.add_button("Let the planner put in what is missing").on_click(guarded(self._mend))
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
             gui.add_button("Done: look at it, and save it", color="blue").on_click(guarded(self._finish))
@@ -64,37 +66,58 @@ class CorrectPanel:
         self._text.content = fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>")
 
     def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
-        """Correct a plan for a text."""
+        """Correct a plan for a text; what was corrected before and not saved is asked for."""
+        before = self._correction
+        if before is not None and before.steps != before.proposed:
+            said = " ".join(before.text.split())
+            question = f'The correction of "{said}" is not done.'
+            self._visitor.ask("Correct this plan instead?", question, "Throw it away", lambda: self._open(text, plan))
+        else:
+            self._open(text, plan)
+
+    def _open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         visitor = self._visitor
         self._correction = Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon)
+        self._reel, self._at = Reel(visitor.setting), 1 if plan else 0
         names = visitor.setting.names()
         self._new.options = self._with.options = (NOTHING, *names)
         self._all.visible = True
         put(self._goal, "")
         self._refresh()
-        visitor.tell("The plan is under Correct.", aloud=True)
+        visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
 
     def _going(self) -> Correction:
         if self._correction is None:
             raise TmdError("nothing is corrected", hint="plan something under Say, and press 'Correct this plan'")
         return self._correction
 
-    @property
-    def _number(self) -> int:
-        return int(self._step.value)
-
     # edits
 
+    def goto(self, step: int) -> None:
+        """Choose a step, and look at what it leads to."""
+        with self._visitor.holding():
+            self._at = min(max(step, 0), len(self._going().steps))
+            self._refresh()
+
+    def move(self, step: int, to: int) -> None:
+        """Drag a step to the place of another."""
+        with self._visitor.holding():
+            self._going().move(step, to)
+            self._at = to
+            self._refresh()
+
     def _edit(self) -> None:
-        correction, at = self._going(), self._number
+        correction, at = self._going(), self._at
         edit = chosen(self._edits)
         with self._visitor.holding():
+            if edit in ("Delete", "Earlier", "Later") and not at:
+                raise TmdError("no step is chosen", hint="click on one")
             if edit == "Delete":
                 correction.delete(at)
             elif edit in ("Earlier", "Later"):
-                to = at + (1 if edit == "Later" else -1)
+                to = min(max(at + (1 if edit == "Later" else -1), 1), len(correction.steps))
                 correction.move(at, to)
-                put(self._step, to)
+                self._at = to
             elif not (correction.undo() if edit == "Undo" else correction.redo()):
                 raise TmdError("there is nothing to take back" if edit == "Undo" else "nothing was taken back")
             self._refresh()
@@ -104,7 +127,7 @@ class CorrectPanel:
         if NOTHING in (old, new):
             raise TmdError("choose the two objects first")
         with self._visitor.holding():
-            count = correction.swap(old, new, self._number if self._where.value == HERE else None)
+            count = correction.swap(old, new, self._at if self._where.value == HERE else None)
             self._refresh()
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
@@ -123,7 +146,8 @@ class CorrectPanel:
         if instruction is None:
             raise TmdError("choose an instruction first")
         with self._visitor.holding():
-            self._going().insert(self._number, instruction)
+            self._going().insert(self._at + 1, instruction)
+            self._at += 1
             self._refresh()
 
     def _mend(self) -> None:
@@ -143,19 +167,23 @@ class CorrectPanel:
 
     # showing
 
-    def _chosen(self) -> None:
-        self._refresh()
-
     def _refresh(self) -> None:
-        correction = self._going()
+        """Show the plan as it is now, and the state after the chosen step, or the last one that is reached."""
+        visitor, correction = self._visitor, self._going()
         steps, broken = correction.steps, correction.broken()
-        if steps:
-            self._step.max = max(len(steps), 2)
-            put(self._step, min(self._number, len(steps)))
-            used = sorted({name for name in steps[self._number - 1].instruction.args})
-            self._old.options = (NOTHING, *used)
+        self._at = min(self._at, len(steps))
+        used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
+        self._old.options = (NOTHING, *used)
+        task = visitor.setting.world.task
+        states = [task.init]
+        for step in steps[: broken.step - 1 if broken else None]:
+            states.append(task.by_instruction[step.instruction].apply(states[-1]))
+        states += [states[-1]] * (len(steps) + 1 - len(states))
+        self._reel.become(states)
+        visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
         why = [] if broken is None else [f"✗ {broken.why}"]
         lines = [(str(step.instruction), f"clause {step.clause + 1}", False) for step in steps]
         marked = {broken.step: why} if broken else {}
-        state = "Every step applies." if broken is None else f"Step {broken.step} does not apply."
-        self._text.content = fragment(f"<p role='status'>{state}</p>") + step_list(lines, self._number, (), marked)
+        state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
+        said = f"<p role='status'>{state}</p>"
+        self._text.content = fragment(said) + step_list(lines, self._at, (), marked, of="correct", draggable=True)

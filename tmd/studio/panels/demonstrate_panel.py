@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from threading import Thread
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
+from tmd.planning.backends import IN_PROCESS, make
 from tmd.studio.applicable_actions import ActionGroup
+from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.panels.context import PanelContext
@@ -21,11 +23,10 @@ if TYPE_CHECKING:
 
 OWN = "(own words)"
 NONE = "(no object)"
+NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
 NUMBERED = 9
 """Number of the instructions that apply with a hot key: 1 to 9."""
-_LOOK = 1.0
-"""Seconds between two looks at learning that is under way."""
 _FEW = 4
 """Maximum number of instructions of an action with a button each; the object itself comes before its parts."""
 
@@ -43,6 +44,7 @@ class DemonstratePanel:
         self._reel = Reel(visitor.setting)
         self._offered: list[Any] = []
         self._numbered: list[Instruction] = []
+        self._waiting: dict[str, Instruction] = {}
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Tasks", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
@@ -52,8 +54,6 @@ class DemonstratePanel:
         self._resume = gui.add_button("Go on with what was not saved", visible=False)
         self._resume.on_click(guarded(self.resume))
         self._steps = gui.add_html("")
-        self._which = gui.add_slider("After step", 0, 1, 1, 0, visible=False)
-        self._which.on_update(guarded(self._goto))
         self._clause: GuiDropdownHandle[str] = gui.add_dropdown("It serves", ("1",), visible=False)
         self._clause.on_update(guarded(self._mark))
         self._edit = gui.add_button_group("Change", ("Undo", "Redo"), visible=False)
@@ -63,9 +63,8 @@ class DemonstratePanel:
             self._object: GuiDropdownHandle[str] = gui.add_dropdown("With", (NONE, *visitor.setting.names()))
             self._object.on_update(guarded(self._point))
             self._buttons = gui.add_folder("Possible now")
-            self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False)
-            with self._refused:
-                self._reasons = gui.add_html("")
+            self._later: GuiDropdownHandle[str] = gui.add_dropdown("Not possible yet", (NOTHING,))
+            gui.add_button("Do that, and first what it needs").on_click(guarded(self._do_later))
         self._keep = gui.add_folder("Save", visible=False)
         with self._keep:
             self._task = gui.add_text("Task name", SHOWN, hint="Small letters, digits, _ : a folder of this name.")
@@ -74,7 +73,9 @@ class DemonstratePanel:
             self._when = gui.add_checkbox("Save the time as well", False)
             gui.add_button("Save (K)", color="green").on_click(guarded(self.save))
             gui.add_button("Throw away").on_click(guarded(self.discard))
-        gui.add_button("Learn everything again").on_click(guarded(self._retrain))
+        self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
+        with self._refused:
+            self._reasons = gui.add_html("")
         self._look_for_draft()
 
     def _texts(self) -> list[str]:
@@ -97,15 +98,34 @@ class DemonstratePanel:
     def begin(self) -> None:
         """A new demonstration of the text."""
         visitor = self._visitor
-        self._open(visitor.studio.session(visitor.setting, self._text.value))
-        visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
+
+        def go() -> None:
+            self._open(visitor.studio.session(visitor.setting, self._text.value))
+            visitor.tell("Point at an object, in the picture or under 'With', and choose what to do.")
+
+        self._over("Begin anew?", "Throw it away, and begin", go)
 
     def take(self, session: Session, goal: str = "") -> None:
         """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
-        put(self._text, session.text)
-        self._open(session)
-        put(self._goal, goal)
-        self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
+
+        def go() -> None:
+            put(self._text, session.text)
+            self._open(session)
+            put(self._goal, goal)
+            self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
+
+        self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
+
+    def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
+        """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
+        draft = self._visitor.studio.drafts.of(self._visitor.identity)
+        if draft is None or not draft.instructions:
+            act()
+            return
+        count = len(draft.instructions)
+        steps = f"{count} step{'' if count == 1 else 's'}"
+        said = " ".join(draft.text.split())
+        self._visitor.ask(title, f'"{said}" was shown with {steps} in {draft.environment} and is not saved.', yes, act)
 
     def _open(self, session: Session) -> None:
         visitor = self._visitor
@@ -114,7 +134,7 @@ class DemonstratePanel:
             self._session = session
             put(self._goal, "")
             self._reel = Reel(visitor.setting)
-            for handle in (self._edit, self._do, self._keep):
+            for handle in (self._edit, self._do, self._keep, self._refused):
                 handle.visible = True
             self._begin.label = "Start over"
             self._resume.visible = False
@@ -123,7 +143,7 @@ class DemonstratePanel:
     def _close(self) -> None:
         self._session = None
         self._numbered = []
-        for handle in (self._edit, self._do, self._keep, self._which, self._clause):
+        for handle in (self._edit, self._do, self._keep, self._refused, self._clause):
             handle.visible = False
         self._begin.label = "Begin"
         self._steps.content = ""
@@ -138,7 +158,7 @@ class DemonstratePanel:
             saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
             visitor.studio.drafts.discard(visitor.identity)
             self._close()
-        visitor.tell(f"Saved as {saved.id}, and learned: the next sentence uses it.", aloud=True)
+        visitor.saved(saved)
 
     def discard(self) -> None:
         """Throw the demonstration away."""
@@ -172,6 +192,11 @@ class DemonstratePanel:
         self._open(session)
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
 
+    def come_back(self) -> None:
+        """The page was loaded again: go on with what was not saved, if there is something."""
+        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity) is not None:
+            self.resume()
+
     # doing
 
     def do(self, instruction: Instruction) -> None:
@@ -187,6 +212,20 @@ class DemonstratePanel:
             if number > len(self._numbered):
                 raise TmdError(f"there is no instruction {number}", hint="point at an object first")
             self.do(self._numbered[number - 1])
+
+    def _do_later(self) -> None:
+        """Carry out an instruction that does not apply yet, after what the planner finds that it needs."""
+        visitor = self._visitor
+        with visitor.holding():
+            session, world = self._going(), visitor.setting.world
+            instruction = self._waiting.get(self._later.value)
+            if instruction is None:
+                raise TmdError("choose an instruction first", hint="point at an object")
+            needed = what_it_needs(instruction, session.state, world, make(IN_PROCESS, world.task))
+            for each in (*needed, instruction):
+                session.do(each)
+            self.refresh()
+        visitor.tell(f"Done, with {len(needed)} step{'' if len(needed) == 1 else 's'} before it.")
 
     def undo(self) -> None:
         """Take the last change back."""
@@ -205,12 +244,13 @@ class DemonstratePanel:
     def _changed(self) -> None:
         {"Undo": self.undo, "Redo": self.redo}[chosen(self._edit)]()
 
-    def _goto(self) -> None:
+    def goto(self, step: int) -> None:
+        """Look at the state after so many steps; nothing is undone."""
         with self._visitor.holding():
             session = self._going()
-            if self._which.value != session.cursor:
-                session.goto(int(self._which.value))
-                self.refresh()
+            if step != session.cursor:
+                session.goto(step)
+            self.refresh()
 
     def _mark(self) -> None:
         with self._visitor.holding():
@@ -233,19 +273,18 @@ class DemonstratePanel:
         with visitor.client.atomic():
             self._reel.become(session.states)
             cursor = session.cursor
-            visitor.watch(self._reel, cursor)
+            visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
             change = session.changes(cursor) if cursor else None
-            gains = changed(change.added, change.removed) if change else []
+            said = visitor.studio.offers(visitor.setting.name).wording.fact
+            gains = changed(change.added, change.removed, said) if change else []
             lines = [
                 (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
                 for step in session.steps
             ]
-            self._steps.content = step_list(lines, cursor, gains)
-            self._which.visible = self._clause.visible = bool(session.steps)
+            self._steps.content = step_list(lines, cursor, gains, of="demonstrate")
+            self._clause.visible = bool(session.steps)
             if session.steps:
-                self._which.max = len(session.steps)
-                put(self._which, cursor)
                 self._clause.options = tuple(titles)
                 put(self._clause, titles[session.steps[cursor - 1].clause if cursor else 0])
             self.offers()
@@ -272,6 +311,12 @@ class DemonstratePanel:
                 self._offered, self._numbered = [], []
                 for group in groups:
                     self._offer(group)
+            waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
+            waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
+            self._waiting = {str(instruction): instruction for instruction in waiting}
+            options = (NOTHING, *self._waiting)
+            if self._later.options != options:
+                self._later.options = options
             self._reasons.content = fragment(refused(groups))
 
     def _offer(self, group: ActionGroup) -> None:
@@ -292,15 +337,3 @@ class DemonstratePanel:
             button = gui.add_button(f"Do that {group.action}")
             button.on_click(guarded(lambda: self.do(by_name[chosen(choice)])))
             self._offered += [choice, button]
-
-    def _retrain(self) -> None:
-        visitor = self._visitor
-        training = visitor.studio.teacher.retrain()
-        visitor.tell("Learning from all demonstrations. Go on meanwhile.", aloud=True)
-
-        def follow() -> None:
-            while not training.wait(_LOOK):
-                visitor.tell(f"Learning from all demonstrations: {training.share:.0%}. Go on meanwhile.")
-            visitor.tell("Everything was learned again; the next text uses it.", aloud=True)
-
-        Thread(target=visitor.guarded(follow), args=(None,), daemon=True).start()

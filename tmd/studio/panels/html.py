@@ -5,7 +5,7 @@ Colours are those of Okabe and Ito, which colour-blind people tell apart; nothin
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from html import escape
 
 from tmd.pddl.model import GroundAtom, Problem, State
@@ -14,8 +14,10 @@ from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
 from tmd.view.goals import ShownGoal
 
-MOST = 60
-"""Maximum number of instructions listed that do not apply."""
+MOST = 30
+"""Maximum number of reasons listed why instructions do not apply."""
+_NAMED = 6
+"""How many instructions are named for each."""
 
 STYLE = """<style>
 .tmd-panel{font-size:.85rem;line-height:1.45;overflow-wrap:anywhere;padding:0 .75rem}
@@ -24,7 +26,9 @@ STYLE = """<style>
 .tmd .latent{font-style:italic}.tmd .broken{text-decoration:underline wavy #d55e00}
 .tmd .tag{font-size:.72rem;border:1px solid currentColor;border-radius:.6rem;padding:0 .35rem;margin-left:.35rem;
 white-space:nowrap}
-.tmd .plus{color:#00664b;font-weight:600}.tmd .minus{color:#a34700;font-weight:600}
+.tmd .plus{color:var(--tmd-added,#00664b);font-weight:600}.tmd .minus{color:var(--tmd-removed,#a34700);font-weight:600}
+.tmd [data-step]{cursor:pointer}.tmd [data-step]:hover{text-decoration:underline}
+.tmd .folded{list-style:none;opacity:.75}
 .tmd h4{margin:.5rem 0 .15rem;font-size:.85rem}.tmd p{margin:.25rem 0}.tmd .quiet{opacity:.75}
 .tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
 .tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
@@ -33,6 +37,8 @@ white-space:nowrap}
 .tmd .numbers tbody th{text-align:left;font-weight:400}.tmd .numbers tr{border-bottom:1px solid #bbb}
 @media (max-width:36em){.mantine-Paper-root[style*="20em"],.mantine-Paper-root[style*="20em"] div[style*="20em"]
 {width:100vw!important}}
+.tmd .outcome{font-weight:600}.tmd .doubts{border-left:.3rem solid #e69f00;padding-left:1.4rem!important}
+.tmd .sides td{font-size:.78rem;border-bottom:1px solid #bbb;overflow-wrap:anywhere;width:50%}
 .tmd .goals{list-style:none;padding-left:.2rem}
 .tmd summary{cursor:pointer;margin-top:.4rem}
 </style>"""
@@ -40,7 +46,7 @@ white-space:nowrap}
 
 def fragment(content: str) -> str:
     """Content with the studio's style."""
-    return f'{STYLE}<div class="tmd tmd-panel" data-theme="light">{content}</div>'
+    return f'{STYLE}<div class="tmd tmd-panel">{content}</div>'
 
 
 def notice(message: str, hint: str | None = None, *, fault: bool = False) -> str:
@@ -55,6 +61,10 @@ def step_list(
     current: int,
     gains: Sequence[str] = (),
     faults: Mapping[int, Sequence[str]] | None = None,
+    *,
+    of: str = "",
+    folded: Collection[int] = (),
+    draggable: bool = False,
 ) -> str:
     """Numbered steps.
 
@@ -63,9 +73,18 @@ def step_list(
         current: The step that was taken last, from 1; 0 is the beginning.
         gains: What it changed, as HTML; shown below it.
         faults: What is wrong with steps, by number.
+        of: The panel whose steps they are; a click on one is told to it.
+        folded: The numbers of steps that are not listed, but counted.
+        draggable: Whether a step can be dragged to the place of another.
     """
-    rows = []
+    rows: list[str] = []
+    hidden = 0
     for number, (instruction, purpose, latent) in enumerate(lines, start=1):
+        if number in folded and number != current and not (faults or {}).get(number):
+            hidden += 1
+            continue
+        rows += [_hidden(hidden)] if hidden else []
+        hidden = 0
         name = escape(instruction)
         if latent:
             name = f'<span class="latent">{name}</span>'
@@ -76,8 +95,24 @@ def step_list(
             name = f'<span class="broken">{name}</span>'
         notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
         below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
-        rows.append(f'<li>{name}<span class="tag">{escape(purpose)}</span>{below}</li>')
-    return fragment(f"<ol>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+        drag = ' draggable="true"' if draggable else ""
+        step = f'data-step="{number}" tabindex="0" role="link"{drag}'
+        rows.append(
+            f'<li value="{number}"><span {step}>{name}</span><span class="tag">{escape(purpose)}</span>{below}</li>'
+        )
+    rows += [_hidden(hidden)] if hidden else []
+    return fragment(f"<ol data-list='{of}'>{''.join(rows)}</ol>" if rows else "<p>No steps yet.</p>")
+
+
+def _hidden(count: int) -> str:
+    return f'<li class="folded">… {count} step{"" if count == 1 else "s"} to find things and to get there</li>'
+
+
+def judgement(outcome: str, lines: Iterable[str]) -> str:
+    """What a plan is good for, and what is doubtful about it."""
+    rows = "".join(f"<li>{escape(line)}</li>" for line in lines)
+    doubtful = f'<ul class="doubts" aria-label="doubts">{rows}</ul>' if rows else ""
+    return fragment(f'<p class="outcome">{escape(outcome)}</p>{doubtful}')
 
 
 def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str:
@@ -93,10 +128,16 @@ def goal_list(goals: Iterable[ShownGoal], state: State, problem: Problem) -> str
     return fragment(f'<ul class="goals">{"".join(rows)}</ul>') if rows else ""
 
 
-def changed(added: Iterable[GroundAtom], removed: Iterable[GroundAtom]) -> list[str]:
-    """Facts that came and went, as HTML with a sign and a colour."""
-    plus = [f'<span class="plus">+ {escape(str(atom))}</span>' for atom in added]
-    return plus + [f'<span class="minus">− {escape(str(atom))}</span>' for atom in removed]
+def changed(
+    added: Iterable[GroundAtom], removed: Iterable[GroundAtom], said: Callable[[GroundAtom], str] = str
+) -> list[str]:
+    """Facts that came and went, as HTML with a sign and a colour; ``said`` tells them in words, PDDL is on hover."""
+
+    def told(atom: GroundAtom) -> str:
+        return f'<span title="{escape(str(atom))}">{escape(said(atom))}</span>'
+
+    plus = [f'<span class="plus">+ {told(atom)}</span>' for atom in added]
+    return plus + [f'<span class="minus">− {told(atom)}</span>' for atom in removed]
 
 
 def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
@@ -122,12 +163,20 @@ def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
 
 
 def refused(groups: Iterable[ActionGroup]) -> str:
-    """Instructions that do not apply, each with what it lacks."""
+    """Instructions that do not apply, by what they lack: the reason that most of them share first."""
+    reasons: dict[str, list[str]] = {}
+    for group in groups:
+        for offer in group.offers:
+            if not offer.applies:
+                reasons.setdefault(offer.why, []).append(str(offer.instruction))
     lines = [
-        f'<li class="quiet">{escape(str(offer.instruction))}<br><small>✗ {escape(offer.why)}</small></li>'
-        for group in groups
-        for offer in group.offers
-        if not offer.applies
+        f'<li>✗ {escape(why)}<br><small class="quiet">{escape(_some(names))}</small></li>'
+        for why, names in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
     ]
-    more = f"<p>… and {len(lines) - MOST} more.</p>" if len(lines) > MOST else ""
+    more = f"<p>… and {len(lines) - MOST} more reasons.</p>" if len(lines) > MOST else ""
     return f"<ul>{''.join(lines[:MOST])}</ul>{more}" if lines else "<p>Nothing is out of reach.</p>"
+
+
+def _some(names: Sequence[str]) -> str:
+    rest = len(names) - _NAMED
+    return ", ".join(names[:_NAMED]) + (f" and {rest} more" if rest > 0 else "")

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from tmd.diagnostics import TmdError
+from tmd.studio.environment_edit import EditedEnvironment, StateChange
 from tmd.studio.object_info import about
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, object_facts
@@ -9,7 +14,14 @@ from tmd.studio.panels.widgets import chosen, put
 from tmd.view.markup import style
 from tmd.view.object_graph import GraphChanges, object_graph
 
+if TYPE_CHECKING:
+    from viser import GuiDropdownHandle
+
 NOTHING = "(nothing)"
+DRAWN = 24
+"""Maximum number of object graphs drawn at once."""
+RELATIONS = ("on", "in", "next_to")
+"""Those that domains know; what one does not have is refused."""
 
 
 class ObjectPanel:
@@ -25,7 +37,21 @@ class ObjectPanel:
         self._which = gui.add_dropdown("Object", (NOTHING, *self._names()))
         self._which.on_update(visitor.guarded(self._chosen))
         self._facts = gui.add_html("")
-        self.refresh()
+        self._changes: dict[str, StateChange] = {}
+        guarded = visitor.guarded
+        with gui.add_folder("Change the world", expand_by_default=False):
+            gui.add_html(fragment("<p>A changed world is a new environment; the file of this one stays as it is.</p>"))
+            self._state: GuiDropdownHandle[str] = gui.add_dropdown("Its state", (NOTHING,))
+            gui.add_button("Make it so").on_click(guarded(self._change))
+            self._relation = gui.add_dropdown("Place", RELATIONS)
+            self._place: GuiDropdownHandle[str] = gui.add_dropdown("of", (NOTHING, *self._names()))
+            gui.add_button("Put the object there").on_click(guarded(self._put))
+            self._kind: GuiDropdownHandle[str] = gui.add_dropdown("A new", (NOTHING,))
+            gui.add_button("Add it there").on_click(guarded(self._add))
+            gui.add_button("Take the object away").on_click(guarded(self._remove))
+            self._name = gui.add_text("Name", "", hint="Small letters, digits, _ : a file of this name.")
+            gui.add_button("Save as an environment").on_click(guarded(self._keep))
+        self.entered()
 
     def _names(self) -> list[str]:
         return self._visitor.setting.names()
@@ -37,28 +63,108 @@ class ObjectPanel:
 
     def entered(self) -> None:
         """Another environment."""
-        self._which.options = (NOTHING, *self._names())
+        self._which.options = self._place.options = (NOTHING, *self._names())
         put(self._which, NOTHING)
+        put(self._place, NOTHING)
+        edited = self._edited()
+        self._kind.options = (NOTHING, *(edited.classes() if edited else ()))
+        put(self._kind, NOTHING)
+        self._offer()
         self.refresh()
+
+    # changing the world
+
+    def _edited(self) -> EditedEnvironment | None:
+        visitor = self._visitor
+        if visitor.setting.path.suffix != ".yaml":
+            return None
+        return EditedEnvironment(visitor.setting.path, visitor.studio.corpus.folder)
+
+    def _offer(self) -> None:
+        """The states that the object can be given."""
+        edited, name = self._edited(), self._visitor.selected
+        found = edited.changes(name) if edited is not None and name is not None else []
+        self._changes = {str(change): change for change in found}
+        self._state.options = (NOTHING, *self._changes)
+
+    def _pointed(self) -> str:
+        if self._visitor.selected is None:
+            raise TmdError("no object is chosen", hint="click on one, or choose it")
+        return self._visitor.selected
+
+    def _there(self) -> tuple[str, str]:
+        place = chosen(self._place)
+        if place == NOTHING:
+            raise TmdError("choose a place first")
+        return chosen(self._relation), place
+
+    def _change(self) -> None:
+        name, change = self._pointed(), self._changes.get(self._state.value)
+        if change is None:
+            raise TmdError("choose a state first")
+        self._become(lambda edited: edited.change(name, change), f"{name}: {change}", name)
+
+    def _put(self) -> None:
+        name, (relation, place) = self._pointed(), self._there()
+        self._become(lambda edited: edited.put(name, relation, place), f"{name} is {relation} {place}", name)
+
+    def _add(self) -> None:
+        kind, (relation, place) = chosen(self._kind), self._there()
+        if kind == NOTHING:
+            raise TmdError("choose what shall be added first")
+        self._become(lambda edited: edited.add(kind, relation, place), f"a {kind} is {relation} {place}", None)
+
+    def _remove(self) -> None:
+        name = self._pointed()
+        self._become(lambda edited: edited.remove(name), f"{name} is gone", None)
+
+    def _become(self, change: Callable[[EditedEnvironment], object], words: str, name: str | None) -> None:
+        """Go to the environment that a change makes of this one."""
+        visitor = self._visitor
+        with visitor.holding():
+            visitor.enter(visitor.studio.changed(visitor.setting, change))
+            visitor.select(name)
+        visitor.tell(f"Changed: {words}. Save it as an environment to demonstrate in it.")
+
+    def _keep(self) -> None:
+        visitor = self._visitor
+        with visitor.holding():
+            name = visitor.studio.keep_environment(visitor.setting, self._name.value.strip())
+            visitor.enter(name)
+        visitor.tell(f"Saved as the environment {name}.", aloud=True)
+
+    def _all(self) -> str:
+        """The object graphs of an environment of which there is no picture."""
+        visitor = self._visitor
+        if visitor.setting.look is not None:
+            return ""
+        reel, step = visitor.reel, visitor.cursor
+        now = reel.facts(step)
+        before = reel.facts(step - 1) if step else now
+        changes = GraphChanges(now - before, before - now)
+        return "".join(object_graph(visitor.setting.world, now, name, changes) for name in self._names()[:DRAWN])
 
     def refresh(self) -> None:
         """Show the state that is seen now."""
         visitor = self._visitor
         name = visitor.selected
         if name is None:
-            self._facts.content = fragment("<p>Click on an object, or choose one: its parts and states are shown.</p>")
+            hint = "<p>Click on an object, or choose one: its parts and states are shown.</p>"
+            self._facts.content = fragment(f"<style>{style()}</style>{hint}{self._all()}")
             return
         if self._which.value != name:
             put(self._which, name)
+            self._offer()
         reel, step = visitor.reel, visitor.cursor
         world = visitor.setting.world
         now = reel.facts(step)
         before = reel.facts(step - 1) if step else now
-        gains = changed(*(sorted(a for a in more if name in a.args) for more in (now - before, before - now)))
+        said = visitor.studio.offers(visitor.setting.name).wording.fact
+        came, went = (sorted(a for a in more if name in a.args) for more in (now - before, before - now))
+        gains = changed(came, went, said)
         lines = "".join(f"<li>{line}</li>" for line in gains)
         news = f"<h4>Changed by the last step</h4><ul>{lines}</ul>" if lines else ""
         graph = object_graph(world, now, name, GraphChanges(now - before, before - now))
-        said = visitor.studio.offers(visitor.setting.name).wording.fact
         names = (name, *(part for _, part in world.profiles.parts.get(name, ())))
         facts = "".join(object_facts(about(each, world, reel.states[step]), said) for each in names)
         self._facts.content = fragment(f"<style>{style()}</style>{news}{graph}{facts}")

@@ -2,26 +2,36 @@
 
 from __future__ import annotations
 
-import threading
 import time
 from collections.abc import Sequence
+from dataclasses import replace
+from difflib import SequenceMatcher
 from html import escape
+from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import TmdError
+from tmd.export.end_goal import asked_problem
 from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.pddl.model import Instruction
+from tmd.pddl.plan_file import format_plan
+from tmd.pddl.writer import format_problem
 from tmd.studio.demonstrations.correction import steps_of
+from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, fragment, goal_list, step_list
+from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
+from tmd.veil.demonstration import Demonstration
+from tmd.veil.world import World
 from tmd.view.candidates import factors_of, grouped
 from tmd.view.clauses import lit_choice, lit_sentence
-from tmd.view.goals import ShownGoal, in_words
+from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.markup import number, style
+from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
@@ -102,7 +112,7 @@ def _refused(refusals: Sequence[Refusal]) -> str:
 TOP = 3
 """How many plans are ranked."""
 OWN = "(own words)"
-_BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
+_FILES = ("plan", "problem", "page")
 
 
 class SayPanel:
@@ -118,18 +128,19 @@ class SayPanel:
         self._reels: list[Reel] = []
         self._asked: list[ShownGoal] = []
         self._step = 0
+        self._saved: Demonstration | None = None
         gui, guarded = visitor.client.gui, visitor.guarded
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
         self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
         gui.add_button("Plan it", color="blue").on_click(guarded(self.plan))
         self._understood = gui.add_html("")
+        self._judged = gui.add_html("")
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
         self._which.on_update(guarded(lambda: self._choose(self._number())))
-        self._buttons = gui.add_button_group("Step", _BUTTONS, visible=False)
-        self._buttons.on_click(guarded(self._pressed))
-        self._speed = gui.add_slider("Steps a second", 1, 10, 1, 2, visible=False)
         self._goals = gui.add_html("")
+        self._fold = gui.add_checkbox("Fold away finding and going", False, visible=False)
+        self._fold.on_update(guarded(self._look))
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
         self._more.visible = False
@@ -139,8 +150,11 @@ class SayPanel:
         self._after.visible = False
         with self._after:
             gui.add_button("Correct this plan").on_click(guarded(self._correct))
-            gui.add_button("Let the robot do it (simulated)").on_click(guarded(self._execute))
+            self._robot = gui.add_button("Let the robot do it (simulated)")
+            self._robot.on_click(guarded(self._execute))
             gui.add_button("Stop").on_click(guarded(visitor.stop))
+            self._files = gui.add_button_group("Download", _FILES)
+            self._files.on_click(guarded(self._download))
 
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
@@ -153,10 +167,15 @@ class SayPanel:
         """Another environment: its examples, and no plan yet."""
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
+        self._clear()
+
+    def _clear(self) -> None:
+        """No plan; the picture shows the beginning."""
         self._grounded, self._reels = None, []
-        self._understood.content = self._goals.content = self._steps.content = ""
-        for handle in (self._which, self._buttons, self._speed, self._more, self._after):
+        self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
+        for handle in (self._which, self._fold, self._more, self._after):
             handle.visible = False
+        self._visitor.watch(Reel(self._visitor.setting), 0)
 
     # planning
 
@@ -165,6 +184,7 @@ class SayPanel:
         visitor = self._visitor
         with visitor.holding():
             visitor.stop()
+            self._clear()  # what is refused must not leave another sentence's plan below it
             begun = time.perf_counter()
             text = visitor.studio.checked_text(self._text.value)
             visitor.tell("Planning …")
@@ -172,25 +192,76 @@ class SayPanel:
             self._show(grounded)
             took = time.perf_counter() - begun
         self._tell(grounded, took)
+        visitor.keep_link()
+
+    def come_back(self, link: PageLink) -> None:
+        """Plan what an address says, and look at what it looked at."""
+        put(self._text, link.say)
+        self.plan()
+        if self._grounded is not None and link.plan <= len(self._grounded.plans):
+            put(self._which, self._which.options[link.plan - 1])
+            self._choose(link.plan - 1)
+            self.goto(link.step)
+
+    def looked_at(self) -> tuple[int, int, str]:
+        """The number of the plan that is shown, the step, and the sentence, for the window's address."""
+        if self._grounded is None:
+            return 1, 0, ""
+        return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
+
+    def saved(self, demonstration: Demonstration) -> None:
+        """Plan the text of what was saved again, show that, and say whether it is what was shown."""
+        visitor = self._visitor
+        self._saved = demonstration
+        with visitor.holding():
+            grounded = self._again(demonstration)
+            put(self._text, demonstration.text)
+            self._show(grounded)
+        visitor.tell(
+            f"Saved as {demonstration.id}. {whether_used(demonstration.instructions, grounded)}", _LATER, aloud=True
+        )
+
+    def learned(self) -> None:
+        """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
+        visitor, saved, self._saved = self._visitor, self._saved, None
+        if saved is None:
+            visitor.tell("Everything that was saved is learned.")
+            return
+        with visitor.holding():
+            grounded = self._again(saved)
+            before = self._grounded
+            same = before is not None and before.parsed.text == grounded.parsed.text
+            if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
+                self._show(grounded)
+        said = " ".join(saved.text.split())
+        visitor.tell(f'Everything is learned. "{said}": {whether_used(saved.instructions, grounded)}', aloud=True)
+
+    def _again(self, saved: Demonstration) -> Grounded:
+        """The text of a demonstration, planned where it was shown."""
+        studio = self._visitor.studio
+        return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
     def _tell(self, grounded: Grounded, took: float) -> None:
         """Say what came of it: how many plans there are, or why there is none."""
-        visitor = self._visitor
+        visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
-            valid = grounded.verdicts[0].valid
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
-            so = "" if grounded.plans[0].steps else " There is nothing to do: it is so already."
-            visitor.tell(f"Planned in {took:.1f} s: {count}." + (so if valid else " The best is not valid."))
-        elif grounded.refused is not None:
+            so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
+            visitor.tell(f"Planned in {took:.1f} s: {count}.{so}")
+            return
+        example = visitor.studio.nearest_example(parsed.text, visitor.setting.name)
+        tried = f"try: {' '.join(example.split())}" if example else None
+        if grounded.refused is not None:
             clause, refused = grounded.refused
-            shown = "Show it under Demonstrate." if refused.why is Why.UNKNOWN_VERB else None
-            hint = "; or: ".join(filter(None, (refused.hint, shown))) or None
+            shown = "show it under Demonstrate" if refused.why is Why.UNKNOWN_VERB else None
+            hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
             visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
-        elif grounded.unseen:
-            verbs = ", ".join(f"'{verb}'" for verb in grounded.unseen)
-            visitor.tell(f"No plan: nobody has shown {verb_phrase(verbs)}.", "Show it under Demonstrate.", fault=True)
+        elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
+            visitor.tell(f"No plan: this is a question; {grounded.reason}.", tried, fault=True)
         else:
-            visitor.tell("No plan was found for this here.", "Show it under Demonstrate.", fault=True)
+            shown = "show it under Demonstrate" if grounded.unseen else None
+            hint = "; or ".join(filter(None, (shown, tried)))
+            visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
 
     def _show(self, grounded: Grounded) -> None:
         self._grounded = grounded
@@ -204,18 +275,23 @@ class SayPanel:
             reel.become(states)
             self._reels.append(reel)
         found = bool(grounded.plans)
-        for handle in (self._which, self._buttons, self._speed, self._after):
+        for handle in (self._which, self._fold, self._after):
             handle.visible = found
+        self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
         self._more.visible = found or bool(grounded.refusals)
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
-        self._energies.content = fragment(energies(grounded.plans, lines, grounded.refusals))
+        world_words = Wording(world.task.problem)
+        self._energies.content = fragment(
+            side_by_side(grounded.plans, world, world_words) + energies(grounded.plans, lines, grounded.refusals)
+        )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
-            self._goals.content = self._steps.content = ""
+            self._judged.content = self._goals.content = self._steps.content = ""
+            self._visitor.watch(Reel(self._visitor.setting), 0)
             return
         self._which.options = tuple(
-            f"{number}: energy {plan.energy:.3g}, {len(plan.steps)} steps"
+            f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
             for number, plan in enumerate(grounded.plans, start=1)
         )
         put(self._which, self._which.options[0])
@@ -231,21 +307,27 @@ class SayPanel:
         world = self._visitor.setting.world
         self._understood.content = _styled(lit_choice(self._grounded.parsed, plan, world))
         self._asked = in_words(plan.goals, world.task.problem)
+        reached = followed(plan.goals, world.task.problem, plan.instructions)
+        verdict = self._grounded.verdicts[number]
+        told = [*(self._grounded.warnings if not number else ()), *doubts(self._grounded.parsed, plan, world)]
+        good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
+        self._judged.content = judgement(good, told)
         self._step = 0
         self._look()
 
     # stepping
 
-    def move(self, by: int) -> None:
-        """Go some steps on, or back."""
-        if self._reels:
-            self.goto(self._step + by)
-
     def goto(self, step: int) -> None:
         """Look at the state after so many steps."""
-        self._visitor.stop()
-        self._step = min(max(step, 0), self._last())
-        self._look()
+        if self._reels:
+            self._step = min(max(step, 0), self._last())
+            self._look()
+
+    def mark(self, step: int) -> None:
+        """Mark a step as the one that is being done; the picture stays."""
+        if self._reels:
+            self._step = min(max(step, 0), self._last())
+            self._list()
 
     def _last(self) -> int:
         return len(self._reels[self._number()].states) - 1 if self._reels else 0
@@ -256,54 +338,43 @@ class SayPanel:
             return
         number = self._number()
         reel, plan = self._reels[number], grounded.plans[number]
-        self._visitor.watch(reel, self._step)
+        self._visitor.watch(reel, self._step, self, plan.instructions)
         problem = self._visitor.setting.world.task.problem
         self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
+        self._list()
+        self._visitor.keep_link()
+
+    def _list(self) -> None:
+        """List the steps, with what the one that is looked at changed."""
+        grounded = self._grounded
+        if grounded is None or not self._reels:
+            return
+        number = self._number()
+        reel, plan = self._reels[number], grounded.plans[number]
         gains: list[str] = []
+        said = self._visitor.studio.offers(self._visitor.setting.name).wording.fact
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now))
+            gains = changed(sorted(now - before), sorted(before - now), said)
         lines = [
             (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
             for s in plan.steps
         ]
-        self._steps.content = step_list(lines, self._step, gains)
+        folded = self._only_there(reel) if self._fold.value else ()
+        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded)
 
-    def _pressed(self) -> None:
-        act = dict(zip(_BUTTONS, (self._first, self._back, self.toggle, self._on, self._end), strict=True))
-        act[chosen(self._buttons)]()
-
-    def _first(self) -> None:
-        self.goto(0)
-
-    def _back(self) -> None:
-        self.move(-1)
-
-    def _on(self) -> None:
-        self.move(1)
-
-    def _end(self) -> None:
-        self.goto(self._last())
-
-    def toggle(self) -> None:
-        """Play, or pause."""
-        visitor = self._visitor
-        if not self._reels:
-            return
-        if visitor.is_playing():
-            visitor.stop()
-            return
-        if self._step >= self._last():
-            self._step = 0
-        visitor.play(self._frames)
-
-    def _frames(self, ended: threading.Event) -> None:
-        due = time.monotonic()
-        while not ended.is_set() and self._step < self._last():
-            self._step += 1
-            self._look()
-            due = max(due + 1 / min(max(self._speed.value, 1), 10), time.monotonic())
-            ended.wait(due - time.monotonic())
+    def _only_there(self, reel: Reel) -> set[int]:
+        """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
+        world = self._visitor.setting.world
+        constants, states = world.profiles.constants, reel.states
+        return {
+            number
+            for number in range(1, len(states))
+            if all(
+                atom.args and atom.args[0] in constants
+                for atom in world.task.names(states[number - 1] ^ states[number])
+            )
+        }
 
     # what next
 
@@ -314,6 +385,27 @@ class SayPanel:
             steps = steps_of(plan, parsed.clauses, parsed.text, self._visitor.studio.corpus.lexicon)
             self._visitor.open_correction(parsed.text, steps)
 
+    def _download(self) -> None:
+        """Send the plan, the problem with the text's goal, or the page of `tmd view` as a file."""
+        grounded = self._grounded
+        if grounded is None or not grounded.plans:
+            raise TmdError("there is no plan to download", hint="plan something first")
+        number, kind = self._number(), chosen(self._files)
+        plans = (grounded.plans[number], *(p for n, p in enumerate(grounded.plans) if n != number))
+        verdicts = (grounded.verdicts[number], *(v for n, v in enumerate(grounded.verdicts) if n != number))
+        looked_at = replace(grounded, plans=plans, verdicts=verdicts)
+        name = self._visitor.setting.name
+        if kind == "plan":
+            file, content = f"{name}.plan", format_plan(plans[0].instructions)
+        elif kind == "problem":
+            file, content = f"{name}.pddl", format_problem(asked_problem(looked_at) or grounded.world.task.problem)
+        else:
+            from tmd.view.page import render
+            from tmd.view.subject import text_subject
+
+            file, content = f"{name}.html", render(text_subject(looked_at)).html
+        self._visitor.client.send_file_download(file, content.encode(), save_immediately=True)
+
     def _execute(self) -> None:
         grounded = self._grounded
         if grounded is None or not grounded.plans:
@@ -321,9 +413,70 @@ class SayPanel:
         self._visitor.execute(grounded.plans[self._number()])
 
 
-def verb_phrase(verbs: str) -> str:
-    """How to do things, in words."""
-    return f"how to {verbs.replace(chr(39), '')}" if "," not in verbs else f"these: {verbs}"
+_IDLE = "There is nothing to do: it is so already."
+_FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
+_LATER = "The rest is learned in the background; the sentence is planned once more at its end."
+
+
+def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
+    return [] if grounded is None else [plan.instructions for plan in grounded.plans]
+
+
+def whether_used(shown: Sequence[Instruction], grounded: Grounded) -> str:
+    """Whether the plans for a text are what was shown for it."""
+    plans = _plans(grounded)
+    if not plans:
+        return f"The same sentence has no plan yet: {grounded.reason}."
+    for place, plan in enumerate(plans, start=1):
+        more = _beside(shown, plan)
+        if more is None:
+            continue
+        also = f", and does more: {', '.join(map(str, more))}" if more else ""
+        so = f"as plan {place} of {len(plans)}" if place > 1 else ""
+        return f"The same sentence {'' if so else 'now '}gives what you showed{so and ' '}{so}{also}."
+    return "The same sentence still gives another plan."
+
+
+def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
+    """What a plan has beside all of ``shown``, in its order; ``None`` where it has not all of it."""
+    rest, more = list(shown), []
+    for instruction in plan:
+        if rest and rest[0] == instruction:
+            rest.pop(0)
+        else:
+            more.append(instruction)
+    return None if rest else more
+
+
+def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
+    """The first plan beside each other one, step by step, and the difference of the states that they end in."""
+    return "".join(
+        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan)}"
+        f"{_ends(plans[0], plan, number, world, wording)}</details>"
+        for number, plan in enumerate(plans[1:], start=2)
+    )
+
+
+def _beside_each_other(one: RankedPlan, other: RankedPlan) -> str:
+    left, right = one.instructions, other.instructions
+    rows: list[tuple[str, str]] = []
+    for kind, a, b, c, d in SequenceMatcher(None, left, right, autojunk=False).get_opcodes():
+        sides = zip_longest(map(str, left[a:b]), map(str, right[c:d]), fillvalue="")
+        rows += [(x, y) if kind == "equal" else (x and f"− {x}", y and f"+ {y}") for x, y in sides]
+    body = "".join(f"<tr><td>{escape(x)}</td><td>{escape(y)}</td></tr>" for x, y in rows)
+    return f"<table class='sides'><tbody>{body}</tbody></table>"
+
+
+def _ends(one: RankedPlan, other: RankedPlan, number: int, world: World, wording: Wording) -> str:
+    names = world.task.names
+    only = ((1, names(one.state & ~other.state)), (number, names(other.state & ~one.state)))
+    lines = [
+        f"<li>only after plan {plan}: {escape(wording.fact(atom))}</li>"
+        for plan, atoms in only
+        for atom in sorted(atoms)
+        if not atom.args or atom.args[0] not in world.profiles.constants
+    ]
+    return f"<p>At the end</p><ul>{''.join(lines)}</ul>" if lines else "<p>Both end alike.</p>"
 
 
 def _styled(content: str) -> str:

@@ -38,7 +38,7 @@ class _Audience:
         look: What it shows.
         figure: The robot.
         ended: The visitor does not want to see more.
-        tell: Says something to the visitor.
+        begun: Called with each instruction that begins.
     """
 
     def __init__(
@@ -48,14 +48,14 @@ class _Audience:
         look: Look,
         figure: Figure,
         ended: Event,
-        tell: Callable[[str], None],
+        begun: Callable[[Title], None],
     ) -> None:
         self._stage = stage
         self._scenery = scenery
         self._look = look
         self._figure = figure
         self._ended = ended
-        self._tell = tell
+        self._begun = begun
         self._ticks = 0
         self._failed = 0
 
@@ -81,8 +81,7 @@ class _Audience:
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
-        repair = "repair: " if title.repair else ""
-        self._tell(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
+        self._begun(title)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: what it changed is seen."""
@@ -97,7 +96,7 @@ def perform(
     scenery: Scenery,
     figure: Figure,
     ended: Event,
-    tell: Callable[[str], None],
+    begun: Callable[[Title], None],
 ) -> str:
     """Let the simulated robot carry out a plan, and show it.
 
@@ -108,7 +107,7 @@ def perform(
         scenery: The visitor's view.
         figure: The robot.
         ended: Set by who does not want to see more.
-        tell: Says something to the visitor.
+        begun: Called with each instruction that begins.
 
     Returns:
         How it ended, in words.
@@ -123,7 +122,7 @@ def perform(
     orders = [Order(step.instruction, step.clause, step.latent) for step in plan.steps]
 
     def watched(session: SimulationSession) -> tuple[_Audience]:
-        audience = _Audience(session, scenery, look, figure, ended, tell)
+        audience = _Audience(session, scenery, look, figure, ended, begun)
         audience.show()
         session.sim.add_watcher(audience)
         return (audience,)

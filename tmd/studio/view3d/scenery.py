@@ -58,6 +58,7 @@ class Scenery:
         self._links: dict[tuple[str, str], GlbHandle | MeshHandle] = {}
         self._robot: dict[str, GlbHandle] = {}
         self._marks: list[LineSegmentsHandle | LabelHandle] = []
+        self._named: list[LabelHandle] = []
         self._shown: dict[object, object] = {}
         self._build()
         self.draw(look.first)
@@ -133,6 +134,17 @@ class Scenery:
         self._shown["colour", place] = colour
         node.visible = colour[3] > 0
         node.color = tuple(round(255 * part) for part in colour[:3])  # type: ignore[union-attr]
+
+    def names(self, *, shown: bool) -> None:
+        """Show the names of all objects, or hide them."""
+        for old in self._named:
+            old.remove()
+        self._named = []
+        for name in self._frames if shown else ():
+            high = self._look.still.blueprints[name].model.high
+            self._named.append(
+                self._scene.add_label(f"/objects/{name}/called", name, position=(0.0, 0.0, high[2] + 0.03))
+            )
 
     def mark(self, name: str | None) -> None:
         """Draw lines around an object, and its name above it; nothing for ``None``."""

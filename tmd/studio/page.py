@@ -1,0 +1,190 @@
+"""The studio's own script and style in viser's page, and what that script asks the server for.
+
+The script (``data/page.js``) does in the browser what a program on the server cannot: it says when the studio has ended
+and loads the page again when it is back, keeps what the window looks at in its address, follows the system's dark mode,
+and gives names to what has none.
+"""
+
+from __future__ import annotations
+
+import gzip
+import json
+import secrets
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from functools import cache
+from http import HTTPStatus
+from importlib.resources import files
+from threading import Lock
+from typing import TYPE_CHECKING, Any
+from urllib.parse import parse_qs, urlencode
+
+from tmd.studio.guard import response
+
+if TYPE_CHECKING:
+    from viser import ClientHandle
+    from websockets.asyncio.server import ServerConnection
+    from websockets.http11 import Request, Response
+
+ALIVE = "/alive"
+"""Asked for by the page, to know whether the studio is there."""
+_INSTANCE = secrets.token_hex(8)
+"""Of this process: the page knows by it that the studio was started again."""
+_HEAD = b"<head>"
+KEY = "tmd-page"
+"""The key in the window's storage under which the script answers."""
+EVENT = "tmdevent"
+"""The label of the input through which it tells what happens."""
+_PATIENCE = 5.0
+"""Seconds that a window may take to answer."""
+_LONGEST = 20_000
+"""Characters of an event, or of an address, that are read."""
+_WHOLE = 6
+"""Digits of a number in an address."""
+
+
+def answer(_connection: ServerConnection, request: Request) -> Response | None:
+    """What viser knows nothing of; ``None`` for the rest."""
+    return response(HTTPStatus.OK, _INSTANCE) if _path(request) == ALIVE else None
+
+
+def with_script(request: Request, page: Response) -> Response:
+    """The page of viser with the studio's script and style; anything else as it is."""
+    if _path(request) not in ("/", "/index.html") or page.status_code != HTTPStatus.OK or page.body is None:
+        return page
+    packed = page.headers.get("Content-Encoding") == "gzip"
+    page.body = _extended(bytes(page.body), packed=packed)
+    for name, value in (("Content-Length", str(len(page.body))), ("Cache-Control", "no-store")):
+        if name in page.headers:
+            del page.headers[name]
+        page.headers[name] = value
+    return page
+
+
+@cache
+def _extended(body: bytes, *, packed: bool) -> bytes:
+    html = gzip.decompress(body) if packed else body
+    data = files("tmd.studio") / "data"
+    script, style = ((data / name).read_text(encoding="utf-8") for name in ("page.js", "page.css"))
+    own = f"<script>{script}</script><style>{style}</style>".encode()
+    html = html.replace(_HEAD, _HEAD + own, 1).replace(b"<title>Viser</title>", b"<title>tmd studio</title>", 1)
+    return gzip.compress(html, mtime=0) if packed else html
+
+
+def _path(request: Request) -> str:
+    return request.path.partition("?")[0]
+
+
+@dataclass(frozen=True, slots=True)
+class PageLink:
+    """What a window looks at, as its address says it.
+
+    Attributes:
+        environment: The environment; empty for the first.
+        say: The sentence; empty for none.
+        plan: The number of its plan, from 1.
+        step: After how many steps it is seen.
+        tab: The tab that is open.
+    """
+
+    environment: str = ""
+    say: str = ""
+    plan: int = 1
+    step: int = 0
+    tab: str = ""
+
+    def query(self) -> str:
+        """The address, from the question mark on."""
+        told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
+        return f"?{urlencode(told)}" if told else ""
+
+
+_NOWHERE = PageLink()
+
+
+def read_link(query: str) -> PageLink:
+    """What an address says; what it cannot say is left out."""
+    try:
+        said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
+    except ValueError:
+        return _NOWHERE
+    return PageLink(
+        said.get("environment", ""),
+        said.get("say", ""),
+        _number(said, "plan", 1),
+        _number(said, "step", 0),
+        said.get("tab", ""),
+    )
+
+
+def width_of(said: Mapping[str, Any]) -> int:
+    """The width of a window, as its script told it; 0 where it did not."""
+    width = said.get("width")
+    return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
+
+
+def _number(said: Mapping[str, str], name: str, usual: int) -> int:
+    text = said.get(name, "")
+    return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
+
+
+class Window:
+    """A window of a browser, beside what viser shows in it.
+
+    Args:
+        client: viser's side of it.
+        told: Called with what happens in it.
+
+    Attributes:
+        dark: Whether its system is dark.
+        width: Pixels from its left to its right; 0 where it does not say.
+        link: What its address said when it was loaded.
+    """
+
+    def __init__(self, client: ClientHandle, told: Callable[[Mapping[str, Any]], None]) -> None:
+        self._client = client
+        try:
+            said = json.loads(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
+        except (RuntimeError, TimeoutError, ValueError):
+            said = {}
+        said = said if isinstance(said, dict) else {}
+        self.dark = said.get("dark") is True
+        self.width = width_of(said)
+        self.link = read_link(str(said.get("search", "")))
+        self._kept = self.link
+        self._told = told
+        self._seen = 0
+        self._lock = Lock()
+        self._event = client.gui.add_text(EVENT, "")
+        self._event.on_update(lambda _: self._happened())
+
+    def _happened(self) -> None:
+        """Tell what has happened since the last time; the script sends the last few events together."""
+        try:
+            events = json.loads(self._event.value[:_LONGEST])
+        except (TypeError, ValueError, RecursionError):
+            return
+        for event in events if isinstance(events, list) else ():
+            number = event.get("number") if isinstance(event, dict) else None
+            if isinstance(number, int) and self._is_new(number):
+                self._told(event)
+
+    def _is_new(self, number: int) -> bool:
+        """Whether an event was not told yet; from now on it is."""
+        with self._lock:
+            new, self._seen = number > self._seen, max(number, self._seen)
+            return new
+
+    def keep(self, link: PageLink) -> None:
+        """Let the address say what is looked at."""
+        if link != self._kept:
+            self._kept = link
+            self._tell({"link": link.query()})
+
+    def show_tab(self, name: str) -> None:
+        """Open a tab."""
+        self._tell({"tab": name})
+
+    def _tell(self, words: Mapping[str, str]) -> None:
+        (kind,) = words
+        self._client.local_storage.set_item(f"{kind}-{KEY}", json.dumps(words))  # of one key viser sends the last only
