@@ -139,6 +139,8 @@ class _Line:
             raise self.error(f"not JSON: {error.msg}", column=error.colno, code="json-syntax") from None
         except RecursionError:
             raise self.error("not a demonstration: nested too deeply", code="nested-too-deeply") from None
+        except ValueError:  # Python reads no number of more than 4,300 digits
+            raise self.error("not a demonstration: a number has too many digits", code="json-syntax") from None
         if not isinstance(data, dict):
             raise self.error("a demonstration is a JSON object")
         for key in _KEYS:
