@@ -31,7 +31,7 @@ def write_bytes(path: str | Path, data: bytes) -> None:
     """
     given = Path(path)
     try:
-        target = given.resolve()
+        target = real(given)
         mode = _mode(target)
         if mode is not None and not stat.S_ISREG(mode):
             _write(target, data, os.O_WRONLY)
@@ -51,6 +51,11 @@ def write_bytes(path: str | Path, data: bytes) -> None:
             f"{given} cannot be written: {error.strerror or error}",
             hint="check that the directory exists, that you may write there and that the disk has room",
         ) from error
+
+
+def real(path: Path) -> Path:
+    """The path without links, as :meth:`pathlib.Path.resolve`, which fails at a link that points to itself."""
+    return Path(os.path.realpath(path))
 
 
 def make_directory(path: str | Path) -> Path:

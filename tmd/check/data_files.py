@@ -11,6 +11,7 @@ from typing import Protocol
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Findings
 from tmd.diagnostics import Location, TmdError
+from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
@@ -255,7 +256,7 @@ class DataFiles:
     def _folder(self, file: Path) -> DomainFolder:
         """The domain folder that ``file`` lies in."""
         path = file.parent
-        return self._folders.setdefault(path.resolve(), DomainFolder(path.resolve() if path == Path() else path))
+        return self._folders.setdefault(real(path), DomainFolder(real(path) if path == Path() else path))
 
     def _objects(self, file: Path) -> None:
         folder = self._folder(file)
@@ -288,8 +289,8 @@ class DataFiles:
 
     def _beside(self, folder: Path) -> Path | None:
         """The problems of a domain: those beside its folder, or the known ones."""
-        name = folder.resolve().name
-        beside = folder.resolve().parent.parent / "problems" / name
+        name = real(folder).name
+        beside = real(folder).parent.parent / "problems" / name
         try:
             return beside if beside.is_dir() else find_problems(name, self.checker.problems)
         except TmdError:
@@ -309,8 +310,8 @@ class DataFiles:
 
     def _has_faults(self, folder: DomainFolder) -> bool:
         """Whether an error of a domain's folder is known: its environments may then lack what they should have."""
-        found, here = self.checker.findings.sorted(), folder.path.resolve()
-        return any(d.severity is Severity.ERROR and Path(d.location.file).resolve().parent == here for d in found)
+        found, here = self.checker.findings.sorted(), real(folder.path)
+        return any(d.severity is Severity.ERROR and real(Path(d.location.file)).parent == here for d in found)
 
     def _nameable(self, folder: DomainFolder) -> frozenset[str]:
         """What a group may name: as for nouns, or, without classes, the objects of the environments as well."""
@@ -337,7 +338,7 @@ class DataFiles:
         check_planviz(file, self._report(file))
 
     def _environment(self, file: Path) -> None:
-        key = file.resolve()
+        key = real(file)
         if key not in self._worlds:
             self._worlds[key] = None
             faults: list[TmdError] = []
@@ -352,7 +353,7 @@ class DataFiles:
         """The folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
             raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
-        for above in list(file.resolve().parents)[:4]:
+        for above in list(real(file).parents)[:4]:
             path = above / "domains" / name
             if (path / "domain.pddl").is_file():
                 return self._folders.setdefault(path, DomainFolder(path))
@@ -360,7 +361,7 @@ class DataFiles:
             found = find_domain(name, self.checker.domains)
         except TmdError as error:
             raise YamlSource(file).error(("domain",), error.message, error.hint, "unknown-domain") from None
-        return self._folders.setdefault(found.path.resolve(), found)
+        return self._folders.setdefault(real(found.path), found)
 
     def _demonstrations(self, file: Path) -> None:
 
@@ -371,9 +372,9 @@ class DataFiles:
             path = environments[name]
             if path.suffix == ".pddl":
                 return self.checker.problem(path)
-            if path.resolve() not in self._worlds:
+            if real(path) not in self._worlds:
                 self.check(path)
-            return self._worlds.get(path.resolve())
+            return self._worlds.get(real(path))
 
         check_demonstrations(file, world, sorted(environments), self._report(file))
 

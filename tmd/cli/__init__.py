@@ -25,6 +25,19 @@ def main() -> None:
     from tmd.cli.output import open_closed_streams
 
     open_closed_streams()
-    from tmd.cli.program import run
+    try:
+        from tmd.cli.program import run
+    except ModuleNotFoundError as error:  # not yet able to say so as every other fault is told
+        if error.name is None or error.name.startswith("tmd"):
+            raise
+        sys.exit(_missing(error.name))
 
     sys.exit(run(sys.argv[1:]))
+
+
+def _missing(package: str) -> int:
+    from tmd.diagnostics import ExitCode
+
+    hint = "install tmd again, with all that it needs: pip install tmd"
+    sys.stderr.write(f"error: the package {package} is missing or damaged\nhint: {hint}\n")
+    return ExitCode.MISSING_TOOL

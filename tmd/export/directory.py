@@ -10,7 +10,7 @@ from pathlib import Path
 from shutil import rmtree
 
 from tmd.diagnostics import OutputError
-from tmd.files import write_bytes
+from tmd.files import real, write_bytes
 
 
 def check_directory(directory: Path, *, overwrite: bool = False) -> None:
@@ -76,7 +76,7 @@ def _replace_files(directory: Path, files: Mapping[str, bytes]) -> None:
 
 def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
     """Write everything beside ``directory`` and rename it; an empty directory is replaced by that."""
-    target = directory.resolve()
+    target = real(directory)
     above = [parent for parent in target.parents if not parent.exists()]
     target.parent.mkdir(parents=True, exist_ok=True)
     draft = Path(tempfile.mkdtemp(prefix=f".{target.name[:100]}.", suffix=".part", dir=target.parent))
