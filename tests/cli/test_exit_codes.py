@@ -347,3 +347,20 @@ def test_a_link_to_itself(tmd: Tmd, tmp_path: Path, inside: bool) -> None:
     ended = tmd("check", "folder")
     assert ended.code == ExitCode.FAULTS_FOUND
     assert "folder/x.pddl:1:1: error[unreadable]" in ended.out
+
+
+def test_a_damaged_part_of_a_run_is_named_and_done_again(tmd: Tmd, tmp_path: Path) -> None:
+    command = ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", "run", "--jobs", "1"]
+    assert tmd(*command).code == ExitCode.OK
+    results = (tmp_path / "run" / "metrics.json").read_bytes()
+    part = min((tmp_path / "run" / "parts").iterdir())
+    part.write_text(re.sub(r'"task": "[a-z_]*", ', "", part.read_text()))
+    told = f"damaged, so to be done again: {part.name}: this is not a prediction of tmd experiment: task: the key is "
+    ended = tmd(*command, "--step", "report")
+    assert ended.code == ExitCode.BAD_INPUT
+    assert told in ended.err
+    ended = tmd(*command)
+    assert ended.code == ExitCode.OK
+    assert told in ended.err
+    assert (tmp_path / "run" / "metrics.json").read_bytes() == results
+    assert told not in tmd(*command).err
