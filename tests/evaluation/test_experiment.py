@@ -124,7 +124,7 @@ def test_what_differs_is_told(tmp_path: Path) -> None:
         "another environment",
         "a score that is text",
         "a score out of range",
-    ],  # fmt: skip
+    ],
 )
 def test_a_damaged_part_is_done_again(tmp_path: Path, damage: Callable[[str], str]) -> None:
     quick = config(tmp_path, models=("empty",), test_environments=(1, 2))
