@@ -69,7 +69,7 @@ def compose(text: str, file: str) -> yaml.Node | None:
         hint = "this is not a file of tmd"
         raise TmdError(f"{file}: larger than {MAX_CHARACTERS // 1_000_000} MB", hint=hint, code="too-large")
     try:
-        reader.look_over()
+        reader.look_over(aliases=False)
         root = yaml.compose(text, Loader=Loader)
     except yaml.MarkedYAMLError as error:
         raise reader.from_yaml(error) from None
@@ -77,6 +77,21 @@ def compose(text: str, file: str) -> yaml.Node | None:
         reader.fail(None, f"not YAML: {error}".replace("\n", " "), "yaml-syntax")
     reader.refuse_keys(root)
     return root
+
+
+def look_over(text: str, file: str) -> None:
+    """Refuse a text that is deeper or has more values than anything of ours; it may have aliases.
+
+    Raises:
+        TmdError: It is, or it is not YAML; with its place.
+    """
+    reader = _Reader(text, file)
+    try:
+        reader.look_over(aliases=True)
+    except yaml.MarkedYAMLError as error:
+        raise reader.from_yaml(error) from None
+    except yaml.YAMLError as error:
+        reader.fail(None, f"not YAML: {error}".replace("\n", " "), "yaml-syntax")
 
 
 def from_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> TmdError:
@@ -111,11 +126,10 @@ class _Reader:
         code = next((code for words, code in _CODES.items() if words in problem), "yaml-syntax")
         return self.error(error.problem_mark or error.context_mark, f"not YAML: {problem}", code)
 
-    def look_over(self) -> None:
-        """Refuse what must not be there before anything is built of it."""
+    def look_over(self, aliases: bool) -> None:
         depth = nodes = 0
         for event in yaml.parse(self.text, Loader=Loader):
-            if isinstance(event, yaml.AliasEvent):
+            if isinstance(event, yaml.AliasEvent) and not aliases:
                 self.fail(event.start_mark, "aliases are not accepted", "yaml-alias", "write the value out")
             nodes += isinstance(event, yaml.NodeEvent)
             depth += isinstance(event, yaml.CollectionStartEvent) - isinstance(event, yaml.CollectionEndEvent)

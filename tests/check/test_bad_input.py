@@ -36,6 +36,11 @@ def kinds(path: Path) -> set[str]:
 
 
 FILES: dict[str, tuple[str, bytes, str]] = {
+    "a chain of types": (
+        "d.pddl",
+        f"(define (domain d) (:types {' '.join(f't{n} - t{n + 1}' for n in range(3_000))}))".encode(),
+        "nested-too-deeply",
+    ),
     "binary": ("d.pddl", b"\x7fELF\x00\x01", "not-text"),
     "utf-16": ("d.pddl", DOMAIN.encode("utf-16"), "not-text"),
     "latin-1": ("d.pddl", b"(define (domain caf\xe9))", "not-utf8"),

@@ -265,6 +265,10 @@ def free_variables(formula: Formula) -> frozenset[str]:
     return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
 
 
+MOST_LEVELS = 200
+"""Types above one another; those of a longer chain are as good as unrelated, and told as a fault."""
+
+
 class TypeHierarchy:
     """Which type is a kind of which."""
 
@@ -280,13 +284,12 @@ class TypeHierarchy:
         """``name``, its parent and so on up to ``object``; a cycle is walked once."""
         found = self._ancestors.get(name)
         if found is None:
-            chain: list[str] = []
+            chain: dict[str, None] = {}
             current: str | None = name
-            while current is not None and current not in chain:
-                chain.append(current)
+            while current is not None and current not in chain and len(chain) < MOST_LEVELS:
+                chain[current] = None
                 current = self.parents.get(current)
-            if OBJECT not in chain:
-                chain.append(OBJECT)
+            chain.setdefault(OBJECT)
             found = self._ancestors[name] = tuple(chain)
         return found
 

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import (
+    MOST_LEVELS,
     OBJECT,
     TOTAL_COST,
     ActionSchema,
@@ -98,6 +99,8 @@ class _Check:
         self.functions = {f.name: f for f in domain.functions}
         self.known_objects = {o.name: o.types for o in objects}
         self.faults: list[TmdError] = []
+        self.deepest_type: str | None = None
+        """The first type with too many ancestors: it is told of once."""
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
         """Note a fault at ``location``."""
@@ -145,11 +148,15 @@ class _Check:
             self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
-        chain: list[str] = []
+        chain: dict[str, None] = {}
         current: str | None = name
-        while current is not None and current not in chain:
-            chain.append(current)
+        while current is not None and current not in chain and len(chain) < MOST_LEVELS:
+            chain[current] = None
             current = self.hierarchy.parents.get(current)
+        if len(chain) == MOST_LEVELS and self.deepest_type is None:
+            self.deepest_type = name
+            message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
+            self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
         if current == name:
             self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")
 
