@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
@@ -326,15 +327,19 @@ class Universe:
 
 def parents_first(declarations: Sequence[TypeDeclaration]) -> tuple[TypeDeclaration, ...]:
     """``declarations`` with each parent before its children, otherwise in order: some readers insist."""
-    waiting = list(declarations)
-    ordered: list[TypeDeclaration] = []
-    known = {OBJECT}
-    while waiting:
-        ready = next((t for t in waiting if t.parent in known), waiting[0])
-        waiting.remove(ready)
-        ordered.append(ready)
-        known.add(ready.name)
-    return tuple(ordered)
+    children: dict[str, list[int]] = {}
+    for number, declared in enumerate(declarations):
+        children.setdefault(declared.parent, []).append(number)
+    order: dict[int, None] = {}
+    ready = list(children.get(OBJECT, ()))  # a heap: the first of those whose parent stands before them comes next
+    for first in range(len(declarations)):  # next where none is ready, as in a cycle
+        while ready or first not in order:
+            number = heappop(ready) if ready else first
+            if number not in order:
+                order[number] = None
+                for child in children.get(declarations[number].name, ()):
+                    heappush(ready, child)
+    return tuple(declarations[number] for number in order)
 
 
 @lru_cache(maxsize=64)
