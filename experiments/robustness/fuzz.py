@@ -12,6 +12,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from importlib import import_module
 from pathlib import Path
 from random import Random
 
@@ -23,6 +24,10 @@ ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 60.0
 """No command on a damaged small file takes longer on a busy machine."""
 MEMORY = 4_000_000_000
+_EXPERIMENT = (
+    *("experiment", "--task", "tea", "--domain", "04_tea"),
+    *("--models", "empty,chance", "--out", "run", "--jobs", "1"),
+)
 _SAID = "Fill the kettle with water. Heat it on the stove, then put the cup on the table."
 _XML = (
     '<?xml version="1.0"?><!DOCTYPE d [<!ENTITY a "aaaaaaaaaa">'
@@ -59,6 +64,15 @@ class Ground:
 
     def prepare(self) -> None:
         """Make the folder; needs some ten seconds."""
+        for module in (
+            "check.checker",
+            "domain_kit",
+            "export.formats",
+            "evaluation.report.report",
+            "view.page",
+            "ground",
+        ):
+            import_module(f"tmd.{module}")  # once here, and not again in each child
         self.folder.mkdir(parents=True)
         for kind in ("domains", "problems"):
             shutil.copytree(ROOT / kind / "04_tea", self.folder / kind / "04_tea")
@@ -183,10 +197,6 @@ def _change(ground: Ground, choose: Random, name: str) -> None:
     (ground.folder / name).write_bytes(changed)
 
 
-def _pick(ground: Ground, choose: Random, *ends: str) -> str:
-    return choose.choice([name for name in ground.kept if name.endswith(ends)])
-
-
 def of_domain(ground: Ground, choose: Random) -> Case:
     """A file of the domain's folder or beside its problems."""
     folder = [n for n in ground.kept if n.startswith(("domains", "problems")) and not n.endswith((".md", ".nl"))]
@@ -278,12 +288,13 @@ def of_learned(ground: Ground, choose: Random) -> Case:
 
 
 _OPTIONS = (
-    "--top", "--beam", "--trim", "--seed", "--jobs", "--planner", "--model", "--weights", "--domain", "--format", "--shard",
-    "--drop-sentences", "--test-environments", "--goal", "--json", "--overwrite", "--environment", "--text", "--output",
+    "--top", "--beam", "--trim", "--seed", "--jobs", "--planner", "--model", "--weights", "--domain", "--format",
+    "--shard", "--drop-sentences", "--test-environments", "--goal", "--json", "--overwrite", "--environment",
+    "--text", "--output",
 )  # fmt: skip
 _VALUES = (
-    "", "-1", "0", "1e9", "nan", "9" * 400, "x", "../../x", "a\nb", "-", "/dev/full", "loop/x", "1/0", "9-1", "\udcff", "04_tea",
-    "pantry1", "(and)", "(not", "up:x", "all", "/nowhere/x",
+    "", "-1", "0", "1e9", "nan", "9" * 400, "x", "../../x", "a\nb", "-", "/dev/full", "loop/x", "1/0", "9-1", "\udcff",
+    "04_tea", "pantry1", "(and)", "(not", "up:x", "all", "/nowhere/x",
 )  # fmt: skip
 
 

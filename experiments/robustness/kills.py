@@ -14,6 +14,7 @@ from pathlib import Path
 from random import Random
 
 from experiments.robustness.fuzz import ROOT
+from tmd.diagnostics import ExitCode
 
 _OWN = ("log.txt",)
 """Files that tell the time, so that they differ from run to run."""
@@ -34,7 +35,9 @@ JOBS: dict[str, Job] = {
     "compile": Job(("compile", "04_tea"), "domains"),
     "export": Job(("export", _PROBLEM, "out", "--format", "adl,json,strips"), "out"),
     "plan --output": Job(("plan", "04_tea", _PROBLEM, "--output", "plan.txt"), "plan.txt"),
-    "view": Job(("view", _PROBLEM, "--out", "page.html"), "page.html"),
+    "view": Job(
+        ("view", "--environment", "pantry1", "--text", "Heat the kettle.", "--guess", "--out", "page.html"), "page.html"
+    ),
     "learn": Job(("learn", "04_tea", "--no-weights", "--out", "learned"), "learned"),
     "experiment, 1 job": Job((*_RUN, "1"), "run"),
     "experiment, 2 jobs": Job((*_RUN, "2"), "run"),
@@ -95,7 +98,7 @@ class Killer:
 
     def _finish(self) -> None:
         process = self._start()
-        if process.wait(300):
+        if process.wait(300) >= ExitCode.GAVE_UP or process.returncode < 0:
             raise SystemExit(f"error: `tmd {' '.join(self.job.arguments)}` ends with {process.returncode} undisturbed")
 
     def _bytes(self) -> dict[str, bytes]:

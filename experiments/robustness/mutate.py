@@ -7,13 +7,17 @@ from random import Random
 from typing import Any
 
 PIECES: tuple[bytes, ...] = (
-    b"(", b")", b"((", b"?x", b" - ", b":init", b":effect", b"(not ", b";", b"{", b"}", b"[", b"]", b"{{a}}: 1\n", b": ",
-    b"- ", b"? [a]\n: 1\n", b"&a", b"*a", b"!!int x", b"\t", b"\0", b"\xff", b"\xef\xbb\xbf", b"\r", b"\r\n", b"\xe2\x80\xa8",
-    b"\x1b[31m", b"9" * 5_000, b"-1", b"1e999", b"nan", b"null", b"true", b'"', b"'", b"[" * 3_000, b"(" * 3_000, b"{a: " * 500,
+    b"(", b")", b"((", b"?x", b" - ", b":init", b":effect", b"(not ", b";", b"{", b"}", b"[", b"]",
+    b"{{a}}: 1\n", b": ",
+    b"- ", b"? [a]\n: 1\n", b"&a", b"*a", b"!!int x", b"\t", b"\0", b"\xff", b"\xef\xbb\xbf", b"\r", b"\r\n",
+    b"\xe2\x80\xa8",
+    b"\x1b[31m", b"9" * 5_000, b"-1", b"1e999", b"nan", b"null", b"true", b'"', b"'", b"[" * 3_000, b"(" * 3_000,
+    b"{a: " * 500,
     b"a" * 20_000, b"../../x", b"\xd9\x85", b"0x_", b"2020-02-30", b"<!ENTITY a 'b'>", b"\n\n", b" ",
 )  # fmt: skip
 VALUES: tuple[Any, ...] = (
-    None, True, -1, 0, 10**30, 1.5, 1e308, "", "x", "5", "?z9", "../../x", "a\nb", "\ud83d\ude00", [], {}, [[]], {"a": 1}, "(and)",
+    None, True, -1, 0, 10**30, 1.5, 1e308, "", "x", "5", "?z9", "../../x", "a\nb", "\ud83d\ude00", [], {}, [[]],
+    {"a": 1}, "(and)",
 )  # fmt: skip
 
 
@@ -52,9 +56,9 @@ def damaged_json(data: bytes, choose: Random) -> bytes:
     return written if whole else b"".join([*lines[:number], written, *lines[number + 1 :]])
 
 
-def _damage(value: Any, choose: Random) -> None:
+def _damage(value: object, choose: Random) -> None:
     while isinstance(value, dict | list) and value:
-        key = choose.choice(list(value) if isinstance(value, dict) else range(len(value)))
+        key: Any = choose.choice(list(value) if isinstance(value, dict) else range(len(value)))
         inner = value[key]
         if not isinstance(inner, dict | list) or not inner or choose.random() < 0.25:
             if choose.random() < 0.3:
