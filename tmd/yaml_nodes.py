@@ -124,7 +124,9 @@ class _Reader:
     def from_yaml(self, error: yaml.MarkedYAMLError) -> TmdError:
         problem = (error.problem or error.context or "not YAML").replace("\n", " ")
         code = next((code for words, code in _CODES.items() if words in problem), "yaml-syntax")
-        return self.error(error.problem_mark or error.context_mark, f"not YAML: {problem}", code)
+        hint = "indent with blanks, close every bracket, and put text with : # [ or { into quotes"
+        mark = error.problem_mark or error.context_mark
+        return self.error(mark, f"not YAML: {problem}", code, hint if code == "yaml-syntax" else None)
 
     def look_over(self, aliases: bool) -> None:
         depth = nodes = 0

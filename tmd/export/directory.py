@@ -83,7 +83,10 @@ def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
     rmtree(draft, ignore_errors=True)  # of an earlier process with the number of this one, as containers have it
     draft.mkdir(mode=0o700)
     try:
-        _replace_files(draft, files)
+        try:
+            _replace_files(draft, files)
+        except OutputError as error:  # of the directory that was asked for, not of the draft
+            raise OutputError(error.message.replace(str(draft), str(directory)), hint=error.hint) from error
         draft.chmod(0o777 & ~_umask())
         draft.replace(target)
     except BaseException:
