@@ -22,7 +22,7 @@ def fuzzed(work: Path, seed: int, end: float, keep: Path | None, only: int | Non
     ground = fuzz.Ground(work / "ground")
     ground.prepare()
     found: Counter[tuple[str, str]] = Counter()
-    slowest = 0.0
+    slowest = 0.0, 0
     number = only or 0
     while time.monotonic() < end:
         choose = Random(f"{seed}-{number}")
@@ -30,7 +30,7 @@ def fuzzed(work: Path, seed: int, end: float, keep: Path | None, only: int | Non
         case = fuzz.KINDS[kind](ground, choose)
         outcome = ground.run(case)
         found[kind, outcome.fault] += 1
-        slowest = max(slowest, outcome.seconds)
+        slowest = max(slowest, (outcome.seconds, number))
         if outcome.fault:
             print(f"case {number}: {outcome.fault}: tmd {' '.join(map(repr, case.arguments))}", flush=True)
             if keep is not None:
@@ -39,7 +39,7 @@ def fuzzed(work: Path, seed: int, end: float, keep: Path | None, only: int | Non
         number += 1
         if only is not None:
             break
-    print(f"slowest case: {slowest:.1f} s")
+    print(f"slowest case: {slowest[0]:.1f} s, number {slowest[1]}")
     return found
 
 
