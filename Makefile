@@ -54,7 +54,7 @@ job:
 	@$(BIN)/python -c '' 2>/dev/null && { cmp -s pyproject.toml $(STAMP) || cmp -s pyproject.toml $(JOB); } || $(MAKE) --no-print-directory $(JOB)
 
 $(JOB): venv
-	@echo "installing what the main job needs into $(VENV)/: SIZE on disk; stop and go on as you like …"
+	@echo "installing what the main job needs into $(VENV)/: some 1.7 GB on disk; stop and go on as you like …"
 	@$(PIP) --editable '.[fast,robot]'
 	@$(BIN)/python -m tmd.planning || true
 	@cp pyproject.toml $@

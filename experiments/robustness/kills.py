@@ -33,7 +33,7 @@ _RUN = ("experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty,
 JOBS: dict[str, Job] = {
     "fmt": Job(("fmt", "domains/04_tea", "problems/04_tea"), "."),
     "compile": Job(("compile", "04_tea"), "domains"),
-    "export": Job(("export", _PROBLEM, "out", "--format", "adl,json,strips"), "out"),
+    "export": Job(("export", _PROBLEM, "out", "--format", "adl,json,strips", "--overwrite"), "out"),
     "plan --output": Job(("plan", "04_tea", _PROBLEM, "--output", "plan.txt"), "plan.txt"),
     "view": Job(
         ("view", "--environment", "pantry1", "--text", "Heat the kettle.", "--guess", "--out", "page.html"), "page.html"
