@@ -15,9 +15,14 @@ BIN := $(VENV)/bin
 # The copy of pyproject.toml that .venv/ was made from: compared by content, so a fresh checkout of the same
 # file, whatever its date, asks nothing of the network.
 STAMP := $(VENV)/.made-from-pyproject.toml
+# The same for the main job alone, which needs neither what tests need nor a compiler.
+JOB := $(VENV)/.made-for-the-job-from-pyproject.toml
+# The versions that were tested; `make LOCK=` takes the newest that pyproject.toml allows.
+LOCK ?= requirements.lock
+PIP = $(BIN)/python -m pip install --disable-pip-version-check --progress-bar on $(if $(wildcard $(LOCK)),--constraint $(LOCK))
 
 .DEFAULT_GOAL := help
-.PHONY: help setup experiment demo studio test check style format lint types docs examples bench clean
+.PHONY: help setup lock experiment demo studio test check style format lint types docs examples bench clean
 
 help: ## List the targets.
 	@awk -F ':.*## ' '/^[a-z]+:.*## / { printf "  make %-12s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -26,27 +31,44 @@ help: ## List the targets.
 	@echo "  STEP=all|robot|report, ROBOT=kinematic|physics|off, and ARGS='…' for any other option of tmd experiment"
 	@echo "  make demo takes KITCHEN=kitchen4 SEED=N, and ARGS='--kinematic' or any other option of tmd run"
 	@echo "  make studio takes KITCHEN=kitchen4, and ARGS='--port 8081' or any other option of tmd studio"
-	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with"
+	@echo "  every target takes PYTHON=python3.12, the interpreter that .venv/ is made with, and LOCK= for the newest versions"
 
 setup: ## Make .venv/ with everything in it (once; the other targets do it by themselves).
 	@$(BIN)/python -c '' 2>/dev/null && cmp -s pyproject.toml $(STAMP) || $(MAKE) --no-print-directory $(STAMP)
 
-.PHONY: $(STAMP)
-$(STAMP):
+# What is installed and what is downloaded stays where it is when this is stopped: the same command goes on from there.
+.PHONY: venv job $(STAMP) $(JOB)
+venv:
 	@command -v $(PYTHON) >/dev/null || { echo "error: there is no $(PYTHON); name an interpreter, 3.11 or newer: make PYTHON=python3.12" >&2; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "error: tmd needs Python 3.11 or newer, and $(PYTHON) is older; name another: make PYTHON=python3.12" >&2; exit 1; }
 	@$(BIN)/python -c '' 2>/dev/null || $(PYTHON) -m venv --clear $(VENV)
-	@echo "installing into $(VENV)/ …"
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[fast,dev]'
+
+$(STAMP): venv
+	@command -v g++ >/dev/null || { echo "error: there is no g++, which pr2-ikfast is compiled with; install it (apt-get install g++). 'make experiment' and 'make demo' do without" >&2; exit 1; }
+	@echo "installing everything, tests and tools too, into $(VENV)/: some 2.1 GB on disk; stop and go on as you like …"
+	@$(PIP) --editable '.[fast,dev]'
 	@$(BIN)/python -m tmd.planning || true
 	@cp pyproject.toml $@
 
-experiment: setup ## Run the main job: train, predict, score, print the table.
+job:
+	@$(BIN)/python -c '' 2>/dev/null && { cmp -s pyproject.toml $(STAMP) || cmp -s pyproject.toml $(JOB); } || $(MAKE) --no-print-directory $(JOB)
+
+$(JOB): venv
+	@echo "installing what the main job needs into $(VENV)/: some 1.7 GB on disk; stop and go on as you like …"
+	@$(PIP) --editable '.[fast,robot]'
+	@$(BIN)/python -m tmd.planning || true
+	@cp pyproject.toml $@
+
+lock: setup ## Write the versions in .venv/ to requirements.lock, after the tests have passed.
+	@{ grep '^#' requirements.lock; $(BIN)/python -m pip freeze --exclude-editable; } > requirements.lock.new
+	@mv requirements.lock.new requirements.lock
+
+experiment: job ## Run the main job: train, predict, score, print the table.
 	@$(BIN)/tmd experiment --task '$(TASK)' --data '$(DATA)' --out '$(OUT)' \
 		$(if $(VEIL500),--veil500 '$(VEIL500)') $(if $(MODELS),--models '$(MODELS)') \
 		$(if $(JOBS),--jobs '$(JOBS)') $(if $(SEED),--seed '$(SEED)') $(if $(STEP),--step '$(STEP)') --robot '$(ROBOT)' $(ARGS)
 
-demo: setup ## Let a simulated PR2 make the affogato of the paper, and film it.
+demo: job ## Let a simulated PR2 make the affogato of the paper, and film it.
 	@mkdir -p runs/demo
 	@$(BIN)/tmd run --environment '$(KITCHEN)' --text '$(AFFOGATO)' --seed '$(or $(SEED),0)' \
 		--video runs/demo/affogato.mp4 --strip runs/demo/affogato.png --log runs/demo/affogato.jsonl $(ARGS); \

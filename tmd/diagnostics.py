@@ -93,6 +93,12 @@ class TmdError(Exception):
         return f"{place}{self.message}{hint}"
 
 
+class LimitError(TmdError):
+    """Something is too large to be worked out: nothing is proven of it."""
+
+    exit_code = ExitCode.GAVE_UP
+
+
 class OptionError(TmdError):
     """An option that was given has no meaning here, or one that is needed was not given."""
 

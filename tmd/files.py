@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import platform
+import shutil
 import stat
 from contextlib import suppress
 from pathlib import Path
@@ -31,12 +32,13 @@ def write_bytes(path: str | Path, data: bytes) -> None:
     """
     given = Path(path)
     try:
-        target = given.resolve()
+        target = real(given)
         mode = _mode(target)
         if mode is not None and not stat.S_ISREG(mode):
             _write(target, data, os.O_WRONLY)
             return
-        draft = target.with_name(_draft(target.name))
+        remove_leftovers(target)
+        draft = draft_of(target)
         try:
             _write(draft, data, os.O_WRONLY | os.O_CREAT | os.O_TRUNC)
             if mode is not None:
@@ -51,6 +53,11 @@ def write_bytes(path: str | Path, data: bytes) -> None:
             f"{given} cannot be written: {error.strerror or error}",
             hint="check that the directory exists, that you may write there and that the disk has room",
         ) from error
+
+
+def real(path: Path) -> Path:
+    """The path without links, as :meth:`pathlib.Path.resolve`, which fails at a link that points to itself."""
+    return Path(os.path.realpath(path))
 
 
 def make_directory(path: str | Path) -> Path:
@@ -87,12 +94,41 @@ def check_writable(path: str | Path) -> None:
         raise OutputError(f"{target} cannot be written: {reason}", hint="name a file that you may write")
 
 
-def _draft(name: str) -> str:
-    """A name for the new file that no other writer uses: two machines that share a directory may share process ids.
+def draft_of(target: Path) -> Path:
+    """Where this process writes what is to become ``target``: nobody else does, on whatever machine it is.
 
-    The host is in it as a checksum, so that a long host name does not make the file name too long.
+    The host is in the name as a checksum, so that a long host name does not make the file name too long.
     """
-    return f".{name}.{crc32(platform.node().encode()):08x}.{os.getpid()}.part"
+    return target.with_name(f"{_beginning(target)}{os.getpid()}.part")
+
+
+def remove_leftovers(target: Path) -> None:
+    """Remove the drafts of ``target`` that processes of this machine left behind when they were killed."""
+    beginning = _beginning(target)
+    try:
+        names = [entry.name for entry in os.scandir(target.parent) if entry.name.startswith(beginning)]
+    except OSError:
+        return
+    for name in names:
+        number, _, end = name.removeprefix(beginning).partition(".")
+        if end == "part" and number.isdecimal() and not _lives(int(number)):
+            left = target.with_name(name)
+            with suppress(OSError):
+                shutil.rmtree(left) if left.is_dir() else left.unlink()
+
+
+def _beginning(target: Path) -> str:
+    return f".{target.name}.{crc32(platform.node().encode()):08x}."
+
+
+def _lives(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except (ProcessLookupError, OverflowError):
+        return False
+    except OSError:
+        return True
+    return True
 
 
 def _mode(path: Path) -> int | None:

@@ -36,6 +36,11 @@ def kinds(path: Path) -> set[str]:
 
 
 FILES: dict[str, tuple[str, bytes, str]] = {
+    "a chain of types": (
+        "d.pddl",
+        f"(define (domain d) (:types {' '.join(f't{n} - t{n + 1}' for n in range(3_000))}))".encode(),
+        "nested-too-deeply",
+    ),
     "binary": ("d.pddl", b"\x7fELF\x00\x01", "not-text"),
     "utf-16": ("d.pddl", DOMAIN.encode("utf-16"), "not-text"),
     "latin-1": ("d.pddl", b"(define (domain caf\xe9))", "not-utf8"),
@@ -48,7 +53,15 @@ FILES: dict[str, tuple[str, bytes, str]] = {
     "never closed": ("d.pddl", b"(" * 10_000, "unclosed-parenthesis"),
     "only closed": ("d.pddl", b")" * 10_000, "extra-parenthesis"),
     "unterminated string": ("d.pddl", DOMAIN.replace("(full ?m))))", '"(full ?m))))').encode(), "syntax"),
-    "yaml levels": ("objects.yaml", b"[" * 10_000, "yaml-syntax nested-too-deeply"),
+    "yaml levels": ("objects.yaml", b"[" * 10_000, "nested-too-deeply"),
+    "yaml levels on lines of their own": ("objects.yaml", b"[\n" * 60, "nested-too-deeply"),
+    "yaml levels of mappings": ("objects.yaml", b"{a: " * 50_000, "nested-too-deeply"),
+    "yaml values": ("objects.yaml", b"- 1\n" * 500_001, "too-large"),
+    "yaml list as a key": ("objects.yaml", b"? [a]\n: 1\n", "bad-value"),
+    "yaml mapping as a key": ("objects.yaml", b"{{a}}: 1\n", "bad-value"),
+    "yaml digits": ("objects.yaml", b"facts: " + b"9" * 5_000, "yaml-syntax"),
+    "yaml no day": ("objects.yaml", b"facts: 2020-02-30", "yaml-syntax"),
+    "yaml no number": ("objects.yaml", b"facts: 0x_", "yaml-syntax"),
     "yaml bomb": ("objects.yaml", b"a: &a [x]\nb: &b [*a, *a]\nc: [*b, *b]\n", "yaml-alias"),
     "yaml tag": ("objects.yaml", b"facts: !!python/object/apply:os.system [ls]\n", "yaml-tag"),
     "yaml twice": ("objects.yaml", b"facts: []\nfacts: []\n", "duplicate-key"),
@@ -57,6 +70,8 @@ FILES: dict[str, tuple[str, bytes, str]] = {
     "classes without instructions": ("objects.yaml", b"facts: []\n", "missing-file"),
     "json": ("demonstrations.jsonl", b'{"id": \n', "json-syntax"),
     "json levels": ("demonstrations.jsonl", b"[" * 100_000 + b"\n", "nested-too-deeply"),
+    "json digits": ("demonstrations.jsonl", b'{"id": ' + b"9" * 5_000 + b"}", "json-syntax"),
+    "planviz digits": ("domain.planviz.json", b"9" * 5_000, "json-syntax"),
     "json list": ("demonstrations.jsonl", b"[1]\n", "bad-demonstration"),
     "planviz": ("planviz.json", b"[1, 2", "json-syntax"),
     "planviz list": ("domain.planviz.json", b"[1, 2]", "bad-value"),

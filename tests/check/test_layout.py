@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
+from tmd.format.files import format_file
 from tmd.format.pddl_layout import WIDTH, format_pddl
 from tmd.format.yaml_layout import format_yaml
 from tmd.pddl.reading.reader import parse_domain
@@ -124,3 +125,24 @@ def test_any_yaml(data: dict[str, object], indent: int, flow: bool) -> None:
         assert yaml.safe_load(laid) == before
         assert format_yaml(laid) == laid
         assert re.findall(r"# note \d+", laid) == re.findall(r"# note \d+", source)
+
+
+TOO_MUCH = {
+    "levels of PDDL": ("x.pddl", "(" * 101 + ")" * 101, "nested-too-deeply"),
+    "PDDL": ("x.pddl", "(a)" * 3_500_000, "too-large"),
+    "levels of YAML": ("x.yaml", "[" * 100_000, "nested-too-deeply"),
+    "YAML": ("x.yaml", "- a\n" * 300_000, "too-large"),
+    "words on one line": ("x.pddl", f"(define (domain d) (:types {'a ' * 30_000}))", "too-large"),
+}
+
+
+@pytest.mark.parametrize("kind", TOO_MUCH)
+def test_what_is_too_much_is_refused_as_by_check(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str) -> None:
+    monkeypatch.setattr("tmd.format.pddl_layout._MOST_WORK", 300_000)  # the whole of it takes half a minute
+    name, text, code = TOO_MUCH[kind]
+    path = tmp_path / name
+    path.write_text(text)
+    with pytest.raises(TmdError) as caught:
+        format_file(path)
+    assert caught.value.code == code
+    assert path.read_text() == text

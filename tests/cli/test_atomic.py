@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import platform
 import stat
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
 from tmd.diagnostics import OutputError
-from tmd.files import make_directory, write_bytes, write_text
+from tmd.files import draft_of, make_directory, write_bytes, write_text
 
 
 def names(directory: Path) -> list[str]:
@@ -118,3 +120,17 @@ def test_directories(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(OutputError):
         make_directory(tmp_path / "file" / "b")
+
+
+def test_what_killed_writers_left_is_removed_by_the_next(tmp_path: Path) -> None:
+    target = tmp_path / "out.txt"
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    draft = draft_of(target)
+    for process in (dead.pid, os.getppid()):
+        draft.with_name(draft.name.replace(f".{os.getpid()}.", f".{process}.")).write_text("half")
+    other_host = draft.with_name(f".out.txt.00000000.{dead.pid}.part")
+    other_host.write_text("half")
+    write_text(target, "whole")
+    assert f".{dead.pid}." not in "".join(set(names(tmp_path)) - {other_host.name})
+    assert len(names(tmp_path)) == 3  # what another machine, or a process that lives, writes is not ours to remove

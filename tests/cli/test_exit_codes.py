@@ -349,3 +349,54 @@ def test_every_code_is_provoked() -> None:
         ExitCode.INTERNAL, ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED, ExitCode.PLANNER_FAILED,
     }  # fmt: skip
     assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)
+
+
+PACKAGES = {
+    "click": ["--help"],
+    "yaml": ["check", ROOT / "domains" / "02_table"],
+    "pydantic": ["check", ROOT / "domains" / "02_table"],
+    "numpy": ["plan", "01_blocks", ROOT / "problems" / "01_blocks" / "p01-tower-yard2.pddl"],
+    "joblib": ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "chance", "--out", "run"],
+}
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_a_package_that_tmd_cannot_do_without(tmd: Tmd, package: str) -> None:
+    ended = tmd(*PACKAGES[package], before=f"import sys; sys.modules['{package}'] = None")
+    assert ended.code == ExitCode.MISSING_TOOL
+    assert ended.err.splitlines()[-2:] == [
+        f"error: the package {package} is missing or damaged",
+        "hint: install tmd again, with all that it needs: pip install tmd",
+    ]
+
+
+@pytest.mark.parametrize("inside", [False, True])
+def test_a_link_to_itself(tmd: Tmd, tmp_path: Path, inside: bool) -> None:
+    (tmp_path / "loop").symlink_to("loop")
+    (tmp_path / "folder").mkdir()
+    (tmp_path / "folder" / "x.pddl").symlink_to("x.pddl")
+    target = "loop/x" if inside else "loop"
+    for arguments in (["plan", DOMAIN, PROBLEM, "--output", target], ["export", PROBLEM, target]):
+        ended = tmd(*arguments)
+        assert ended.code == ExitCode.CANNOT_WRITE
+        assert ended.err.startswith(f"error: {target} cannot be written: ")
+    ended = tmd("check", "folder")
+    assert ended.code == ExitCode.FAULTS_FOUND
+    assert "folder/x.pddl:1:1: error[unreadable]" in ended.out
+
+
+def test_a_damaged_part_of_a_run_is_named_and_done_again(tmd: Tmd, tmp_path: Path) -> None:
+    command = ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", "run", "--jobs", "1"]
+    assert tmd(*command).code == ExitCode.OK
+    results = (tmp_path / "run" / "metrics.json").read_bytes()
+    part = min((tmp_path / "run" / "parts").iterdir())
+    part.write_text(re.sub(r'"task": "[a-z_]*", ', "", part.read_text()))
+    told = f"damaged, so to be done again: {part.name}: this is not a prediction of tmd experiment: task: the key is "
+    ended = tmd(*command, "--step", "report")
+    assert ended.code == ExitCode.BAD_INPUT
+    assert told in ended.err
+    ended = tmd(*command)
+    assert ended.code == ExitCode.OK
+    assert told in ended.err
+    assert (tmp_path / "run" / "metrics.json").read_bytes() == results
+    assert told not in tmd(*command).err

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -227,3 +230,34 @@ def test_domains_of_ones_own(tmd: Tmd, tmp_path: Path) -> None:
     ended = tmd(*asked)
     assert ended.code == ExitCode.NOT_GROUNDED
     assert ended.err.startswith("no plan: clause 1: ")
+
+
+CLOSED = {
+    "help": (["--help"], ExitCode.OK),
+    "version": (["--version"], ExitCode.OK),
+    "wrong": (["bogus"], ExitCode.USAGE),
+    "parse": (["parse", "--text", "Boil water.", "--json"], ExitCode.OK),
+    "standard input": (["parse", "--text-file", "-"], ExitCode.BAD_INPUT),
+    "view": (["view", "-"], ExitCode.BAD_INPUT),
+    "check": (["check", BLOCKS], ExitCode.OK),
+}
+
+
+@pytest.mark.parametrize("closed", [(1,), (0, 1, 2)], ids=str)
+@pytest.mark.parametrize("command", CLOSED)
+def test_closed_streams_are_as_good_as_nothing(tmp_path: Path, command: str, closed: tuple[int, ...]) -> None:
+    arguments, code = CLOSED[command]
+    redirections = " ".join(f"{number}{'<' if number == 0 else '>'}&-" for number in closed)
+    line = f'"$@" {redirections}'
+    done = subprocess.run(
+        ["sh", "-c", line, "sh", sys.executable, "-m", "tmd", *map(str, arguments)],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        input=b"",
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == code
+    told = (done.stdout + done.stderr).decode()
+    assert "Traceback" not in told and "internal error" not in told

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -104,8 +105,26 @@ def test_what_differs_is_told(tmp_path: Path) -> None:
         lambda text: text.replace('"IED"', '"IEED"'),
         lambda text: "[1]\n",
         lambda text: "",
+        lambda text: re.sub(r'"task": "[a-z_]*", ', "", text, count=1),
+        lambda text: re.sub(r'"task": "[a-z_]*"', '"task": "another"', text, count=1),
+        lambda text: re.sub(r'"environment": "[a-z0-9]*"', '"environment": "elsewhere"', text, count=1),
+        lambda text: re.sub(r'"IED": [0-9.]+', '"IED": "5"', text, count=1),
+        lambda text: re.sub(r'"IED": [0-9.]+', '"IED": 5e9', text, count=1),
     ],
-    ids=["no JSON", "cut", "line lost", "of another model", "no score", "no object", "empty"],
+    ids=[
+        "no JSON",
+        "cut",
+        "line lost",
+        "of another model",
+        "no score",
+        "no object",
+        "empty",
+        "no task",
+        "another task",
+        "another environment",
+        "a score that is text",
+        "a score out of range",
+    ],
 )
 def test_a_damaged_part_is_done_again(tmp_path: Path, damage: Callable[[str], str]) -> None:
     quick = config(tmp_path, models=("empty",), test_environments=(1, 2))

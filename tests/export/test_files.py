@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,7 @@ from tmd.export.directory import write_directory
 from tmd.export.formats import FORMATS, chosen_files
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.export.record import format_record, format_schema, parse_record
+from tmd.files import draft_of
 from tmd.pddl.model import TRUE, Instruction
 from tmd.pddl.plan_file import parse_plan
 from tmd.pddl.reading.reader import parse_domain, parse_problem
@@ -170,3 +173,28 @@ def test_a_directory_that_may_not_be_written_is_refused(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(OutputError, match="permission denied"):
         write_directory(tmp_path / "new", FILES)
+
+
+def test_a_full_disk_names_the_directory_that_was_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OutputError) as caught:
+        write_directory(tmp_path / "out", {"a/domain.pddl": b"x"})
+    told = f"{tmp_path / 'out' / 'a' / 'domain.pddl'} cannot be written: No space left on device"
+    assert caught.value.message == told
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_draft_of_a_killed_export_is_removed_by_the_next(tmp_path: Path) -> None:
+    dead = subprocess.Popen([sys.executable, "-c", ""])
+    dead.wait()
+    draft = draft_of(tmp_path / "out")
+    left = draft.with_name(draft.name.replace(f".{os.getpid()}.", f".{dead.pid}."))
+    for folder in (left, draft):  # of another process, and of an earlier one with the number of this one
+        folder.mkdir()
+        (folder / "half").write_text("")
+    write_directory(tmp_path / "out", {"domain.pddl": b"x"})
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+    assert [path.name for path in (tmp_path / "out").iterdir()] == ["domain.pddl"]

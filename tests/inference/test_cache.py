@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import shutil
 from collections.abc import Callable
 from pathlib import Path
@@ -143,3 +144,33 @@ def test_a_kit_asks_once_what_its_domain_teaches(
     plans = [kit.ground(SAID, "corner1").plans[0].instructions for _ in range(3)]
     assert plans[0] == plans[1] == plans[2] != ()
     assert asked == [NAME]
+
+
+WRONG = {
+    "a template without variables": ("library.json", b'"variables":{"', b'"variables":{},"was":{"'),
+    "a number for a class": ("library.json", b'"source":"', b'"source":1,"was":"'),
+    "a profile that is none": ("library.json", b'"profiles":[', b'"profiles":[["at"],'),
+    "a policy of words": ("policy.json", b'"longest":', b'"longest":"9","was":'),
+    "no number": ("policy.json", b'"before":', b'"before":1e999,"was":'),
+    "a header that numpy cannot parse": ("policy.npy", b"{'descr'", b"{'descr("),
+    "weights that overflow": ("policy.npy", b"", b""),
+}
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_wrong_contents_are_not_used_though_their_checksums_fit(
+    kind: str, table: Callable[[], Corpus], cache: Path, studied: list[str]
+) -> None:
+    first = known(table())
+    (kept,) = cache.iterdir()
+    name, right, wrong = WRONG[kind]
+    content = (kept / name).read_bytes()
+    assert right in content
+    changed = content.replace(right, wrong, 1) if right else content[:-8] + b"\xff" * 6 + b"\xef\x7f"
+    (kept / name).write_bytes(changed)
+    manifest = kept / "learned.json"
+    sums = [hashlib.sha256(part).hexdigest() for part in (content, changed)]
+    assert sums[0] in manifest.read_text()
+    manifest.write_text(manifest.read_text().replace(*sums))
+    assert same(known(table()), first)
+    assert studied == [NAME] * 2

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from tmd.inference.learned import plain, restored
+from tmd.inference.learned import read_record, record_value
 from tmd.language import parse
 from tmd.language.clause import Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 
@@ -28,7 +28,7 @@ WHOLE = Clause(
 
 
 def there_and_back(clause: Clause) -> Clause:
-    return restored(Clause, json.loads(json.dumps(plain(clause))))
+    return read_record(Clause, json.dumps(record_value(clause)).encode())
 
 
 @pytest.mark.parametrize("clause", [WHOLE, Clause("wait")], ids=["all fields", "one field"])
@@ -46,7 +46,9 @@ def test_what_is_parsed_comes_back_whole() -> None:
     assert [repr(there_and_back(clause)) for clause in clauses] == [repr(clause) for clause in clauses]
 
 
-@pytest.mark.parametrize("data", [{"verb": "put", "colour": "red"}, {"verb": "put", "span": [1]}, [], {"mood": "sad"}])
-def test_what_is_none_is_refused(data: object) -> None:
-    with pytest.raises((KeyError, TypeError, ValueError, AttributeError)):
-        restored(Clause, data)
+@pytest.mark.parametrize(
+    "data", ['{"verb": "put", "span": [1]}', "[]", '{"mood": "sad"}', '{"verb": 1}', "{", '{"verb": "a"}]']
+)
+def test_what_is_none_is_refused(data: str) -> None:
+    with pytest.raises(ValueError):
+        read_record(Clause, data.encode())

@@ -39,14 +39,16 @@ def test_an_empty_file_is_an_empty_lexicon(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "line", "column", "message", "hint"),
     [
-        ("verbs: [a\n", 2, 1, "broken YAML", None),
+        ("verbs: [a\n", 2, 1, "not YAML", None),
         ("verb: [take]\n", 1, 1, "unknown key 'verb'", "did you mean 'verbs'?"),
         ("verbs: take\n", 1, 8, "expected a list", None),
         ("verbs: [Take]\n", 1, 9, "'Take' is not a name", None),
         ("verbs: [[a]]\n", 1, 9, "expected a name", None),
         ("nouns:\n  pot: {a: b}\n", 2, 8, "expected a list", None),
         ("nouns: [pot]\n", 1, 8, "expected 'name: value' pairs", None),
-        ("nouns:\n  pot: a\n  pot: b\n", 3, 3, "'pot' stands twice", "first in line 2"),
+        ("nouns:\n  pot: a\n  pot: b\n", 3, 3, "the key 'pot' stands here twice", None),
+        ("{{verbs}}: 1\n", 1, 1, "a mapping cannot be a key", None),
+        ("verbs: &a [take]\nnouns: *a\n", 2, 8, "aliases are not accepted", "write the value out"),
         ("phrasal:\n  fire: heat\n", 2, 3, "'fire' has no particle", None),
         ("verb_synonyms: {a: b, b: c}\n", 1, 17, "'a' stands for 'b'", "write 'a: c'"),
         ("- verbs\n", 1, 1, "expected 'name: value' pairs", None),

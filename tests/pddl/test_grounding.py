@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import LimitError, TmdError
 from tmd.pddl import semantics
 from tmd.pddl.grounding.ground_task import ground, ground_condition
 from tmd.pddl.model import Instruction, Problem, State, universe
@@ -196,3 +196,31 @@ def test_a_cost_without_a_value_is_refused() -> None:
 def test_forced_instructions_must_exist(problem: Problem) -> None:
     with pytest.raises(TmdError, match='unknown action "fly"'):
         ground(problem, forced=[Instruction("fly")])
+
+
+HUGE = {
+    "parameters": (30, "(and {p})", "(done)"),
+    "parameters without a condition": (30, "()", "(done)"),
+    "an effect": (0, "()", "(forall ({b}) (when (and (p ?b0) (p ?b1) (p ?b2) (p ?b3) (p ?b4)) (q ?b5)))"),
+    "a precondition": (0, "(exists ({b}) (and (q ?b0) (q ?b1)))", "(forall (?x) (q ?x))"),
+    "a static precondition": (0, "(forall ({b}) (or (p ?b0) (q ?b5)))", "(done)"),
+}
+
+
+@pytest.mark.parametrize("kind", HUGE)
+def test_what_is_too_large_is_counted_before_it_is_written_down(kind: str) -> None:
+    count, condition, effect = HUGE[kind]
+    names = [f"?a{n}" for n in range(count)]
+    filled = {"p": " ".join(f"(p {name})" for name in names), "b": " ".join(f"?b{n}" for n in range(6))}
+    domain = parse_domain(
+        "(define (domain d) (:requirements :adl) (:predicates (p ?x) (q ?x) (done)) (:action a :parameters "
+        f"({' '.join(names)}) :precondition {condition.format(**filled)} :effect {effect.format(**filled)}))"
+    )
+    things = [f"o{n}" for n in range(30)]
+    problem = parse_problem(
+        f"(define (problem p) (:domain d) (:objects {' '.join(things)})"
+        f" (:init {' '.join(f'(p {o})' for o in things)}) (:goal (done)))",
+        domain,
+    )
+    with pytest.raises(LimitError, match="more than"):
+        ground(problem)

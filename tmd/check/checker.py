@@ -21,6 +21,7 @@ from tmd.check.pddl_file import (
     kind_and_name,
 )
 from tmd.diagnostics import Location, TmdError
+from tmd.files import real
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import Source, read_text, split_lines
 from tmd.world.folder import find_domain
@@ -49,7 +50,7 @@ def find_domain_file(problem: Path, name: str, domains: Path | None) -> FoundDom
     The first of: a domain of that name beside the problem or one directory above; the known domain of that name;
     a file ``domain.pddl`` beside the problem, whatever its name.
     """
-    here = problem.resolve().parent
+    here = real(problem).parent
     for directory in (here, here.parent):
         named = domains_in(directory).get(name, ())
         if named:
@@ -74,7 +75,7 @@ def _best(named: Sequence[Path], problem: Path) -> Path | None:
     """Of several domains with one name: ``domain.pddl``, the one of the same number, or of the folder's name."""
     if len(named) == 1 or named[0].name == "domain.pddl":
         return named[0]
-    here = problem.resolve().parent
+    here = real(problem).parent
     number = re.findall(r"[0-9]+", problem.stem)
     numbered = [p for p in named if p.parent == here and number and re.findall(r"[0-9]+", p.stem) == number]
     folders = (here.name, re.sub(r"[_-](test|train|training|validation)$", "", here.name))
@@ -86,7 +87,7 @@ def _best(named: Sequence[Path], problem: Path) -> Path | None:
 
 def _shown(found: Path, problem: Path) -> Path:
     """``found`` in the way in which the problem's own path was written."""
-    if found.parent == problem.resolve().parent:
+    if found.parent == real(problem).parent:
         return problem.parent / found.name
     above = problem.parent.parent if problem.parent.name not in ("", "..") else problem.parent / ".."
     return above / found.name
@@ -157,9 +158,9 @@ class Checker:
         if not path.is_dir():
             self.check_file(path)
             return
-        inside = path.resolve()
+        inside = real(path)
         for file in files:
-            if file.is_symlink() and not file.resolve().is_relative_to(inside):
+            if file.is_symlink() and not real(file).is_relative_to(inside):
                 place = Location(str(file), 1, 1)
                 hint = "put the file itself there"
                 self.report(TmdError("leads out of the folder", location=place, hint=hint, code="outside-folder"), file)
@@ -205,7 +206,7 @@ class Checker:
             self._problem(file, text)
 
     def _domain(self, file: Path, text: str | None = None) -> CheckedDomain | None:
-        key = file.resolve()
+        key = real(file)
         if key not in self._checked:
             self._checked[key] = None
             text = self.read(file) if text is None else text
@@ -229,8 +230,8 @@ class Checker:
             self._not_found(name, result.source, found.others)
         faulty = any(SEVERITY.get(fault.code) is not Severity.WARNING for fault in result.faults)
         if path is not None and result.problem is not None and not faulty and checked is not None and checked.sound:
-            self._problems.setdefault(path.resolve(), []).append(result.problem)
-        self._read[file.resolve()] = None if faulty or checked is None else result.problem
+            self._problems.setdefault(real(path), []).append(result.problem)
+        self._read[real(file)] = None if faulty or checked is None else result.problem
 
     def _meant(self, name: str) -> Path | None:
         """The domain among the files given that a problem means that names none of them, if there is only one such."""
@@ -248,7 +249,7 @@ class Checker:
 
     def problem(self, file: Path) -> Problem | None:
         """The problem in ``file``; ``None`` where it or its domain has faults, which are told."""
-        key = file.resolve()
+        key = real(file)
         if key not in self._read:
             self._read[key] = None
             self.check_file(file)

@@ -13,6 +13,7 @@ from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic, Findings
 from tmd.check.lint.problem import lint_cases
 from tmd.diagnostics import Location, TmdError
+from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
@@ -224,7 +225,7 @@ _ONE_LETTER = 0.65
 
 def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
     """Whether something was told of the folder of a domain."""
-    return Path(diagnostic.location.file).resolve().parent == folder.path.resolve()
+    return real(Path(diagnostic.location.file)).parent == real(folder.path)
 
 
 class FaultCollector(Protocol):
@@ -281,7 +282,7 @@ class DataFiles:
     def _folder(self, file: Path) -> DomainFolder:
         """The domain folder that ``file`` lies in."""
         path = file.parent
-        return self._folders.setdefault(path.resolve(), DomainFolder(path.resolve() if path == Path() else path))
+        return self._folders.setdefault(real(path), DomainFolder(real(path) if path == Path() else path))
 
     def _objects(self, file: Path) -> None:
         folder = self._folder(file)
@@ -314,8 +315,8 @@ class DataFiles:
 
     def _beside(self, folder: Path) -> Path | None:
         """The problems of a domain: those beside its folder, or the known ones."""
-        name = folder.resolve().name
-        beside = folder.resolve().parent.parent / "problems" / name
+        name = real(folder).name
+        beside = real(folder).parent.parent / "problems" / name
         try:
             return beside if beside.is_dir() else find_problems(name, self.checker.problems)
         except TmdError:
@@ -362,7 +363,7 @@ class DataFiles:
         check_planviz(file, self._report(file))
 
     def _environment(self, file: Path) -> None:
-        key = file.resolve()
+        key = real(file)
         if key not in self._worlds:
             self._worlds[key] = None
             faults: list[TmdError] = []
@@ -381,7 +382,7 @@ class DataFiles:
         """The folder of the domain ``name``: near the environment, or the known one."""
         if Path(name).name != name:
             raise YamlSource(file).error(("domain",), f"'{name}' is not a name of a domain", None, "outside-folder")
-        for above in list(file.resolve().parents)[:4]:
+        for above in list(real(file).parents)[:4]:
             path = above / "domains" / name
             if (path / "domain.pddl").is_file():
                 return self._folders.setdefault(path, DomainFolder(path))
@@ -389,7 +390,7 @@ class DataFiles:
             found = find_domain(name, self.checker.domains)
         except TmdError as error:
             raise YamlSource(file).error(("domain",), error.message, error.hint, "unknown-domain") from None
-        return self._folders.setdefault(found.path.resolve(), found)
+        return self._folders.setdefault(real(found.path), found)
 
     def _demonstrations(self, file: Path) -> None:
 
@@ -400,9 +401,9 @@ class DataFiles:
             path = environments[name]
             if path.suffix == ".pddl":
                 return self.checker.problem(path)
-            if path.resolve() not in self._worlds:
+            if real(path) not in self._worlds:
                 self.check(path)
-            return self._worlds.get(path.resolve())
+            return self._worlds.get(real(path))
 
         check_demonstrations(file, world, sorted(environments), self._report(file))
 

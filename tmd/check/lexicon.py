@@ -73,7 +73,7 @@ def texts_of(path: Path) -> list[str]:
     for line in lines:
         try:
             said = json.loads(line)
-        except (json.JSONDecodeError, RecursionError):
+        except (ValueError, RecursionError):
             continue
         if isinstance(said, dict) and isinstance(said.get("text"), str):
             texts.append(said["text"])

@@ -36,6 +36,9 @@ def check_planviz(path: Path, report: Report) -> None:
     except RecursionError:
         place = Location(str(path), 1, 1)
         raise TmdError("nested too deeply", location=place, code="nested-too-deeply") from None
+    except ValueError:  # Python reads no number of more than 4,300 digits
+        place = Location(str(path), 1, 1)
+        raise TmdError("a number has too many digits", location=place, code="json-syntax") from None
     if not isinstance(said, dict):
         raise TmdError(f"{SUFFIX} is a JSON object", location=Location(str(path), 1, 1), code="bad-value")
     actions = _actions(path)

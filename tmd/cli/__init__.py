@@ -22,6 +22,22 @@ def main() -> None:
     # we have no plugins of pydantic, and to look for some among all that is installed takes longer than a small file
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     gc.set_threshold(ALLOCATIONS)
-    from tmd.cli.program import run
+    from tmd.cli.output import open_closed_streams
+
+    open_closed_streams()
+    try:
+        from tmd.cli.program import run
+    except ModuleNotFoundError as error:  # not yet able to say so as every other fault is told
+        if error.name is None or error.name.startswith("tmd"):
+            raise
+        sys.exit(_missing(error.name))
 
     sys.exit(run(sys.argv[1:]))
+
+
+def _missing(package: str) -> int:
+    from tmd.diagnostics import ExitCode
+
+    hint = "install tmd again, with all that it needs: pip install tmd"
+    sys.stderr.write(f"error: the package {package} is missing or damaged\nhint: {hint}\n")
+    return ExitCode.MISSING_TOOL

@@ -78,6 +78,11 @@ def fault_of(error: BaseException) -> Fault:
         return Fault(ExitCode.BAD_INPUT, f"text that is not UTF-8: {error}", hint="save it as UTF-8")
     if isinstance(error, OSError):
         return _system_fault(error)
+    if isinstance(error, ImportError) and error.name and error.name.partition(".")[0] != "tmd":
+        message = f"the package {error.name.partition('.')[0]} is missing or damaged"
+        return Fault(ExitCode.MISSING_TOOL, message, hint="install tmd again, with all that it needs: pip install tmd")
+    if isinstance(error, RuntimeError) and str(error).startswith("Symlink loop"):  # of Path.resolve
+        return Fault(ExitCode.BAD_INPUT, one_line(str(error)), hint="name a file that is there")
     return _internal(error)
 
 

@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from io import TextIOWrapper
 
 from tmd.format.json_layout import lay_out
+
+
+def open_closed_streams() -> None:
+    """Let the standard streams that were closed when the program began read nothing, and write to nowhere.
+
+    Daemons and schedulers start programs like that. The next file that is opened would else be given the number of the
+    closed stream, and a library that prints would print into it.
+    """
+    for number, (name, mode) in enumerate((("stdin", "r"), ("stdout", "w"), ("stderr", "w"))):
+        try:
+            os.fstat(number)
+        except OSError:
+            opened = os.open(os.devnull, os.O_RDWR)
+            if opened != number:
+                os.dup2(opened, number)
+                os.close(opened)
+            os.set_inheritable(number, True)
+            setattr(sys, name, open(number, mode, encoding="utf-8", closefd=False))  # noqa: SIM115 - it stays open
 
 
 def emit(text: str, *, error: bool = False) -> None:

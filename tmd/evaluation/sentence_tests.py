@@ -101,6 +101,8 @@ def _read_line(line: str, place: Location) -> SentenceTest:
         raise TmdError(f"the line is not valid JSON: {error.msg}", location=where) from None
     except RecursionError:
         raise TmdError("the line is nested too deeply", location=place) from None
+    except ValueError:  # Python reads no number of more than 4,300 digits
+        raise TmdError("a number of the line has too many digits", location=place) from None
     hint = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
     if not isinstance(data, dict):
         raise TmdError("a sentence test is a JSON object", location=place, hint=hint)

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
 from tmd.diagnostics import OutputError
-from tmd.files import write_bytes
+from tmd.files import draft_of, real, remove_leftovers, write_bytes
 
 
 def check_directory(directory: Path, *, overwrite: bool = False) -> None:
@@ -76,12 +75,18 @@ def _replace_files(directory: Path, files: Mapping[str, bytes]) -> None:
 
 def _appear(directory: Path, files: Mapping[str, bytes]) -> None:
     """Write everything beside ``directory`` and rename it; an empty directory is replaced by that."""
-    target = directory.resolve()
+    target = real(directory)
     above = [parent for parent in target.parents if not parent.exists()]
     target.parent.mkdir(parents=True, exist_ok=True)
-    draft = Path(tempfile.mkdtemp(prefix=f".{target.name[:100]}.", suffix=".part", dir=target.parent))
+    remove_leftovers(target)
+    draft = draft_of(target)
+    rmtree(draft, ignore_errors=True)  # of an earlier process with the number of this one, as containers have it
+    draft.mkdir(mode=0o700)
     try:
-        _replace_files(draft, files)
+        try:
+            _replace_files(draft, files)
+        except OutputError as error:  # of the directory that was asked for, not of the draft
+            raise OutputError(error.message.replace(str(draft), str(directory)), hint=error.hint) from error
         draft.chmod(0o777 & ~_umask())
         draft.replace(target)
     except BaseException:

@@ -17,6 +17,11 @@ from tmd.pddl.reading.syntax import parse, split_lines
 WIDTH = 120
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+MAX_CHARACTERS = 10_000_000
+"""Longer texts are refused, as `tmd check` refuses them."""
+_MOST_WORK = 3_000_000
+"""Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000."""
+_DEEPEST = 100
 _LOOSE = 2
 """A comment that many blanks behind the code follows it; farther away it stands in a column."""
 _TOP = frozenset({"define", ":action"})
@@ -74,14 +79,23 @@ def format_pddl(text: str, file: str = "<text>") -> str:
     """``text`` laid out; the same tokens and comments in the same order.
 
     Raises:
-        TmdError: Its parentheses do not match, so nothing can be laid out.
+        TmdError: Its parentheses do not match, so nothing can be laid out, or it is too large or too deep.
     """
+    if len(text) > MAX_CHARACTERS:
+        message = f"{file}: larger than {MAX_CHARACTERS // 1_000_000} MB"
+        raise TmdError(message, hint="this is not a file of tmd", code="too-large")
     _refuse_unbalanced(text, file)
     tokens = list(_broken(_tokens(text)))
+    work = 0
     while True:
+        work += len(tokens)
+        if work > _MOST_WORK:
+            place = Location(file, 1, 1)
+            hint = "break its longest lines first, to some 100 characters"
+            raise TmdError("there is too much on too few lines", location=place, hint=hint, code="too-large")
         lines, starts = _lay_out(tokens)
         wider = next((n for n, line in enumerate(lines) if len(line.partition(";")[0].rstrip()) > WIDTH), None)
-        if wider is None or not _break_line(tokens, starts[wider], starts[wider + 1]):
+        if wider is None or not _break_line(tokens, starts[wider], starts[wider + 1], len(lines[wider])):
             break
     laid = "\n".join(lines) + "\n" if lines else ""
     if [t.text for t in _tokens(laid)] != [t.text for t in tokens]:
@@ -91,14 +105,18 @@ def format_pddl(text: str, file: str = "<text>") -> str:
 
 def _refuse_unbalanced(text: str, file: str) -> None:
     """What else may be wrong does not keep a text from being laid out."""
-    depth = 0
+    depth = deepest = 0
     for token in _tokens(text):
         depth += {"(": 1, ")": -1}.get(token.text, 0)
+        deepest = max(depth, deepest)
         if depth < 0:
             break
     if depth:
         parse(text, file)
         raise TmdError("the parentheses do not match", location=Location(file, 1, 1), code="unclosed-parenthesis")
+    if deepest > _DEEPEST:
+        message, place = f"nested more than {_DEEPEST} levels deep", Location(file, 1, 1)
+        raise TmdError(message, location=place, hint="write it with fewer levels", code="nested-too-deeply")
 
 
 def _tokens(text: str) -> list[_Token]:
@@ -215,8 +233,8 @@ def _enter(token: _Token, stack: list[_Open], column: int, indent: int, fresh: b
         stack.append(_Open(column, indent, was=(token.column, token.indent)))
 
 
-def _break_line(tokens: list[_Token], start: int, end: int) -> bool:
-    """Break the line of the tokens from ``start`` to ``end``: at the children of its outermost group, or when full."""
+def _break_line(tokens: list[_Token], start: int, end: int, length: int) -> bool:
+    """Break the line of the tokens from ``start`` to ``end``, of ``length`` columns: at its groups, or when full."""
     opened: list[int] = []
     children: dict[int, list[int]] = {}
     for number in range(start, end):
@@ -234,13 +252,11 @@ def _break_line(tokens: list[_Token], start: int, end: int) -> bool:
             for number in inner:
                 tokens[number] = replace(tokens[number], breaks=max(tokens[number].breaks, 1))
             return True
-    return _fill(tokens, start, end)
+    return _fill(tokens, start, end, length)
 
 
-def _fill(tokens: list[_Token], start: int, end: int) -> bool:
+def _fill(tokens: list[_Token], start: int, end: int, column: int) -> bool:
     """Break a line of words before the first word that goes beyond the width."""
-    lines, _ = _lay_out(tokens[:end])
-    column = len(lines[-1])
     for number in range(end - 1, start + 1, -1):
         text = tokens[number].text
         column -= len(text) + (text not in "()")

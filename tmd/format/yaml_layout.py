@@ -12,7 +12,10 @@ import yaml
 
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.reading.syntax import split_lines
+from tmd.yaml_nodes import look_over
 
+MAX_CHARACTERS = 1_000_000
+"""Longer texts are refused: what says where comments stand reads some 100,000 characters a second."""
 _OPENING = (yaml.FlowMappingStartToken, yaml.FlowSequenceStartToken)
 _CLOSING = (yaml.FlowMappingEndToken, yaml.FlowSequenceEndToken)
 _BLOCKS = (yaml.BlockMappingStartToken, yaml.BlockSequenceStartToken)
@@ -33,8 +36,12 @@ def format_yaml(text: str, file: str = "<text>") -> str:
     """``text`` laid out; the same data and comments in the same order.
 
     Raises:
-        TmdError: It is not YAML.
+        TmdError: It is not YAML, or it is too large or too deep.
     """
+    if len(text) > MAX_CHARACTERS:
+        message = f"{file}: larger than {MAX_CHARACTERS // 1_000_000} MB"
+        raise TmdError(message, hint="larger files are not laid out", code="too-large")
+    look_over(text, file)
     lines = [line.rstrip() for line in split_lines(text)]
     clean = "\n".join(lines).strip("\n") + "\n"
     if clean == "\n":

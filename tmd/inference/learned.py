@@ -17,16 +17,17 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import MISSING, Field, dataclass, fields, is_dataclass
-from enum import Enum
-from functools import cache, lru_cache
+from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
-from types import NoneType, TracebackType, UnionType
-from typing import Any, Self, TypeVar, Union, get_args, get_origin, get_type_hints
+from types import TracebackType
+from typing import Annotated, Any, Self, TypeAlias, TypeVar
 
 import numpy as np
+import numpy.typing as npt
+from pydantic import Field, TypeAdapter
 
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import make_directory, write_bytes
@@ -44,71 +45,83 @@ from tmd.veil.template import Template
 from tmd.veil.world import Profile
 
 _T = TypeVar("_T")
+Floats: TypeAlias = npt.NDArray[np.float64]
 
 
-def plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
-    """What :func:`restored` makes the same value of; fields of a dataclass that have their default are left out."""
-    if is_dataclass(value):
-        pairs = ((field, getattr(value, field.name)) for field in fields(value))
-        return {field.name: plain(part) for field, part in pairs if part != _default(field)}
-    if isinstance(value, Mapping):
-        return {key: plain(part) for key, part in value.items()}
-    if isinstance(value, tuple):
-        return [plain(part) for part in value]
-    return value.value if isinstance(value, Enum) else value
+@dataclass(frozen=True, slots=True)
+class TemplateRecord:
+    """A template as ``library.json`` has it; profiles are numbers of :attr:`LibraryRecord.profiles`.
+
+    ``instructions`` have the name of the action first; ``variables`` have object, class, and the profiles before and
+    after; ``links`` two variables and the names of the relations between them.
+    """
+
+    source: str
+    clause: Clause
+    environment: str
+    instructions: list[list[str]]
+    variables: dict[str, tuple[str, str, int, int]]
+    wanted: dict[str, list[list[str]]]
+    links: list[list[str]]
+    mentions: dict[str, str]
+    subjects: list[tuple[str, int]]
 
 
-def restored(kind: type[_T], data: Any) -> _T:  # noqa: ANN401 - any value of JSON
-    """The value of type ``kind``.
+@dataclass(frozen=True, slots=True)
+class LibraryRecord:
+    """``library.json``: a profile is a list of atoms, each with whether it holds at its end."""
+
+    unaligned: list[tuple[str, str]]
+    templates: list[TemplateRecord]
+    profiles: list[list[list[str | bool]]]
+
+
+@dataclass(frozen=True, slots=True)
+class PolicyRecord:
+    """``policy.json``: everything of a policy but its weights."""
+
+    words: list[str]
+    properties: list[tuple[str, ...]]
+    shapes: list[tuple[str, tuple[str, ...]]]
+    needs: list[tuple[str, int, tuple[str, ...]]]
+    longest: Annotated[int, Field(ge=0, le=10_000)]
+    before: Annotated[float, Field(allow_inf_nan=False)]
+    after: Annotated[float, Field(allow_inf_nan=False)]
+
+
+def read_record(kind: type[_T], data: bytes) -> _T:
+    """The value of the dataclass ``kind`` in a JSON text.
 
     Raises:
-        KeyError, TypeError, ValueError, AttributeError: It is none.
+        ValueError: It is none; nothing is taken for what it is merely like.
     """
-    found: _T = _restored(kind, data)
+    found: _T = TypeAdapter(kind).validate_json(data, strict=True)
     return found
 
 
-def _restored(kind: Any, data: Any) -> Any:  # noqa: ANN401 - a type, and what JSON has for it
-    if is_dataclass(kind) and isinstance(kind, type):
-        hints = _hints(kind)
-        return kind(**{name: _restored(hints[name], part) for name, part in data.items()})
-    origin, parts = get_origin(kind), get_args(kind)
-    if origin in (Union, UnionType):
-        return None if data is None else _restored(next(part for part in parts if part is not NoneType), data)
-    if origin is tuple:
-        return tuple(_restored(parts[0], part) for part in data)
-    if origin is Mapping:
-        return {key: _restored(parts[1], part) for key, part in data.items()}
-    if isinstance(kind, type) and issubclass(kind, tuple):
-        return kind(*(_restored(hint, part) for hint, part in zip(_hints(kind).values(), data, strict=True)))
-    return kind(data) if isinstance(kind, type) and issubclass(kind, Enum) else data
-
-
-@cache
-def _hints(kind: type) -> dict[str, Any]:
-    return get_type_hints(kind)
-
-
-def _default(field: Field[Any]) -> Any:  # noqa: ANN401 - of any type
-    return field.default_factory() if field.default_factory is not MISSING else field.default
+def record_value(record: Any) -> Any:  # noqa: ANN401 - any dataclass, and any value of JSON
+    """What :func:`read_record` reads the same value from; fields that have their default are left out."""
+    return TypeAdapter(type(record)).dump_python(record, mode="json", exclude_defaults=True)
 
 
 def library_to_json(library: Library) -> dict[str, Any]:
     """What :func:`library_from_json` makes the same library of."""
     profiles = _Profiles()
     templates = [_template(t, profiles) for verb in library.verbs() for t in library.templates(verb)]
-    return {"unaligned": [list(pair) for pair in library.unaligned], "templates": templates, "profiles": profiles.all}
+    found: dict[str, Any] = record_value(LibraryRecord(list(library.unaligned), templates, profiles.all))
+    return found
 
 
-def library_from_json(data: Mapping[str, Any], lexicon: Lexicon) -> Library:
+def library_from_json(data: bytes, lexicon: Lexicon) -> Library:
     """The library.
 
     Raises:
         KeyError, TypeError, ValueError, IndexError: It is none.
     """
-    profiles = [_profile(lines) for lines in data["profiles"]]
-    library = Library(lexicon, [(source, text) for source, text in data["unaligned"]])
-    for entry in data["templates"]:
+    record = read_record(LibraryRecord, data)
+    profiles = [_profile(lines) for lines in record.profiles]
+    library = Library(lexicon, record.unaligned)
+    for entry in record.templates:
         library.add(_read_template(entry, profiles))
     return library
 
@@ -128,81 +141,107 @@ class _Profiles:
         return self._numbers[key]
 
 
-def _profile(lines: Sequence[Sequence[Any]]) -> Profile:
-    return {tuple(line[:-1]): line[-1] for line in lines}
+def _profile(lines: Sequence[Sequence[str | bool]]) -> Profile:
+    found: dict[tuple[str, ...], bool] = {}
+    for *name, holds in lines:
+        if not isinstance(holds, bool) or not all(isinstance(word, str) for word in name):
+            raise TypeError("this is no profile")
+        found[tuple(map(str, name))] = holds
+    return found
 
 
-def _template(template: Template, profiles: _Profiles) -> dict[str, Any]:
-    return {
-        "source": template.source,
-        "clause": plain(template.clause),
-        "environment": template.environment,
-        "instructions": [[i.name, *i.args] for i in template.instructions],
-        "variables": {
-            z: [name, template.classes[z], profiles.number(template.profiles[z]), profiles.number(template.ends[z])]
+def _template(template: Template, profiles: _Profiles) -> TemplateRecord:
+    return TemplateRecord(
+        source=template.source,
+        clause=template.clause,
+        environment=template.environment,
+        instructions=[[i.name, *i.args] for i in template.instructions],
+        variables={
+            z: (name, template.classes[z], profiles.number(template.profiles[z]), profiles.number(template.ends[z]))
             for z, name in template.grounding.items()
         },
-        "wanted": {z: [list(types) for types in wanted] for z, wanted in template.wanted.items()},
-        "links": [[a, b, *sorted(names)] for (a, b), names in template.links.items()],
-        "mentions": dict(template.mentions),
-        "subjects": [[kind, profiles.number(profile)] for kind, profile in template.subjects],
-    }
-
-
-def _read_template(data: Mapping[str, Any], profiles: Sequence[Profile]) -> Template:
-    variables = data["variables"]
-    return Template(
-        source=data["source"],
-        clause=restored(Clause, data["clause"]),
-        environment=data["environment"],
-        instructions=tuple(Instruction(name, tuple(args)) for name, *args in data["instructions"]),
-        grounding={z: entry[0] for z, entry in variables.items()},
-        classes={z: entry[1] for z, entry in variables.items()},
-        wanted={z: tuple(tuple(types) for types in wanted) for z, wanted in data["wanted"].items()},
-        profiles={z: profiles[entry[2]] for z, entry in variables.items()},
-        links={(a, b): frozenset(names) for a, b, *names in data["links"]},
-        mentions=dict(data["mentions"]),
-        ends={z: profiles[entry[3]] for z, entry in variables.items()},
-        subjects=tuple((kind, profiles[number]) for kind, number in data["subjects"]),
+        wanted={z: [list(types) for types in wanted] for z, wanted in template.wanted.items()},
+        links=[[a, b, *sorted(names)] for (a, b), names in template.links.items()],
+        mentions=dict(template.mentions),
+        subjects=[(kind, profiles.number(profile)) for kind, profile in template.subjects],
     )
 
 
-def reward_to_json(reward: Reward) -> dict[str, Any]:
-    """All but the weights."""
-    features = reward.features
-    return {
-        "words": list(features.words),
-        "properties": [list(name) for name in features.properties],
-        "shapes": [[name, list(kinds)] for name, kinds in features.syntax.shapes],
-        "needs": [[name, place, list(earlier)] for (name, place), earlier in features.syntax.needs.items()],
-        "longest": features.syntax.longest,
-        "before": reward.before,
-        "after": reward.after,
-    }
+def _read_template(data: TemplateRecord, profiles: Sequence[Profile]) -> Template:
+    variables = data.variables
+    named = {word for _, *args in data.instructions for word in args if word.startswith("?")}
+    named |= {*data.wanted, *data.mentions.values(), *(z for link in data.links for z in link[:2])}
+    if not named <= variables.keys() or data.wanted.keys() != variables.keys():
+        raise ValueError("a variable stands for nothing")
+    return Template(
+        source=data.source,
+        clause=data.clause,
+        environment=data.environment,
+        instructions=tuple(Instruction(name, tuple(args)) for name, *args in data.instructions),
+        grounding={z: entry[0] for z, entry in variables.items()},
+        classes={z: entry[1] for z, entry in variables.items()},
+        wanted={z: tuple(tuple(types) for types in wanted) for z, wanted in data.wanted.items()},
+        profiles={z: profiles[entry[2]] for z, entry in variables.items()},
+        links={(a, b): frozenset(names) for a, b, *names in data.links},
+        mentions=dict(data.mentions),
+        ends={z: profiles[entry[3]] for z, entry in variables.items()},
+        subjects=tuple((kind, profiles[number]) for kind, number in data.subjects),
+    )
 
 
-def reward_from_json(data: Mapping[str, Any], weights: bytes) -> Reward:
+def reward_to_json(reward: Reward) -> bytes:
+    """All but the weights, as JSON."""
+    features, syntax = reward.features, reward.features.syntax
+    return _json(
+        record_value(
+            PolicyRecord(
+                words=list(features.words),
+                properties=list(features.properties),
+                shapes=list(syntax.shapes),
+                needs=[(name, place, earlier) for (name, place), earlier in syntax.needs.items()],
+                longest=syntax.longest,
+                before=reward.before,
+                after=reward.after,
+            )
+        )
+    )
+
+
+_LARGEST_WEIGHT = 1e6
+"""A thousand times what training ever gave; sums of such weights are far from overflowing."""
+
+
+def reward_from_json(data: bytes, weights: bytes) -> Reward:
     """The same again.
 
     Raises:
-        KeyError, TypeError, ValueError: It is none.
+        ValueError: It is none.
     """
-    syntax = Syntax(
-        tuple((name, tuple(kinds)) for name, kinds in data["shapes"]),
-        {(name, place): tuple(earlier) for name, place, earlier in data["needs"]},
-        data["longest"],
+    record = read_record(PolicyRecord, data)
+    needs = {(name, place): earlier for name, place, earlier in record.needs}
+    features = Features(record.words, record.properties, Syntax(tuple(record.shapes), needs, record.longest))
+    # what is saved is always of one form: numpy need not find out what an unknown header may mean
+    header = io.BytesIO()
+    np.lib.format.write_array_header_1_0(
+        header, {"descr": "<f8", "fortran_order": False, "shape": (int(features.size),)}
     )
-    features = Features(data["words"], (tuple(name) for name in data["properties"]), syntax)
-    theta = np.load(io.BytesIO(weights), allow_pickle=False)
-    if theta.shape != (features.size,) or theta.dtype != np.float64:
+    start = header.tell()
+    if weights[:start] != header.getvalue() or len(weights) != start + features.size * _FLOAT:
         raise ValueError("the weights are of another policy")
-    return Reward(features, theta, float(data["before"]), float(data["after"]))
+    theta = np.frombuffer(weights, "<f8", offset=start).astype(np.float64)
+    if not (np.abs(theta) <= _LARGEST_WEIGHT).all():
+        raise ValueError("the weights are no numbers that training gives")
+    return Reward(features, theta, record.before, record.after)
+
+
+_FLOAT = 8
+"""The bytes of a number."""
 
 
 def weights_bytes(reward: Reward) -> bytes:
     """The weights as a ``.npy`` file."""
     buffer = io.BytesIO()
-    np.save(buffer, reward.theta, allow_pickle=False)
+    np.save(buffer, reward.theta.astype("<f8"), allow_pickle=False)
     return buffer.getvalue()
 
 
@@ -372,7 +411,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
     """
     files = {LIBRARY: _json(library_to_json(knowledge.library))}
     if knowledge.reward is not None:
-        files[POLICY] = _json(reward_to_json(knowledge.reward))
+        files[POLICY] = reward_to_json(knowledge.reward)
         files[THETA] = weights_bytes(knowledge.reward)
     if knowledge.goals is not None:
         files[GOALS] = (json.dumps(table_to_json(knowledge.goals), ensure_ascii=False, indent=1) + "\n").encode()
@@ -398,11 +437,11 @@ def recall(corpus: Corpus, directory: Path) -> Knowledge | None:
         files = {name: (directory / name).read_bytes() for name in manifest["files"]}
         if any(_checksum(files[name]) != checksum for name, checksum in manifest["files"].items()):
             return None
-        library = library_from_json(json.loads(files[LIBRARY]), corpus.lexicon)
-        reward = reward_from_json(json.loads(files[POLICY]), files[THETA]) if POLICY in files else None
+        library = library_from_json(files[LIBRARY], corpus.lexicon)
+        reward = reward_from_json(files[POLICY], files[THETA]) if POLICY in files else None
         goals = table_from_json(json.loads(files[GOALS]), corpus.folder.domain) if GOALS in files else None
         weights = parse_weights(files[WEIGHTS].decode(), str(directory / WEIGHTS)) if WEIGHTS in files else None
-    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, TmdError):
+    except (OSError, ValueError, KeyError, TypeError, IndexError, AttributeError, RecursionError, TmdError):
         return None
     return Knowledge(library, reward, weights, goals)
 

@@ -266,7 +266,7 @@ class Journal:
                 plans = [(np.array(vector, dtype=np.float64), float(loss)) for vector, loss in entry["plans"]]
                 if entry["part"] == self.part:
                     self._known[entry["round"], entry["example"]] = plans
-            except (ValueError, KeyError, TypeError):
+            except (ValueError, KeyError, TypeError, RecursionError):
                 break
             whole += len(line)
         if whole < len(text):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
+from heapq import heappop, heappush
 from typing import NamedTuple, TypeAlias
 
 from tmd.diagnostics import Location
@@ -276,6 +277,10 @@ def free_variables(formula: Formula) -> frozenset[str]:
     return frozenset[str]().union(*(free_variables(p) for p in formula.parts))
 
 
+MOST_LEVELS = 200
+"""Types above one another; those of a longer chain are as good as unrelated, and told as a fault."""
+
+
 class TypeHierarchy:
     """Which type is a kind of which."""
 
@@ -291,13 +296,12 @@ class TypeHierarchy:
         """``name``, its parent and so on up to ``object``; a cycle is walked once."""
         found = self._ancestors.get(name)
         if found is None:
-            chain: list[str] = []
+            chain: dict[str, None] = {}
             current: str | None = name
-            while current is not None and current not in chain:
-                chain.append(current)
+            while current is not None and current not in chain and len(chain) < MOST_LEVELS:
+                chain[current] = None
                 current = self.parents.get(current)
-            if OBJECT not in chain:
-                chain.append(OBJECT)
+            chain.setdefault(OBJECT)
             found = self._ancestors[name] = tuple(chain)
         return found
 
@@ -334,15 +338,19 @@ class Universe:
 
 def parents_first(declarations: Sequence[TypeDeclaration]) -> tuple[TypeDeclaration, ...]:
     """``declarations`` with each parent before its children, otherwise in order: some readers insist."""
-    waiting = list(declarations)
-    ordered: list[TypeDeclaration] = []
-    known = {OBJECT}
-    while waiting:
-        ready = next((t for t in waiting if t.parent in known), waiting[0])
-        waiting.remove(ready)
-        ordered.append(ready)
-        known.add(ready.name)
-    return tuple(ordered)
+    children: dict[str, list[int]] = {}
+    for number, declared in enumerate(declarations):
+        children.setdefault(declared.parent, []).append(number)
+    order: dict[int, None] = {}
+    ready = list(children.get(OBJECT, ()))  # a heap: the first of those whose parent stands before them comes next
+    for first in range(len(declarations)):  # next where none is ready, as in a cycle
+        while ready or first not in order:
+            number = heappop(ready) if ready else first
+            if number not in order:
+                order[number] = None
+                for child in children.get(declarations[number].name, ()):
+                    heappush(ready, child)
+    return tuple(declarations[number] for number in order)
 
 
 @lru_cache(maxsize=64)

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import product
+from math import prod
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
@@ -51,6 +52,7 @@ __all__ = [
     "instantiate",
     "regress",
     "schema_of",
+    "size",
 ]
 
 Binding: TypeAlias = Mapping[str, str]
@@ -108,6 +110,21 @@ def _holds(formula: Formula, state: State, objects: Universe, binding: Binding) 
             return all(_holds(part, state, objects, b) for b in bindings(parameters, objects, binding))
         case Exists(parameters, part):
             return any(_holds(part, state, objects, b) for b in bindings(parameters, objects, binding))
+
+
+def size(formula: Formula, objects: Universe) -> int:
+    """How many atoms and equations ``formula`` has when its quantifiers are spread out: what it costs at most."""
+    match formula:
+        case Atom() | Equals():
+            return 1
+        case Not(part):
+            return size(part, objects)
+        case And(parts) | Or(parts):
+            return sum(size(part, objects) for part in parts)
+        case Imply(left, right):
+            return size(left, objects) + size(right, objects)
+        case Forall(parameters, part) | Exists(parameters, part):
+            return prod(len(objects.of(p.types)) for p in parameters) * max(1, size(part, objects))
 
 
 def schema_of(problem: Problem, instruction: Instruction) -> ActionSchema:

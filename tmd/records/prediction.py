@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from typing import Annotated, TypeAlias
+
 from pydantic import Field
 
 from tmd.records.json_record import JsonRecord
+
+Score: TypeAlias = Annotated[float, Field(ge=0, le=100, strict=True)]
 
 
 class PredictedClause(JsonRecord):
@@ -51,10 +55,10 @@ class PredictionRecord(JsonRecord):
     gold: tuple[str, ...]
     executable: bool
     success: bool | None = None
-    IED: float = Field(description="Scores run from 0 to 100; larger is better.")
-    END: float
-    EED: float
-    EED_trim: float
+    IED: Score = Field(description="Scores run from 0 to 100; larger is better.")
+    END: Score
+    EED: Score
+    EED_trim: Score
     clauses: tuple[PredictedClause, ...] = Field(description="Empty for models that do not work by clauses.")
     segments: tuple[SegmentRecord, ...]
 

@@ -156,6 +156,10 @@ class _Line:
             place = Location(str(self.path), self.number, 1)
             message = "not a demonstration: nested too deeply"
             raise TmdError(message, location=place, code="nested-too-deeply") from None
+        except ValueError:  # Python reads no number of more than 4,300 digits
+            place = Location(str(self.path), self.number, 1)
+            message = "not a demonstration: a number has too many digits"
+            raise TmdError(message, location=place, code="json-syntax") from None
         if not isinstance(data, dict):
             raise self.error("a demonstration is a JSON object")
         for key in _KEYS:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -37,6 +38,26 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     finally:
         if bar.live.is_started:
             bar.stop()
+
+
+class _ToUser(logging.Handler):
+    """Shows what the log of a run warns of."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        emit(f"{record.getMessage()}\n", error=True)
+
+
+@contextmanager
+def warnings_shown() -> Iterator[None]:
+    """Show the user what a run warns of meanwhile, such as a damaged part."""
+    from tmd.evaluation.runs.run_directory import LOG
+
+    log, handler = logging.getLogger(LOG), _ToUser(logging.WARNING)
+    log.addHandler(handler)
+    try:
+        yield
+    finally:
+        log.removeHandler(handler)
 
 
 _PIECE = re.compile(r"\s*(\d{1,4})\s*(?:-\s*(\d{1,4})\s*)?")
@@ -214,7 +235,7 @@ def command(
 def _share(config: ExperimentConfig, shard: Shard) -> None:
     from tmd.evaluation.runs.experiment import work
 
-    with progress_bar(f"{config.task}, {config.data} data, {shard.number}/{shard.of}") as progress:
+    with warnings_shown(), progress_bar(f"{config.task}, {config.data} data, {shard.number}/{shard.of}") as progress:
         parts = work(config, progress)
     emit(f"done: share {shard.number} of {shard.of}, {parts} parts in {config.out}\n")
 
@@ -223,7 +244,7 @@ def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
     from tmd.evaluation.report.report import REPORT, print_table
     from tmd.robot_trials.experiment import run_experiment
 
-    with progress_bar(f"{config.task}, {config.data} data") as progress:
+    with warnings_shown(), progress_bar(f"{config.task}, {config.data} data") as progress:
         metrics = run_experiment(config, collect_only=step != "all", progress=progress)
     print_table(metrics)
     if robot != "off" and step != "report":

@@ -193,7 +193,7 @@ class RunLog:
                 status: Literal["interrupted", "error"] = "interrupted" if interrupted else "error"
                 self.write(EndEvent(event="end", status=status, reason=str(error) or None))
         finally:
-            self._file.close()
+            self._close(error)
 
     def write(self, entry: JsonRecord) -> None:
         """Write one line.
@@ -207,7 +207,20 @@ class RunLog:
             self._file.write(entry.to_line())
             self._ended = isinstance(entry, EndEvent)
         except OSError as error:
-            raise OutputError(
-                f"{self._path} cannot be written: {error.strerror or error}",
-                hint="check that the directory exists, that you may write there and that the disk has room",
-            ) from error
+            raise self._error(error) from error
+
+    def _close(self, error: BaseException | None) -> None:
+        """Close the file; what is still to be written may find the disk full, which is told unless worse happened."""
+        file, self._file = self._file, None
+        try:
+            if file is not None:
+                file.close()
+        except OSError as full:
+            if not isinstance(error, Exception):
+                raise self._error(full) from full
+
+    def _error(self, error: OSError) -> OutputError:
+        return OutputError(
+            f"{self._path} cannot be written: {error.strerror or error}",
+            hint="check that the directory exists, that you may write there and that the disk has room",
+        )

@@ -28,6 +28,8 @@ from tmd.records.prediction import PredictionRecord
 
 PREDICTIONS = "predictions.jsonl"
 METRICS_FILE = "metrics.json"
+LOG = "tmd.experiment"
+"""The logger above those of all runs; what it is told at the level of a warning is for the user as well."""
 
 
 class _Log(logging.FileHandler):
@@ -48,7 +50,7 @@ class RunDirectory:
     def __init__(self, path: Path, identity: dict[str, Any]) -> None:
         self.path = path
         self.identity = identity
-        self.log = logging.getLogger(f"tmd.experiment.{path}")
+        self.log = logging.getLogger(f"{LOG}.{path}")
 
     @property
     def fits(self) -> Path:
@@ -68,7 +70,7 @@ class RunDirectory:
         self._claim(started)
         handler = self._handler(shard)
         self.log.setLevel(logging.INFO)
-        self.log.propagate = False
+        logging.getLogger(LOG).propagate = False
         self.log.addHandler(handler)
         try:
             self.log.info("revision: %s", _revision())
@@ -120,12 +122,13 @@ class RunDirectory:
             return None
         try:
             lines = PredictionRecord.from_lines(read_text(path), str(path))
-        except TmdError:
-            lines = []
-        about = [(line.id, line.model, line.fold) for line in lines]
-        wanted = [(example.id, model, fold.name) for example in fold.test]
+        except TmdError as error:
+            self.log.warning("damaged, so to be done again: %s: %s", path.name, error.message)
+            return None
+        about = [(line.id, line.task, line.environment, line.model, line.fold) for line in lines]
+        wanted = [(each.id, each.task, each.environment, model, fold.name) for each in fold.test]
         if not lines or about != wanted or any(map(_lacks_success, lines, fold.test)):
-            self.log.info("damaged, so to be done again: %s", path.name)
+            self.log.warning("damaged, so to be done again: %s: its lines are of other examples", path.name)
             return None
         return lines
 
@@ -136,11 +139,14 @@ class RunDirectory:
         path = self.fits / f"{unit.name}.json"
         if not path.exists():
             return None
-        with suppress(TmdError):
+        reason = "it is of another model"
+        try:
             saved = Fit.from_text(read_text(path), str(path))
             if saved.model == unit.model:
                 return saved.to_value()
-        self.log.info("damaged, so to be learned again: %s", path.name)
+        except TmdError as error:
+            reason = error.message
+        self.log.warning("damaged, so to be learned again: %s: %s", path.name, reason)
         return None
 
     def keep(self, outcome: JobOutcome) -> None:

@@ -16,6 +16,7 @@ import yaml
 
 from tmd.diagnostics import Location, TmdError
 from tmd.language.lexicon.lexicon import Declared, Lexicon, section, singular
+from tmd.yaml_nodes import compose
 
 KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
@@ -58,18 +59,10 @@ class _Source:
         return tuple(item(child) for child in node.value)
 
     def mapping(self, node: yaml.Node) -> list[tuple[str, yaml.Node, yaml.Node]]:
-        """Return (key, key node, value node) triples; a key may stand only once."""
+        """Return (key, key node, value node) triples."""
         if not isinstance(node, yaml.MappingNode):
             self.fail(node.start_mark, "expected 'name: value' pairs here")
-        seen: dict[str, int] = {}
-        triples = []
-        for key, value in node.value:
-            name = self.name(key)
-            if name in seen:
-                self.fail(key.start_mark, f"'{name}' stands twice", f"first in line {seen[name]}")
-            seen[name] = key.start_mark.line + 1
-            triples.append((name, key, value))
-        return triples
+        return [(self.name(key), key, value) for key, value in node.value]
 
     def condition(self, node: yaml.Node) -> tuple[str, Location]:
         """Return a scalar that is a PDDL condition, and where it begins."""
@@ -113,12 +106,7 @@ def _read(path: Path) -> Lexicon:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise TmdError(f"cannot read the lexicon {path}: {reason}") from None
     source = _Source(path, text)
-    try:
-        node = yaml.compose(text, Loader=getattr(yaml, "CSafeLoader", yaml.SafeLoader))  # libyaml where it is built in
-    except yaml.MarkedYAMLError as error:
-        source.fail(error.problem_mark, f"broken YAML: {error.problem}")
-    except yaml.YAMLError as error:
-        source.fail(None, f"broken YAML: {str(error).splitlines()[0]}")
+    node = compose(text, str(path))
     if node is None:
         return Lexicon(source=str(path))
     parts = _parts(source, node)

@@ -8,7 +8,7 @@ from itertools import product
 from math import prod
 from typing import NamedTuple, TypeAlias
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import LimitError, TmdError
 from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Instruction, Not, Or, Universe
 from tmd.pddl.semantics import Binding, bindings, instantiate
 
@@ -60,6 +60,33 @@ def _capped(base: int, exponent: int) -> int:
 def may_be_too_large(formula: Formula, objects: Universe) -> bool:
     """Whether writing ``formula`` out as clauses might fail; it does where this says so and nothing in it is static."""
     return cases(formula, objects)[0] > _MOST
+
+MOST_WORK = 5_000_000
+"""Values and conditions that one grounding writes down: some 50 s and 2 GB. The largest bundled problem has 100,000."""
+
+
+@dataclass(slots=True)
+class Work:
+    """How much one grounding has still left to do; what is too large is told before it is done.
+
+    Attributes:
+        left: Values and atoms of conditions that may still be written down.
+    """
+
+    left: int = MOST_WORK
+
+    def spend(self, amount: int, what: str) -> None:
+        """Take ``amount`` off.
+
+        Raises:
+            LimitError: There is not so much left; ``what`` says what asks for it.
+        """
+        self.left -= amount
+        if self.left < 0:
+            raise LimitError(
+                f"grounding {what} is too large: more than {MOST_WORK:,} values and conditions",
+                hint="use types or static preconditions to narrow the parameters, or fewer objects",
+            )
 
 
 def expand(formula: Formula, binding: Binding, objects: Universe, lookup: Lookup, positive: bool = True) -> Tree:

@@ -21,13 +21,14 @@ from tmd.pddl.grounding.ground_action import (
     Literals,
     Reachability,
     Tree,
+    Work,
     disjunctive,
     expand,
     grouped,
 )
 from tmd.pddl.grounding.instantiate import Instances, instantiate_actions
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, State, universe
-from tmd.pddl.semantics import Binding, bind
+from tmd.pddl.semantics import Binding, bind, size
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
 
 _NEVER = Cube(0, 0)
@@ -88,7 +89,9 @@ def ground_condition(task: Task, formula: Formula, binding: Binding | None = Non
         return TRUE if atom in task.static else FALSE
 
     formula = unfolded_condition(formula, task.problem.domain)
-    tree = expand(formula, binding or {}, universe(task.problem), lookup)
+    objects = universe(task.problem)
+    Work().spend(size(formula, objects), "a condition")
+    tree = expand(formula, binding or {}, objects, lookup)
     return tuple(sorted(_cube(literals) for literals in disjunctive(tree, "this formula")))
 
 

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import LimitError, TmdError
 from tmd.pddl.grounding.ground_action import (
     FALSE,
     TRUE,
@@ -19,6 +19,7 @@ from tmd.pddl.grounding.ground_action import (
     Literals,
     Reachability,
     Tree,
+    Work,
     conjunctive,
     disjunctive,
     expand,
@@ -42,11 +43,13 @@ from tmd.pddl.model import (
     signed_atoms,
     universe,
 )
-from tmd.pddl.semantics import Binding, action_cost, holds, instantiate
+from tmd.pddl.semantics import Binding, action_cost, holds, instantiate, size
 
 Row: TypeAlias = tuple[str, ...]
 
 _MOST_ROWS = 500_000
+_MOST_CHECKED = 50_000_000
+"""Atoms that a check of a static condition looks at, in all rows together: some 30 s."""
 _UNKNOWN = 1_000_000
 """The size a relation is taken to have that is still to grow."""
 
@@ -82,6 +85,8 @@ class Check:
 
     variables: frozenset[str]
     test: Callable[[Binding], bool]
+    size: int = 1
+    """How many atoms it looks at, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +124,8 @@ class _Match:
                 values = tuple(found[p] for p in self.new)
                 if all(v in a for v, a in zip(values, self.allowed, strict=True)):
                     out.append(row + values)
+            if len(out) > _MOST_ROWS:
+                raise _too_many_rows()
         return out
 
 
@@ -130,11 +137,15 @@ class _Enumerate:
 
     def run(self, rows: list[Row]) -> list[Row]:
         if len(rows) * len(self.objects) > _MOST_ROWS:
-            raise TmdError(
-                f"grounding needs more than {_MOST_ROWS} combinations of objects",
-                hint="use types or static preconditions to narrow the parameters",
-            )
+            raise _too_many_rows()
         return [(*row, o) for row in rows for o in self.objects]
+
+
+def _too_many_rows() -> LimitError:
+    return LimitError(
+        f"grounding needs more than {_MOST_ROWS:,} combinations of objects",
+        hint="use types or static preconditions to narrow the parameters",
+    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,8 +154,14 @@ class _Filter:
 
     slots: tuple[tuple[str, int], ...]
     test: Callable[[Binding], bool]
+    size: int
 
     def run(self, rows: list[Row]) -> list[Row]:
+        if len(rows) * self.size > _MOST_CHECKED:
+            raise LimitError(
+                f"a condition with quantifiers needs more than {_MOST_CHECKED:,} atoms to be looked at",
+                hint="use types to narrow what its variables range over",
+            )
         return [row for row in rows if self.test({name: row[slot] for name, slot in self.slots})]
 
 
@@ -174,7 +191,7 @@ def plan_join(query: JoinQuery) -> Join:
         bound = set(join.order)
         for check in [c for c in checks if c.variables <= bound]:
             slots = tuple((v, join.order.index(v)) for v in sorted(check.variables))
-            join.steps.append(_Filter(slots, check.test))
+            join.steps.append(_Filter(slots, check.test, check.size))
             checks.remove(check)
         if waiting:
             atom = min(waiting, key=lambda a: _effort(a, bound, query))
@@ -214,9 +231,6 @@ def _match(atom: Atom, query: JoinQuery, order: list[str]) -> _Match:
     order.extend(new)
     allowed = tuple(frozenset(query.variables[v]) for v in new)
     return _Match(query.relations[atom.predicate], tuple(places), tuple(key), tuple(new.values()), tuple(same), allowed)
-
-
-_MOST_ACTIONS = 500_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -260,6 +274,8 @@ class _ActionPlan:
     first: Join
     joins: tuple[Join, ...]
     effects: tuple[_EffectPlan, ...]
+    size: int
+    """What an instance writes down: its arguments, the atoms of its precondition that may change, its effects."""
 
 
 class _Instantiation:
@@ -269,6 +285,7 @@ class _Instantiation:
         self.problem = problem
         self.objects: Universe = universe(problem)
         self.forced = forced
+        self.work = Work()
         self.numbers: dict[GroundAtom, int] = {}
         self.atoms: list[GroundAtom] = []
         self.actions: dict[Instruction, GroundAction] = {}
@@ -362,6 +379,7 @@ class _Instantiation:
             self.join(variables, static, (), ()),
             tuple(joins),
             tuple(self.effect_plan(e, tuple(variables)) for e in action.effects),
+            len(variables) + len(fluent) + size(rest, self.objects) + len(action.effects),
         )
 
     def join(
@@ -373,7 +391,11 @@ class _Instantiation:
     ) -> Join:
         atoms = [p for p in static if isinstance(p, Atom)]
         checks = [
-            Check(free_variables(p), lambda binding, p=p: holds(p, self.static, self.objects, binding))  # type: ignore[misc]
+            Check(
+                free_variables(p),
+                lambda binding, p=p: holds(p, self.static, self.objects, binding),  # type: ignore[misc]
+                size(p, self.objects),
+            )
             for p in static
             if not isinstance(p, Atom)
         ]
@@ -396,13 +418,12 @@ class _Instantiation:
             instruction = Instruction(action.name, tuple(row[p] for p in places))
             if instruction in self.actions or instruction in self.refused:
                 continue
+            self.work.spend(plan.size, f"the action {action.name}")
             binding = dict(zip(order, row, strict=True))
             ground = self.ground(plan, instruction, binding)
             if ground is None:
                 self.refused.add(instruction)
                 continue
-            if len(self.actions) >= _MOST_ACTIONS:
-                raise TmdError(f"grounding gives more than {_MOST_ACTIONS} actions")
             self.reachability.add(ground.rule(len(self.actions)))
             self.actions[instruction] = ground
 
@@ -441,6 +462,7 @@ class _Instantiation:
         if plan.join is not None:
             order = plan.join.order
             found = plan.join.run([tuple(outer[v] for v in order[: len(outer)])])
+            self.work.spend(len(found) * len(order), f"an effect of {what}")
             rows = (dict(zip(order, row, strict=True)) for row in found)
         for binding in rows:
             cubes = self.cubes(plan, binding, what)
@@ -452,6 +474,7 @@ class _Instantiation:
     def cubes(self, plan: _EffectPlan, binding: Binding, what: str) -> Sequence[Literals]:
         """The condition of an effect as cubes; most are plain conjunctions, and quick."""
         if plan.literals is None:
+            self.work.spend(size(plan.rest, self.objects), f"an effect of {what}")
             return disjunctive(expand(plan.rest, binding, self.objects, self.lookup), what)
         cube: set[int] = set()
         for atom, negated in plan.literals:

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from tmd.diagnostics import Location, TmdError
 from tmd.pddl.derived import strata
 from tmd.pddl.model import (
+    MOST_LEVELS,
     OBJECT,
     TOTAL_COST,
     ActionSchema,
@@ -105,6 +106,8 @@ class _Check:
         self.faults: list[TmdError] = []
         self.cyclic: set[str] = set()
         self.two_of_one_name = False
+        self.deepest_type: str | None = None
+        """The first type with too many ancestors: it is told of once."""
 
     def fault(self, message: str, location: Location | None, hint: str | None, code: str) -> None:
         """Note a fault at ``location``."""
@@ -152,11 +155,15 @@ class _Check:
             self.fault(f'unknown type "{name}"', place, nearest(name, names, what="types"), "unknown-type")
 
     def no_cycle(self, name: str, location: Location | None) -> None:
-        chain: list[str] = []
+        chain: dict[str, None] = {}
         current: str | None = name
-        while current is not None and current not in chain:
-            chain.append(current)
+        while current is not None and current not in chain and len(chain) < MOST_LEVELS:
+            chain[current] = None
             current = self.hierarchy.parents.get(current)
+        if len(chain) == MOST_LEVELS and self.deepest_type is None:
+            self.deepest_type = name
+            message = f'the type "{name}" has {MOST_LEVELS} ancestors or more'
+            self.fault(message, location, "declare fewer levels of types", "nested-too-deeply")
         if current == name and name not in self.cyclic:
             self.cyclic.update(chain)
             self.fault(f'type "{name}" is its own ancestor', location, " < ".join((*chain, name)), "type-cycle")

@@ -183,7 +183,10 @@ def read_text(path: str | Path) -> str:
     try:
         data = Path(path).read_bytes()
     except OSError as error:
-        raise TmdError(f"cannot be read: {error.strerror or error}", location=place, code="unreadable") from error
+        hint = "check the path, and that you may read there"
+        raise TmdError(
+            f"cannot be read: {error.strerror or error}", location=place, hint=hint, code="unreadable"
+        ) from error
     if b"\0" in data:
         raise TmdError("is not a text file", location=place, hint="save it as UTF-8 text", code="not-text")
     try:

@@ -109,10 +109,13 @@ class MovieFile:
             else:
                 self._draft.unlink(missing_ok=True)
         except OSError as error:
+            if not self.pictures:
+                self._draft.unlink(missing_ok=True)
             raise self._error(error) from error
 
     def _error(self, error: OSError) -> OutputError:
-        reason = error.strerror or str(error).strip().splitlines()[-1]
+        said = error.strerror or (str(error).strip().splitlines() or ["no reason"])[0]
+        reason = "ffmpeg ended before the film did" if "FFMPEG" in str(error) else said
         return OutputError(
             f"{self.path} cannot be written: {reason}",
             hint="check that the directory exists, that you may write there and that the disk has room",
@@ -153,13 +156,13 @@ class _Mp4(_Writer):
             ) from error
         self._path = path
         self._frames: Generator[Any, bytes | None, None] = imageio_ffmpeg.write_frames(
-            str(path),
+            f"file:{path}",  # else "-y x.mp4" would be an option, and "concat:x.mp4" a protocol
             size,
             fps=fps,
             codec="libx264",
             quality=None,
             macro_block_size=2,
-            ffmpeg_log_level="error",
+            ffmpeg_log_level="quiet",
             output_params=[
                 *("-crf", "30" if small else "23", "-preset", "veryfast", "-threads", "1"),
                 *("-g", str((8 if small else 2) * fps)),
@@ -176,10 +179,10 @@ class _Mp4(_Writer):
     def close(self) -> None:
         self._frames.close()
         ordered = self._path.with_suffix(".ordered.mp4")
-        command = [self._ffmpeg, "-y", "-loglevel", "error", "-i", str(self._path), "-c", "copy"]
+        command = [self._ffmpeg, "-y", "-loglevel", "quiet", "-i", f"file:{self._path}", "-c", "copy"]
         try:
             done = subprocess.run(
-                [*command, "-movflags", "+faststart", ordered],
+                [*command, "-movflags", "+faststart", f"file:{ordered}"],
                 stdin=subprocess.DEVNULL,
                 capture_output=True,
                 check=False,

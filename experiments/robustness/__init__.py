@@ -1,0 +1,1 @@
+"""Fuzzing and killing ``tmd``: ``python -m experiments.robustness --minutes 5``."""
