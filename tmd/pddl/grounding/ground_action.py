@@ -61,6 +61,7 @@ def may_be_too_large(formula: Formula, objects: Universe) -> bool:
     """Whether writing ``formula`` out as clauses might fail; it does where this says so and nothing in it is static."""
     return cases(formula, objects)[0] > _MOST
 
+
 MOST_WORK = 5_000_000
 """Values and conditions that one grounding writes down: some 50 s and 2 GB. The largest bundled problem has 100,000."""
 
