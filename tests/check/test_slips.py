@@ -12,6 +12,9 @@ from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.validator import validate
+from tmd.planning.backends import solve
+from tmd.planning.result import Solved
 
 CHECKERS = Path(__file__).resolve().parents[2] / "experiments" / "checkers"
 SOUND = CHECKERS / "cases" / "none"
@@ -70,10 +73,10 @@ def test_a_slip_is_told_once_and_where_it_is(slip: str) -> None:
 def test_an_edit_that_changes_nothing_is_no_error(edit: str) -> None:
     folder = CHECKERS / "harmless" / edit
     assert [d for d in _told(folder) if d.severity is Severity.ERROR] == []
-    sound, edited = (
-        ground(read_problem(at / "problem.pddl", read_domain(at / "domain.pddl"))) for at in (SOUND, folder)
-    )
-    assert [str(o) for o in edited.operators] == [str(o) for o in sound.operators]
+    sound, edited = (read_problem(at / "problem.pddl", read_domain(at / "domain.pddl")) for at in (SOUND, folder))
+    assert [str(o) for o in ground(edited).operators] == [str(o) for o in ground(sound).operators]
+    found = solve(edited)
+    assert isinstance(found, Solved) and validate(sound, found.plan).valid
 
 
 BARN = """\

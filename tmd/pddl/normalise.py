@@ -40,9 +40,17 @@ def portable(problem: Problem) -> Problem:
     Raises:
         TmdError: As :func:`without_either`.
     """
-    plain = without_either(problem)
+    plain = without_either(_each_object_once(problem))
     requirements = used_requirements(plain.domain, plain)
     return replace(plain, domain=replace(plain.domain, requirements=requirements), requirements=())
+
+
+def _each_object_once(problem: Problem) -> Problem:
+    """``problem`` without the objects that are constants of its domain as well: not all readers let them pass."""
+    constants = {constant.name for constant in problem.domain.constants}
+    if not any(named.name in constants for named in problem.objects):
+        return problem
+    return replace(problem, objects=tuple(named for named in problem.objects if named.name not in constants))
 
 
 def without_either(problem: Problem) -> Problem:
