@@ -224,7 +224,7 @@ def test_a_studio_is_opened(tmp_path: Path) -> None:
     pytest.importorskip("viser", reason="needs the extra studio")
     server = table(tmp_path).open_studio("corner2", port=0)
     try:
-        assert server.url == f"http://127.0.0.1:{server.port}"
+        assert server.url.startswith(f"http://127.0.0.1:{server.port}/?token=")
         assert server.studio.start == "corner2"
     finally:
         server.close()

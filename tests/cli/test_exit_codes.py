@@ -355,7 +355,7 @@ PACKAGES = {
     "click": ["--help"],
     "yaml": ["check", ROOT / "domains" / "02_table"],
     "pydantic": ["check", ROOT / "domains" / "02_table"],
-    "numpy": ["plan", "01_blocks", ROOT / "problems" / "01_blocks" / "p01-tower-yard2.pddl"],
+    "numpy": ["ground", "--domain", "01_blocks", "--environment", "yard1", "--text", "Hold the red block."],
     "joblib": ["experiment", "--task", "tea", "--domain", "04_tea", "--models", "chance", "--out", "run"],
 }
 

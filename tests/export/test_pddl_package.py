@@ -76,7 +76,11 @@ def _theirs(more: str, effect: str = "(lit)") -> object:
 @pytest.mark.parametrize(
     ("more", "effect", "message"),
     [
-        ("(:derived (dark) (not (lit)))", "(lit)", "the domain shed:.*derived"),
+        (
+            "(:derived (dark) (not (lit)))",
+            "(lit)",
+            '"dark" is derived, so it cannot be made true or false at the start',
+        ),
         ("", "(oneof (lit) (dark))", "the domain shed:.*oneof"),
         ("(:functions (level))", "(and (lit) (increase (level) 1))", "the domain shed:.*"),
     ],

@@ -52,6 +52,8 @@ def read(heading: str, case: str) -> set[tuple[str, ...]]:
         parts["sections"] = f"(:types a b - object {case.removeprefix('(:types')}"
     elif said == "sections" and case.startswith("(:functions"):
         parts["functions"] = case
+    elif said == "sections" and case.startswith("(:derived"):
+        parts |= {"predicates": " (d ?x - a)", "functions": f"{parts['functions']} {case}"}
     elif said == "sections":
         parts["sections"] += f" {case}"
     else:
