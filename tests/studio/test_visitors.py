@@ -17,11 +17,13 @@ pytest.importorskip("viser", reason="needs the extra studio")
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
+from tmd.grounded import Grounded
 from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
+from tmd.veil.world import World
 from tmd.world.folder import DomainFolder
 
 VISITORS = 10
@@ -312,6 +314,48 @@ def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None
         with Wire(server.url, None, odd) as visitor:
             visitor.told(answer)
             begin(visitor, "Take the cup.")
+
+
+def test_the_plan_of_before_is_there_at_once_and_planned_again_behind(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        kept = next(told["plan"] for told in visitor.told_page if "plan" in told)
+    assert [step for step, _, _ in json.loads(kept)] == list(STEPS)
+    other = json.dumps([[step, 0, False] for step in STEPS[:2]])
+    teacher, go_on = server.studio.teacher, Event()
+    ground = teacher.ground
+
+    def late(text: str, world: World, top: int = 1) -> Grounded:
+        if text == f"{TEXT}.":
+            assert go_on.wait(20)
+        return ground(text, world, top)
+
+    monkeypatch.setattr(teacher, "ground", late)
+    link = f"?say={TEXT.replace(' ', '+')}.&step=2"
+    for plan, answer in ((kept, "Planned in"), (other, "another plan now than the one that you looked at before")):
+        go_on.clear()
+        with Wire(server.url, None, link, plan=plan) as again:
+            again.told("Here is the plan that you looked at")
+            again.shows(f"▸ {STEPS[1]}")
+            again.happens(step=1, list="say")
+            again.shows(f"▸ {STEPS[0]}")
+            go_on.set()
+            again.told(answer)
+            again.shows(f"▸ {STEPS[0]}")
+    for damaged in ("[", "[[1,2,3]]", '[["grasp(cup9)",0,false]]', '[["keep(cup1, shelf1, on)",0,false]]', "[" * 9_000):
+        go_on.clear()
+        with Wire(server.url, None, link, plan=damaged) as again:
+            again.told("Planning …")
+            again.put("Text", "Take the cup.")
+            again.press("Plan it")
+            again.told("Planned in")
+            go_on.set()  # what was asked for since is not overwritten
+            again.happens(step=1, list="say")
+            again.shows("1 / 2 ")
 
 
 def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> None:

@@ -140,7 +140,7 @@ class Visitor:
         if link.environment in self.studio.environments() and link.environment != self.setting.name:
             self.enter(link.environment)
         if link.say:
-            self.say.come_back(link)
+            self.say.come_back(link, self.window.plan)
         if link.tab in TABS:
             self._tab = link.tab
             self.window.show_tab(link.tab)
@@ -177,7 +177,7 @@ class Visitor:
         """Let the window's address say what is looked at."""
         plan, step, text = self.say.looked_at()
         tab = self._tab if self._tab != "Say" else ""
-        self.window.keep(PageLink(self.setting.name, text, plan, step, tab))
+        self.window.keep(PageLink(self.setting.name, text, plan, step, tab), self.say.listed())
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""
@@ -252,6 +252,10 @@ class Visitor:
                 if self._first_person:
                     self._camera()
             self.object.refresh()
+
+    def shows(self, panel: Played) -> bool:
+        """Whether the steps of no other panel are looked at."""
+        return self.player.owner in (None, panel)
 
     def select(self, name: str | None) -> None:
         """Point at an object."""

@@ -51,6 +51,9 @@ class PanelContext(Protocol):
     def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
 
+    def shows(self, panel: Played) -> bool:
+        """Whether the steps of no other panel are looked at."""
+
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""
 
