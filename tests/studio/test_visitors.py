@@ -368,6 +368,55 @@ def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> Non
         again.shows(f"▸ {STEPS[0]}")
 
 
+def test_a_correction_that_is_not_done_is_there_again(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
+        visitor.happens(move=1, to=2)
+        visitor.shows("Step 1 does not apply.")
+        visitor.put("What must hold at the end", "(at cup1 shelf1 on)")
+        visitor.put("Environment", "corner2")  # it stays, and can be gone on with
+        visitor.until(lambda: visitor.elements[visitor.find("Go on with the correction")]["visible"])
+        identity = visitor.identity
+    with Wire(server.url, identity, f"?environment=corner1&say={TEXT}.&tab=Correct".replace(" ", "+")) as again:
+
+        def gone(label: str) -> bool:
+            return not any(each.get("label") == label for each in again.elements.values())
+
+        again.told("Here is the correction that is not done.")
+        again.shows("Step 1 does not apply.")
+        assert again.elements[again.find("What must hold at the end")]["value"] == "(at cup1 shelf1 on)"
+        again.shows("reaches its goals")  # the plan that is made meanwhile takes nothing away
+        again.press("Correct this plan")
+        again.shows("in corner1 is not done.")
+        again.find("Throw it away")
+        again.press("Cancel")
+        again.until(lambda: gone("Cancel"))
+        again.happens(move=2, to=1)
+        again.shows("Every step applies.")
+        begin(again, "Take the cup.")
+        do(again, "cup1", STEPS[0])
+        again.press("Done: look at it, and save it")
+        again.shows("was shown with 1 step in corner1 and is not saved")
+        again.press("Cancel")
+        again.until(lambda: gone("Cancel"))
+        again.press("Done: look at it, and save it")  # the correction is still there
+        again.press("Throw it away, and take the plan")
+        again.told("The corrected plan is under Demonstrate")
+    directory = server.studio.drafts.directory
+    assert not [*directory.glob("*.correction.json")]
+    (draft,) = directory.glob("*.json")
+    for file in (draft, draft.with_suffix(".correction.json")):
+        file.write_text('{"draft": 1}')
+    with Wire(server.url, identity) as third:
+        third.told("is damaged")
+        begin(third, "Take the cup.")
+    assert len([*directory.glob("*.damaged-1")]) == 2
+
+
 def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
     with Wire(server.url) as visitor:
         visitor.put("Text", f"{TEXT}.")

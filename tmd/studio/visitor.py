@@ -146,6 +146,8 @@ class Visitor:
             self.window.show_tab(link.tab)
         if link.tab == "Demonstrate":
             self.demonstrate.come_back()
+        elif link.tab == "Correct":
+            self.correct.come_back()
 
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
@@ -363,7 +365,6 @@ class Visitor:
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
         self.correct.open(text, plan)
-        self.show_tab("Correct")
 
     def saved(self, demonstration: Demonstration) -> None:
         """A demonstration was saved: plan its text again, and say whether that uses it."""
@@ -380,10 +381,9 @@ class Visitor:
         )
         put(self._bar, round(100 * share))
 
-    def take_over(self, session: Session, goal: str) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved."""
-        self.demonstrate.take(session, goal)
-        self.show_tab("Demonstrate")
+    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
+        self.demonstrate.take(session, goal, taken)
 
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Say something to the visitor, at the top of the panel.

@@ -84,5 +84,5 @@ class PanelContext(Protocol):
     def saved(self, demonstration: Demonstration) -> None:
         """A demonstration was saved: plan its text again, and say whether that uses it."""
 
-    def take_over(self, session: Session, goal: str) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved."""
+    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""

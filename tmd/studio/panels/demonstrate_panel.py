@@ -76,7 +76,7 @@ class DemonstratePanel:
         self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
         with self._refused:
             self._reasons = gui.add_html("")
-        self._look_for_draft()
+        guarded(self._look_for_draft)(None)
 
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
@@ -105,13 +105,15 @@ class DemonstratePanel:
 
         self._over("Begin anew?", "Throw it away, and begin", go)
 
-    def take(self, session: Session, goal: str = "") -> None:
+    def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
         """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
 
         def go() -> None:
+            taken()
             put(self._text, session.text)
             self._open(session)
             put(self._goal, goal)
+            self._visitor.show_tab("Demonstrate")
             self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
 
         self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
@@ -185,7 +187,8 @@ class DemonstratePanel:
         draft = visitor.studio.drafts.of(visitor.identity)
         if draft is None:
             raise TmdError("there is no demonstration that was not saved")
-        visitor.enter(draft.environment)
+        if draft.environment != visitor.setting.name:
+            visitor.enter(draft.environment)
         session = draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon, visitor.studio.teacher.habits)
         put(self._text, session.text)
         put(self._task, draft.task)
