@@ -239,4 +239,7 @@ class CorrectPanel:
         marked = {broken.step: why} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         said = f"<p role='status'>{state}</p>"
-        self._text.content = fragment(said) + step_list(lines, self._at, (), marked, of="correct", draggable=True)
+        wording = visitor.studio.offers(visitor.setting.name).wording
+        words = [wording.instruction(step.instruction) for step in steps]
+        listed = step_list(lines, self._at, (), marked, of="correct", draggable=True, words=words)
+        self._text.content = fragment(said) + listed

@@ -279,13 +279,14 @@ class DemonstratePanel:
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
             change = session.changes(cursor) if cursor else None
-            said = visitor.studio.offers(visitor.setting.name).wording.fact
-            gains = changed(change.added, change.removed, said) if change else []
+            wording = visitor.studio.offers(visitor.setting.name).wording
+            gains = changed(change.added, change.removed, wording.fact) if change else []
             lines = [
                 (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
                 for step in session.steps
             ]
-            self._steps.content = step_list(lines, cursor, gains, of="demonstrate")
+            words = [wording.instruction(step.instruction) for step in session.steps]
+            self._steps.content = step_list(lines, cursor, gains, of="demonstrate", words=words)
             self._clause.visible = bool(session.steps)
             if session.steps:
                 self._clause.options = tuple(titles)
@@ -331,7 +332,8 @@ class DemonstratePanel:
             self._numbered.append(instruction)
             number = len(self._numbered)
             icon = f"square-number-{number}" if number <= NUMBERED else None
-            button = gui.add_button(str(instruction), icon=icon)  # type: ignore[arg-type]  # icons are told by name
+            words = self._visitor.studio.offers(self._visitor.setting.name).wording.instruction(instruction)
+            button = gui.add_button(str(instruction), icon=icon, hint=words)  # type: ignore[arg-type]  # icons are told by name
             button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
             self._offered.append(button)
         by_name = {str(instruction): instruction for instruction in possible[_FEW:]}

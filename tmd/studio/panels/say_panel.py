@@ -15,7 +15,7 @@ from tmd.diagnostics import TmdError
 from tmd.export.end_goal import asked_problem
 from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
-from tmd.inference.energy import title
+from tmd.inference.energy import meaning, title
 from tmd.inference.ranking import PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import format_plan
@@ -37,6 +37,9 @@ from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
+
+
+_ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
 
 
 def energies(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[Refusal] = ()) -> str:
@@ -65,16 +68,24 @@ def _factors(plans: Sequence[RankedPlan]) -> str:
     if not plans:
         return ""
     head = "".join(f"<th scope='col'>plan {index}</th>" for index in range(1, len(plans) + 1))
-    rows = [("energy", [f"<b>{number(plan.energy)}</b>" for plan in plans])]
-    rows += [(title(name), [number(plan.factors.get(name, 0.0)) for plan in plans]) for name in factors_of(plans)]
-    rows.append(("steps", [str(len(plan.steps)) for plan in plans]))
+    rows = [("energy", _ENERGY, [f"<b>{number(plan.energy)}</b>" for plan in plans])]
+    rows += [
+        (title(name), meaning(name), [number(plan.factors.get(name, 0.0)) for plan in plans])
+        for name in factors_of(plans)
+    ]
+    rows.append(("steps", "", [str(len(plan.steps)) for plan in plans]))
     body = "".join(
-        f"<tr><th scope='row'>{escape(name)}</th>{''.join(f'<td>{value}</td>' for value in values)}</tr>"
-        for name, values in rows
+        f"<tr><th scope='row' title='{escape(told)}'>{escape(name)}</th>"
+        f"{''.join(f'<td>{value}</td>' for value in values)}</tr>"
+        for name, told, values in rows
+    )
+    means = "".join(
+        f"<li><b>{escape(title(name))}</b> {escape(meaning(name))}</li>" for name in factors_of(plans) if meaning(name)
     )
     return (
         f"<h4>Energies by factor</h4><table class='numbers'><thead><tr><td></td>{head}</tr></thead>"
         f"<tbody>{body}</tbody></table>"
+        f"<details><summary>What the factors count</summary><p>{_ENERGY}</p><ul>{means}</ul></details>"
     )
 
 
@@ -394,16 +405,17 @@ class SayPanel:
             return
         reel = self._reels[self._number()]
         gains: list[str] = []
-        said = self._visitor.studio.offers(self._visitor.setting.name).wording.fact
+        wording = self._visitor.studio.offers(self._visitor.setting.name).wording
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now), said)
+            gains = changed(sorted(now - before), sorted(before - now), wording.fact)
         lines = [
             (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
             for s in self.listed()
         ]
         folded = self._only_there(reel) if self._fold.value else ()
-        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded)
+        words = [wording.instruction(step.instruction) for step in self.listed()]
+        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded, words=words)
 
     def _only_there(self, reel: Reel) -> set[int]:
         """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
