@@ -3,8 +3,8 @@
     python -m experiments.studio.walk [DIRECTORY]
 
 saves the pictures below DIRECTORY (runs/studio by default), to be looked at, and prints how many clicks and seconds it
-takes from an empty text box to a corrected, saved and reused plan, and how long an open page takes to be back after the
-studio was killed and started again. The kitchen is learned first, where that is not in the cache.
+takes from an empty text box to a corrected, saved and reused plan. The kitchen is learned first, where that is not in
+the cache.
 """
 
 from __future__ import annotations
@@ -135,19 +135,6 @@ def corrected(browser: Browser, url: str) -> tuple[int, float]:
     return clicks, took
 
 
-def back(browser: Browser, opened: Opened) -> float:
-    """Seconds from when a killed studio answers again until an open page is back."""
-    page = opened_page(browser, opened.url, (900, 700), "light")
-    say(page, TEXT)
-    opened.kill()
-    page.get_by_role("alert").filter(has_text="has ended").wait_for()
-    opened.start()
-    begun = time.monotonic()
-    told(page, "Planned in")
-    page.context.close()
-    return time.monotonic() - begun
-
-
 def main() -> None:
     """Walk."""
     directory = Path(sys.argv[1] if len(sys.argv) > 1 else "runs/studio")
@@ -157,7 +144,6 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
         try:
             pictures(browser, opened.url, directory)
-            print(f"back after a restart, with its plan: {back(browser, opened):.1f} s after the studio answers")
             clicks, took = corrected(browser, opened.url)
             print(f"corrected, saved and reused: {clicks} clicks and keys, {took:.1f} s")
         finally:

@@ -28,12 +28,14 @@ _CAMERA = {
 class Wire:
     """One connection; what the page would show is in ``elements``."""
 
-    def __init__(self, url: str, identity: str | None = None, search: str = "", *, dark: bool = False) -> None:
+    def __init__(
+        self, url: str, identity: str | None = None, search: str = "", *, dark: bool = False, plan: str = ""
+    ) -> None:
         self._socket: ClientConnection = connect(
             url.replace("http", "ws"), subprotocols=[f"viser-v{viser.__version__}"], max_size=None  # type: ignore[list-item]
         )  # fmt: skip
         self.identity = identity
-        self.page = json.dumps({"search": search, "dark": dark})
+        self.page = json.dumps({"search": search, "dark": dark, "plan": plan})
         self._happened: list[dict[str, object]] = []
         self.told_page: list[dict[str, str]] = []
         self.elements: dict[str, dict[str, Any]] = {}

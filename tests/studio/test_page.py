@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 
 from tmd.inference.ranking import StepGoal
 from tmd.pddl.model import GroundAtom
+from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.applicable_actions import Offers
 from tmd.studio.object_info import about
@@ -56,6 +57,22 @@ def test_an_object_is_told_in_words(kitchen1: World) -> None:
     knob = object_facts(about("stove1_knob1", kitchen1, kitchen1.task.init), wording.fact)
     assert "<h4>stove1: stove</h4>" in whole and "stove1_knob1" in whole
     assert "of stove1</h4>" in knob and "stove1_burner1" in knob.partition("What controls what")[2]
+
+
+def test_an_instruction_is_told_in_words(kitchen1: World) -> None:
+    wording = Offers(kitchen1).wording
+    for instruction, words in (
+        ("moveto(pot1)", "Go and stand before pot1"),
+        ("keep(pot1, sink1, in)", "Put pot1 down so that it is in sink1"),
+        ("release(pot1)", "release pot1"),
+        ("juggle(a, b)", "juggle a, b"),
+    ):
+        assert wording.instruction(parse_instruction(instruction)) == words
+    steps = [("wait()", "clause 1", False), ("find(x)", "clause 1", False)]
+    html = step_list(steps, 1, words=["Let <time> pass", "y"])
+    assert (
+        "<p class='said'>Let &lt;time&gt; pass</p>" in html and 'title="y"' in html and "<p class='said'>y" not in html
+    )
 
 
 def test_what_cannot_be_done_is_listed_with_what_it_lacks(kitchen1: World) -> None:

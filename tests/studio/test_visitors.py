@@ -17,11 +17,13 @@ pytest.importorskip("viser", reason="needs the extra studio")
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
+from tmd.grounded import Grounded
 from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
+from tmd.veil.world import World
 from tmd.world.folder import DomainFolder
 
 VISITORS = 10
@@ -314,6 +316,48 @@ def test_a_window_that_is_loaded_again_looks_at_the_same(server: Server) -> None
             begin(visitor, "Take the cup.")
 
 
+def test_the_plan_of_before_is_there_at_once_and_planned_again_behind(
+    server: Server, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        kept = next(told["plan"] for told in visitor.told_page if "plan" in told)
+    assert [step for step, _, _ in json.loads(kept)] == list(STEPS)
+    other = json.dumps([[step, 0, False] for step in STEPS[:2]])
+    teacher, go_on = server.studio.teacher, Event()
+    ground = teacher.ground
+
+    def late(text: str, world: World, top: int = 1) -> Grounded:
+        if text == f"{TEXT}.":
+            assert go_on.wait(20)
+        return ground(text, world, top)
+
+    monkeypatch.setattr(teacher, "ground", late)
+    link = f"?say={TEXT.replace(' ', '+')}.&step=2"
+    for plan, answer in ((kept, "Planned in"), (other, "another plan now than the one that you looked at before")):
+        go_on.clear()
+        with Wire(server.url, None, link, plan=plan) as again:
+            again.told("Here is the plan that you looked at")
+            again.shows(f"▸ {STEPS[1]}")
+            again.happens(step=1, list="say")
+            again.shows(f"▸ {STEPS[0]}")
+            go_on.set()
+            again.told(answer)
+            again.shows(f"▸ {STEPS[0]}")
+    for damaged in ("[", "[[1,2,3]]", '[["grasp(cup9)",0,false]]', '[["keep(cup1, shelf1, on)",0,false]]', "[" * 9_000):
+        go_on.clear()
+        with Wire(server.url, None, link, plan=damaged) as again:
+            again.told("Planning …")
+            again.put("Text", "Take the cup.")
+            again.press("Plan it")
+            again.told("Planned in")
+            go_on.set()  # what was asked for since is not overwritten
+            again.happens(step=1, list="say")
+            again.shows("1 / 2 ")
+
+
 def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> None:
     with Wire(server.url) as visitor:
         begin(visitor, f"{TEXT}.")
@@ -322,6 +366,55 @@ def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> Non
     with Wire(server.url, identity, "?tab=Demonstrate") as again:
         again.told("Here is what was not saved: 1 steps")
         again.shows(f"▸ {STEPS[0]}")
+
+
+def test_a_correction_that_is_not_done_is_there_again(server: Server) -> None:
+    with Wire(server.url) as visitor:
+        visitor.put("Text", f"{TEXT}.")
+        visitor.press("Plan it")
+        visitor.told("Planned in")
+        visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
+        visitor.happens(move=1, to=2)
+        visitor.shows("Step 1 does not apply.")
+        visitor.put("What must hold at the end", "(at cup1 shelf1 on)")
+        visitor.put("Environment", "corner2")  # it stays, and can be gone on with
+        visitor.until(lambda: visitor.elements[visitor.find("Go on with the correction")]["visible"])
+        identity = visitor.identity
+    with Wire(server.url, identity, f"?environment=corner1&say={TEXT}.&tab=Correct".replace(" ", "+")) as again:
+
+        def gone(label: str) -> bool:
+            return not any(each.get("label") == label for each in again.elements.values())
+
+        again.told("Here is the correction that is not done.")
+        again.shows("Step 1 does not apply.")
+        assert again.elements[again.find("What must hold at the end")]["value"] == "(at cup1 shelf1 on)"
+        again.shows("reaches its goals")  # the plan that is made meanwhile takes nothing away
+        again.press("Correct this plan")
+        again.shows("in corner1 is not done.")
+        again.find("Throw it away")
+        again.press("Cancel")
+        again.until(lambda: gone("Cancel"))
+        again.happens(move=2, to=1)
+        again.shows("Every step applies.")
+        begin(again, "Take the cup.")
+        do(again, "cup1", STEPS[0])
+        again.press("Done: look at it, and save it")
+        again.shows("was shown with 1 step in corner1 and is not saved")
+        again.press("Cancel")
+        again.until(lambda: gone("Cancel"))
+        again.press("Done: look at it, and save it")  # the correction is still there
+        again.press("Throw it away, and take the plan")
+        again.told("The corrected plan is under Demonstrate")
+    directory = server.studio.drafts.directory
+    assert not [*directory.glob("*.correction.json")]
+    (draft,) = directory.glob("*.json")
+    for file in (draft, draft.with_suffix(".correction.json")):
+        file.write_text('{"draft": 1}')
+    with Wire(server.url, identity) as third:
+        third.told("is damaged")
+        begin(third, "Take the cup.")
+    assert len([*directory.glob("*.damaged-1")]) == 2
 
 
 def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:

@@ -132,6 +132,7 @@ NAMES = (
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
 OURS = ("cover", "words", "generated", "unasked")
+"""Those of them that are not in the paper."""
 _TITLES = {
     "env": "environment distance",
     "nl": "clause distance",
@@ -158,7 +159,32 @@ def title(name: str) -> str:
     return _TITLES.get(name, name)
 
 
-"""Those of them that are not in the paper."""
+_MEANINGS = {
+    "env": "How much the things here were in other states than the things in the demonstration.",
+    "nl": "How many of the things that the clause names are not those that the demonstration's clause named.",
+    "sim": "How many things of the demonstration something else stands in for.",
+    "pcc": "Whether the clause names more things, or fewer, than the demonstration's clause.",
+    "dscpl": "How long the steps are to write down: one for each, and one for each thing in it.",
+    "inpr": "How rare the steps' actions are in the demonstrations.",
+    "para": "How rare such things are in such steps in the demonstrations.",
+    "trim": "How many steps of the demonstration are left out, squared.",
+    "cons": "How unlike what this verb usually leaves behind the state at the end is.",
+    "cover": "How many of the things that the clause names no step touches.",
+    "words": "How unlikely a person is to have said just this of what is done.",
+    "generated": "What a choice costs that the policy proposed and no demonstration showed.",
+    "unasked": "How much is otherwise at the end that nobody asked for.",
+    "latent_dscpl": "How long the steps are to write down that the planner puts in.",
+    "latent_inpr": "How rare the actions are that the planner puts in.",
+    "latent_para": "How rare such things are in the steps that the planner puts in.",
+    "latent_cons": "How unlike what is usual the state is that the steps which the planner puts in leave behind.",
+}
+
+
+def meaning(name: str) -> str:
+    """What a factor counts, in a sentence: the more of it, the dearer the plan; empty where it is not known."""
+    return _MEANINGS.get(name, "")
+
+
 _RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "policy", "stating": "goals"}
 
 

@@ -163,7 +163,7 @@ class ActionSchema:
     """An action with variables: what an instruction needs and does.
 
     ``cost`` is what the action adds to ``total-cost``: a number, a function of its parameters, or ``None``
-    where nothing is said (then each action costs 1).
+    where nothing is said (then each action costs 1). ``comment`` is what stands above it in the file, for people.
     """
 
     name: str
@@ -172,6 +172,7 @@ class ActionSchema:
     effects: tuple[Effect, ...]
     cost: int | Atom | None = None
     location: Location | None = field(default=None, compare=False, repr=False)
+    comment: str = field(default="", compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import gzip
 import json
 import secrets
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
@@ -19,6 +19,9 @@ from threading import Lock
 from typing import TYPE_CHECKING, Any
 from urllib.parse import parse_qs, urlencode
 
+from tmd.diagnostics import TmdError
+from tmd.inference.ranking import PlanStep
+from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.guard import response
 
 if TYPE_CHECKING:
@@ -39,6 +42,8 @@ _PATIENCE = 5.0
 """Seconds that a window may take to answer."""
 _LONGEST = 20_000
 """Characters of an event, or of an address, that are read."""
+_MOST_STEPS = 1_000
+"""Steps of a plan that a window kept that are read."""
 _WHOLE = 6
 """Digits of a number in an address."""
 
@@ -117,6 +122,24 @@ def read_link(query: str) -> PageLink:
     )
 
 
+def plan_to_json(plan: Sequence[PlanStep]) -> str:
+    """A plan as a window keeps it; empty for none."""
+    return json.dumps([[str(s.instruction), s.clause, s.latent] for s in plan]) if plan else ""
+
+
+def read_plan(kept: object) -> tuple[PlanStep, ...]:
+    """A plan that a window kept; empty where it kept none, or what it sends is none."""
+    try:
+        rows = json.loads(kept) if isinstance(kept, str) and kept else []
+        if not isinstance(rows, list) or len(rows) > _MOST_STEPS:
+            return ()
+        steps = [(parse_instruction(line), clause, latent) for line, clause, latent in rows]
+    except (ValueError, TypeError, AttributeError, RecursionError, TmdError):
+        return ()
+    right = all(type(clause) is int and type(latent) is bool for _, clause, latent in steps)
+    return tuple(PlanStep(*step) for step in steps) if right else ()
+
+
 def width_of(said: Mapping[str, Any]) -> int:
     """The width of a window, as its script told it; 0 where it did not."""
     width = said.get("width")
@@ -139,6 +162,7 @@ class Window:
         dark: Whether its system is dark.
         width: Pixels from its left to its right; 0 where it does not say.
         link: What its address said when it was loaded.
+        plan: The plan that it showed before; empty for none.
     """
 
     def __init__(self, client: ClientHandle, told: Callable[[Mapping[str, Any]], None]) -> None:
@@ -151,7 +175,8 @@ class Window:
         self.dark = said.get("dark") is True
         self.width = width_of(said)
         self.link = read_link(str(said.get("search", "")))
-        self._kept = self.link
+        self.plan = read_plan(said.get("plan"))
+        self._kept, self._kept_plan = self.link, self.plan
         self._told = told
         self._seen = 0
         self._lock = Lock()
@@ -175,8 +200,11 @@ class Window:
             new, self._seen = number > self._seen, max(number, self._seen)
             return new
 
-    def keep(self, link: PageLink) -> None:
-        """Let the address say what is looked at."""
+    def keep(self, link: PageLink, plan: tuple[PlanStep, ...]) -> None:
+        """Let the address say what is looked at, and the window keep the plan, to show it at once when it is back."""
+        if plan != self._kept_plan:
+            self._kept_plan = plan
+            self._tell({"plan": plan_to_json(plan)})
         if link != self._kept:
             self._kept = link
             self._tell({"link": link.query()})

@@ -140,12 +140,14 @@ class Visitor:
         if link.environment in self.studio.environments() and link.environment != self.setting.name:
             self.enter(link.environment)
         if link.say:
-            self.say.come_back(link)
+            self.say.come_back(link, self.window.plan)
         if link.tab in TABS:
             self._tab = link.tab
             self.window.show_tab(link.tab)
         if link.tab == "Demonstrate":
             self.demonstrate.come_back()
+        elif link.tab == "Correct":
+            self.correct.come_back()
 
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
@@ -177,7 +179,7 @@ class Visitor:
         """Let the window's address say what is looked at."""
         plan, step, text = self.say.looked_at()
         tab = self._tab if self._tab != "Say" else ""
-        self.window.keep(PageLink(self.setting.name, text, plan, step, tab))
+        self.window.keep(PageLink(self.setting.name, text, plan, step, tab), self.say.listed())
 
     def show_tab(self, name: str) -> None:
         """Open a tab."""
@@ -252,6 +254,10 @@ class Visitor:
                 if self._first_person:
                     self._camera()
             self.object.refresh()
+
+    def shows(self, panel: Played) -> bool:
+        """Whether the steps of no other panel are looked at."""
+        return self.player.owner in (None, panel)
 
     def select(self, name: str | None) -> None:
         """Point at an object."""
@@ -359,7 +365,6 @@ class Visitor:
     def open_correction(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
         """Correct a plan for a text in the panel for that."""
         self.correct.open(text, plan)
-        self.show_tab("Correct")
 
     def saved(self, demonstration: Demonstration) -> None:
         """A demonstration was saved: plan its text again, and say whether that uses it."""
@@ -376,10 +381,9 @@ class Visitor:
         )
         put(self._bar, round(100 * share))
 
-    def take_over(self, session: Session, goal: str) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved."""
-        self.demonstrate.take(session, goal)
-        self.show_tab("Demonstrate")
+    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""
+        self.demonstrate.take(session, goal, taken)
 
     def tell(self, message: str, hint: str | None = None, *, fault: bool = False, aloud: bool = False) -> None:
         """Say something to the visitor, at the top of the panel.

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.inference.energy import title
+from tmd.inference.energy import meaning, title
 from tmd.inference.ranking import RankedPlan, Refusal
 from tmd.view.markup import templates
 
@@ -33,6 +33,7 @@ def candidates(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusa
         plans=plans,
         verdicts=[verdicts[i] if i < len(verdicts) else "" for i in range(len(plans))],
         factors={name: title(name) for name in factors_of(plans)},
+        meanings={name: meaning(name) for name in factors_of(plans)},
         clauses=max((len(plan.choices) for plan in plans), default=0),
         refused=grouped(refusals),
     )

@@ -22,6 +22,7 @@ from tmd.pddl.model import (
     Or,
     Problem,
     State,
+    TypedName,
     conjuncts,
     universe,
 )
@@ -46,12 +47,22 @@ class Wording:
         domain = problem.domain
         self._objects = universe(problem)
         self._constants = frozenset(constant.name for constant in domain.constants)
+        self._actions = {action.name: action for action in domain.actions}
         self._predicates = {predicate.name: predicate for predicate in domain.predicates}
         self._changing = frozenset(effect.atom.predicate for action in domain.actions for effect in action.effects)
 
     def fact(self, atom: GroundAtom) -> str:
         """What ``atom`` says, without full stop: *mug1 is on counter1*."""
         return self._told(atom.predicate, atom.args) or str(atom)
+
+    def instruction(self, instruction: Instruction) -> str:
+        """What is done, by the comment above the action: *Go and stand before pot1*; its name where that says less."""
+        action = self._actions.get(instruction.name)
+        plain = " ".join((instruction.name.replace("_", " "), ", ".join(instruction.args))).strip()
+        if action is None or len(instruction.args) != len(action.parameters):
+            return plain
+        sentence = re.split(r"[.:;(]|, and ", action.comment)[0].strip()
+        return self._filled(sentence, action.parameters, instruction.args) or plain
 
     def condition(self, condition: Formula) -> str:
         """What ``condition`` says, without full stop: *there is some water in cup1, and cup1 is hot*.
@@ -157,11 +168,14 @@ class Wording:
         predicate = self._predicates.get(name)
         if predicate is None or len(args) != len(predicate.parameters):
             return ""
-        comment = re.split(r"[:;(]", predicate.comment)[0].strip()
-        names = [parameter.name.removeprefix("?") for parameter in predicate.parameters]
+        return self._filled(re.split(r"[:;(]", predicate.comment)[0].strip(), predicate.parameters, args)
+
+    def _filled(self, comment: str, parameters: Sequence[TypedName], args: Sequence[str]) -> str:
+        """A comment with ``args`` for parameters; empty where it does not speak of all that are no constants."""
+        names = [parameter.name.removeprefix("?") for parameter in parameters]
         if not comment or _WORDS & set(names):
             return ""
-        for parameter, argument in zip(predicate.parameters, args, strict=True):
+        for parameter, argument in zip(parameters, args, strict=True):
             comment = _chosen(comment, argument, self._objects.of(parameter.types))
         found = dict(zip(names, args, strict=True))
         silent = [name for name in names if not _word(name).search(comment)]

@@ -94,8 +94,28 @@ def test_a_sentence_becomes_a_plan_and_is_stepped_through(
         page.get_by_text("Energies, and why").click()
         page.get_by_role("heading", name="Why the others lost").wait_for()
         page.screenshot(path=screens / "03-energies.png")
+        page.get_by_text("What the factors count").click()
+        page.get_by_text("The sum of the factors").wait_for()
         press(page, "▶|")
         page.locator("ol:visible > li").last.locator("[aria-current=step]").wait_for()
+        for name in ("Say", "Demonstrate", "Correct", "Object"):
+            tab(page, name)
+            page.wait_for_timeout(200)
+            assert page.evaluate(NAMELESS) == []
+
+
+NAMELESS = """() => [...document.querySelectorAll(
+    'input, textarea, select, button, [role=button], [role=slider], [role=tab]')]
+  .filter((each) => each.offsetParent && each.type !== 'hidden' && !each.closest('[aria-hidden=true]'))
+  .filter((each) => {
+    const ids = (each.getAttribute('aria-labelledby') || '').split(' ');
+    const of = ids.map((id) => document.getElementById(id)?.textContent);
+    const labels = [...(each.labels || [])].map((label) => label.textContent);
+    const own = each.matches('input, textarea, select') ? '' : each.textContent;
+    return ![each.getAttribute('aria-label'), each.title, own, ...of, ...labels].some((name) => (name || '').trim());
+  })
+  .map((each) => each.outerHTML.slice(0, 200))"""
+"""Everything that can be worked with and has no name for a screen reader."""
 
 
 def test_shown_by_clicks_saved_learned_and_used(kitchen_studio: Served, browser: Browser, screens: Path) -> None:

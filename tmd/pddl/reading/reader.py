@@ -278,7 +278,18 @@ def read_action(group: Group, source: Source) -> ActionSchema:
         parameters = source.recover((), read_parameters, parts[":parameters"], source)
     if ":vars" in parts:  # not supported, which is told; its variables are known so that they are not told as well
         parameters += source.recover((), read_parameters, parts[":vars"], source)
-    return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location)
+    comment = _comment_above(group, source)
+    return ActionSchema(name.text, parameters, precondition, tuple(effects.flat), effects.cost, name.location, comment)
+
+
+def _comment_above(group: Group, source: Source) -> str:
+    """The comment in the lines right above a group."""
+    number = group.location.line - 1
+    found: list[str] = []
+    while 0 < number <= len(source.lines) and (line := source.lines[number - 1].strip()).startswith(";"):
+        found.insert(0, line.lstrip(";").strip())
+        number -= 1
+    return " ".join(found)
 
 
 def read_axiom(group: Group, source: Source) -> Axiom:

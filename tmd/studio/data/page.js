@@ -2,7 +2,7 @@
 // speaks to the server through an input that is not seen.
 "use strict";
 (() => {
-  const KEY = "tmd-page", EVENT = "tmdevent", LOOK = 1500, LATE = 350, PATIENCE = 12000;
+  const KEY = "tmd-page", EVENT = "tmdevent", PLAN = "tmd-plan", LOOK = 1500, LATE = 350, PATIENCE = 12000;
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -12,12 +12,14 @@
   Storage.prototype.getItem = function (key) {
     if (!mine(key)) return getItem.call(this, key);
     recent = []; // the studio begins anew with this window
-    return JSON.stringify({ search: location.search, dark: dark.matches, width: innerWidth });
+    const plan = getItem.call(sessionStorage, PLAN) || ""; // as the address, it is this window's own
+    return JSON.stringify({ search: location.search, dark: dark.matches, width: innerWidth, plan });
   };
   Storage.prototype.setItem = function (key, value) {
     if (!mine(key)) return setItem.call(this, key, value);
     const told = JSON.parse(value);
     if (told.link !== undefined) history.replaceState(null, "", told.link || location.pathname);
+    if (told.plan !== undefined) setItem.call(sessionStorage, PLAN, told.plan);
     if (told.tab) tab(told.tab, 40);
   };
 

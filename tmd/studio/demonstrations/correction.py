@@ -51,9 +51,13 @@ class Correction:
         text: What was said.
         proposed: The plan that was proposed for it, each instruction with its clause.
         lexicon: The words of the domain.
+        steps: What it was made already; what was proposed by default.
 
     Attributes:
         proposed: The plan as it was proposed.
+
+    Raises:
+        TmdError: The environment has no such instruction as one of ``steps``.
     """
 
     def __init__(
@@ -62,6 +66,7 @@ class Correction:
         text: str,
         proposed: Sequence[DemonstratedStep],
         lexicon: Lexicon | None = None,
+        steps: Sequence[DemonstratedStep] | None = None,
     ) -> None:
         self.world = world
         self.text = clean(text)
@@ -70,6 +75,10 @@ class Correction:
         self._planner: Planner | None = None
         self._wording = Wording(world.task.problem)
         self._history: History[tuple[DemonstratedStep, ...]] = History(self.proposed)
+        if steps is not None:
+            for step in steps:
+                bind(world.task.problem, step.instruction)
+            self._history.add(tuple(steps))
         self._lock = threading.RLock()
 
     @property

@@ -1,4 +1,4 @@
-"""What was demonstrated and not saved yet: a small file for each visitor, written after each action.
+"""What was demonstrated or corrected and not saved yet: a small file for each visitor, written after each action.
 
 A draft lies in a directory of its user, not of the corpus, so that it is kept where the corpus cannot be written. Who
 works on it holds a lock that ends with the process: after a crash a draft is nobody's, and is offered again.
@@ -11,10 +11,11 @@ import os
 import re
 import secrets
 import threading
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 from zlib import crc32
 
 from tmd.diagnostics import TmdError
@@ -22,6 +23,7 @@ from tmd.files import make_directory, write_text
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
+from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.lock import Lock, try_lock
 from tmd.veil.corpus import Corpus
@@ -34,6 +36,7 @@ _FORM = 1
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
 _LARGEST = 1_000_000
 """Bytes that no draft has."""
+_Kept = TypeVar("_Kept")
 
 
 def place(corpus: Corpus) -> Path:
@@ -85,11 +88,36 @@ class Draft:
             lexicon,
             instructions=map(parse_instruction, self.instructions),
             pins=dict(self.marks),
-            proposed=None
-            if proposed is None
-            else tuple(DemonstratedStep(parse_instruction(i), c) for i, c in proposed),
+            proposed=None if proposed is None else _steps(proposed),
             habits=habits,
         )
+
+
+@dataclass(frozen=True, slots=True)
+class CorrectionDraft:
+    """A correction as it is kept, while it is not done.
+
+    Attributes:
+        environment: The name of its environment.
+        text: What was said.
+        proposed: The plan that is corrected, each instruction with its clause.
+        steps: What it was made, in the same form.
+        goal: What must hold at the end, as it was typed.
+    """
+
+    environment: str
+    text: str
+    proposed: tuple[tuple[str, int], ...]
+    steps: tuple[tuple[str, int], ...]
+    goal: str = ""
+
+    def resume(self, world: World, lexicon: Lexicon | None = None) -> Correction:
+        """The correction again; undo leads to the plan that was proposed.
+
+        Raises:
+            TmdError: The environment has changed, so that it has no such instruction any more.
+        """
+        return Correction(world, self.text, _steps(self.proposed), lexicon, _steps(self.steps))
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +165,7 @@ class Drafts:
         with self._guard:
             lock = self._held.pop(visitor, None)
             if lock is not None:
-                lock.release(remove=not self._file(visitor).exists())
+                lock.release(remove=not self.kept(visitor))
 
     def keep(self, visitor: str, session: Session, task: str) -> None:
         """Write down what ``session`` is now. The whole file is replaced.
@@ -146,10 +174,25 @@ class Drafts:
             TmdError: The visitor did not enter.
             OutputError: It cannot be written; the draft of the action before is still there.
         """
+        self._write(visitor, self._file(visitor), _to_json(session, task))
+
+    def keep_correction(self, visitor: str, correction: Correction, goal: str = "") -> None:
+        """Write down what a correction is now, and what must hold at its end; errors as those of :meth:`keep`."""
+        content = {
+            "draft": _FORM,
+            "environment": correction.world.name,
+            "text": correction.text,
+            "proposed": _pairs(correction.proposed),
+            "steps": _pairs(correction.steps),
+            "goal": goal,
+        }
+        self._write(visitor, self._correction_file(visitor), content)
+
+    def _write(self, visitor: str, file: Path, content: Mapping[str, Any]) -> None:
         with self._guard:
             if visitor not in self._held:
                 raise TmdError(f"'{visitor}' is not here", hint="enter first")
-            write_text(self._file(visitor), json.dumps(_to_json(session, task), ensure_ascii=False) + "\n")
+            write_text(file, json.dumps(content, ensure_ascii=False) + "\n")
 
     def discard(self, visitor: str) -> None:
         """Forget a visitor's draft: it was saved, or is not wanted.
@@ -157,15 +200,24 @@ class Drafts:
         Raises:
             TmdError: The visitor did not enter.
         """
+        self._forget(visitor, self._file(visitor))
+
+    def discard_correction(self, visitor: str) -> None:
+        """Forget a visitor's correction: it is done, or not wanted; errors as those of :meth:`discard`."""
+        self._forget(visitor, self._correction_file(visitor))
+
+    def _forget(self, visitor: str, file: Path) -> None:
         with self._guard:
             if visitor not in self._held:
                 raise TmdError(f"'{visitor}' is not here", hint="enter first")
             with suppress(OSError):
-                self._file(visitor).unlink(missing_ok=True)
+                file.unlink(missing_ok=True)
 
     def kept(self, visitor: str) -> bool:
         """Whether something is kept by that name; nothing is by one that nobody can have."""
-        return bool(_VISITOR.fullmatch(visitor)) and self._file(visitor).exists()
+        if not _VISITOR.fullmatch(visitor):
+            return False
+        return self._file(visitor).exists() or self._correction_file(visitor).exists()
 
     def of(self, visitor: str) -> Draft | None:
         """The draft of somebody who entered, if there is one; a damaged one is set aside.
@@ -173,12 +225,22 @@ class Drafts:
         Raises:
             TmdError: It was damaged; tells where it is now.
         """
+        return self._found(self._file(visitor), _read)
+
+    def correction_of(self, visitor: str) -> CorrectionDraft | None:
+        """The correction of somebody who entered, if there is one; a damaged one is set aside.
+
+        Raises:
+            TmdError: It was damaged; tells where it is now.
+        """
+        return self._found(self._correction_file(visitor), _read_correction)
+
+    def _found(self, file: Path, read: Callable[[Path], _Kept]) -> _Kept | None:
         with self._guard:
-            file = self._file(visitor)
             if not file.exists():
                 return None
             try:
-                return _read(file)
+                return read(file)
             except (OSError, ValueError, TypeError, KeyError, RecursionError, TmdError) as error:
                 raise TmdError(self._set_aside(file, error)) from None
 
@@ -228,6 +290,9 @@ class Drafts:
             raise TmdError("this cannot be the name of a visitor", hint="use letters, digits, _ and -, at most 64")
         return self.directory / f"{visitor}.json"
 
+    def _correction_file(self, visitor: str) -> Path:
+        return self._file(visitor).with_suffix(".correction.json")
+
     def _try(self, visitor: str) -> Lock | None:
         return try_lock(self._file(visitor).with_suffix(".lock"))
 
@@ -261,8 +326,25 @@ def _to_json(session: Session, task: str) -> dict[str, Any]:
         "text": session.text,
         "instructions": [str(instruction) for instruction in session.instructions],
         "marks": [list(pair) for pair in session.pins.items()],
-        "proposed": None if proposed is None else [[str(s.instruction), s.clause] for s in proposed],
+        "proposed": None if proposed is None else _pairs(proposed),
     }
+
+
+def _pairs(steps: Iterable[DemonstratedStep]) -> list[list[str | int]]:
+    return [[str(step.instruction), step.clause] for step in steps]
+
+
+def _steps(pairs: Iterable[tuple[str, int]]) -> tuple[DemonstratedStep, ...]:
+    return tuple(DemonstratedStep(parse_instruction(instruction), clause) for instruction, clause in pairs)
+
+
+def _loaded(file: Path) -> dict[str, Any]:
+    if file.stat().st_size > _LARGEST:
+        raise ValueError("it is too large")
+    data = json.loads(file.read_bytes())
+    if not isinstance(data, dict) or data["draft"] != _FORM:
+        raise ValueError("it is not a draft of this version")
+    return data
 
 
 def _read(file: Path) -> Draft:
@@ -271,11 +353,7 @@ def _read(file: Path) -> Draft:
     Raises:
         OSError, ValueError, TypeError, KeyError, RecursionError, TmdError: It is none.
     """
-    if file.stat().st_size > _LARGEST:
-        raise ValueError("it is too large")
-    data = json.loads(file.read_bytes())
-    if not isinstance(data, dict) or data["draft"] != _FORM:
-        raise ValueError("it is not a draft of this version")
+    data = _loaded(file)
     proposed = data["proposed"]
     environment, task, text = texts = [data[key] for key in ("environment", "task", "text")]
     found = Draft(
@@ -289,8 +367,21 @@ def _read(file: Path) -> Draft:
     )
     lines = [*found.instructions, *(instruction for instruction, _ in found.proposed or ())]
     numbers = [n for pair in found.marks for n in pair] + [clause for _, clause in found.proposed or ()]
+    _check(texts, lines, numbers)
+    return found
+
+
+def _read_correction(file: Path) -> CorrectionDraft:
+    """The correction in ``file``; errors as those of :func:`_read`."""
+    data = _loaded(file)
+    environment, text, goal = texts = [data[key] for key in ("environment", "text", "goal")]
+    proposed, steps = (tuple((line, clause) for line, clause in data[key]) for key in ("proposed", "steps"))
+    _check(texts, [line for line, _ in proposed + steps], [clause for _, clause in proposed + steps])
+    return CorrectionDraft(environment, text, proposed, steps, goal)
+
+
+def _check(texts: Iterable[object], lines: Sequence[str], numbers: Iterable[object]) -> None:
     if not all(isinstance(said, str) for said in [*texts, *lines]) or not all(isinstance(n, int) for n in numbers):
         raise TypeError("a value is of the wrong kind")
     for line in lines:
         parse_instruction(line)
-    return found

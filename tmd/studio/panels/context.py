@@ -51,6 +51,9 @@ class PanelContext(Protocol):
     def watch(self, reel: Reel, step: int, by: Played | None = None, instructions: Sequence[Instruction] = ()) -> None:
         """Look at a state of some states; ``by`` is the panel whose instructions lead through them."""
 
+    def shows(self, panel: Played) -> bool:
+        """Whether the steps of no other panel are looked at."""
+
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""
 
@@ -81,5 +84,5 @@ class PanelContext(Protocol):
     def saved(self, demonstration: Demonstration) -> None:
         """A demonstration was saved: plan its text again, and say whether that uses it."""
 
-    def take_over(self, session: Session, goal: str) -> None:
-        """Go on with a corrected plan in the panel where demonstrations are saved."""
+    def take_over(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
+        """Go on with a corrected plan in the panel where demonstrations are saved; ``taken`` is called then."""

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 EVERYWHERE = "in every step"
 HERE = "in this step"
 NOTHING = "(nothing)"
+PLAN_FIRST = "<p>Plan something under Say, and press 'Correct this plan'.</p>"
 NO_STEPS = "No step is left: that nothing is to be done is a correction as well."
 _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
@@ -42,7 +43,9 @@ class CorrectPanel:
         self._at = 0
         self._reel = Reel(visitor.setting)
         gui, guarded = visitor.client.gui, visitor.guarded
-        self._text = gui.add_html(fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>"))
+        self._text = gui.add_html(fragment(PLAN_FIRST))
+        self._resume = gui.add_button("Go on with the correction", visible=False)
+        self._resume.on_click(guarded(self.resume))
         self._all = gui.add_folder("Edit", visible=False)
         with self._all:
             self._edits = gui.add_button_group("Change", _EDITS)
@@ -57,34 +60,79 @@ class CorrectPanel:
             gui.add_button("Insert behind this step").on_click(guarded(self._insert))
             gui.add_button("Let the planner put in what is missing").on_click(guarded(self._mend))
             self._goal = gui.add_text("What must hold at the end", "", hint=GOAL_HINT)
+            self._goal.on_update(guarded(self._keep))
             gui.add_button("Done: look at it, and save it", color="blue").on_click(guarded(self._finish))
+        guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
-        """Another environment: nothing is corrected there."""
+        """Another environment: nothing is corrected there; what is not done is kept."""
         self._correction = None
         self._all.visible = False
-        self._text.content = fragment("<p>Plan something under Say, and press 'Correct this plan'.</p>")
+        self._text.content = fragment(PLAN_FIRST)
+        self._look_for_draft()
 
     def open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
-        """Correct a plan for a text; what was corrected before and not saved is asked for."""
-        before = self._correction
-        if before is not None and before.steps != before.proposed:
-            said = " ".join(before.text.split())
-            question = f'The correction of "{said}" is not done.'
-            self._visitor.ask("Correct this plan instead?", question, "Throw it away", lambda: self._open(text, plan))
-        else:
-            self._open(text, plan)
-
-    def _open(self, text: str, plan: Sequence[DemonstratedStep]) -> None:
+        """Correct a plan for a text; what was corrected before and is not done is asked for."""
         visitor = self._visitor
-        self._correction = Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon)
-        self._reel, self._at = Reel(visitor.setting), 1 if plan else 0
-        names = visitor.setting.names()
-        self._new.options = self._with.options = (NOTHING, *names)
-        self._all.visible = True
-        put(self._goal, "")
-        self._refresh()
-        visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
+
+        def go() -> None:
+            self._open(Correction(visitor.setting.world, text, plan, visitor.studio.corpus.lexicon))
+            visitor.show_tab("Correct")
+            visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
+
+        before = visitor.studio.drafts.correction_of(visitor.identity)
+        if before is None:
+            go()
+            return
+        said = " ".join(before.text.split())
+        question = f'The correction of "{said}" in {before.environment} is not done.'
+        visitor.ask("Correct this plan instead?", question, "Throw it away", go)
+
+    def _open(self, correction: Correction, goal: str = "") -> None:
+        visitor = self._visitor
+        with visitor.holding():
+            visitor.stop()
+            self._correction = correction
+            self._reel, self._at = Reel(visitor.setting), 1 if correction.steps else 0
+            names = visitor.setting.names()
+            self._new.options = self._with.options = (NOTHING, *names)
+            self._all.visible, self._resume.visible = True, False
+            put(self._goal, goal)
+            self._refresh()
+
+    # what is not done yet
+
+    def _look_for_draft(self) -> None:
+        visitor = self._visitor
+        self._resume.visible = visitor.studio.drafts.correction_of(visitor.identity) is not None
+
+    def resume(self) -> None:
+        """Go on with the correction that is not done."""
+        visitor = self._visitor
+        draft = visitor.studio.drafts.correction_of(visitor.identity)
+        if draft is None:
+            raise TmdError("there is no correction that is not done")
+        if draft.environment != visitor.setting.name:
+            visitor.enter(draft.environment)
+        self._open(draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon), draft.goal)
+        visitor.tell("Here is the correction that is not done.")
+
+    def come_back(self) -> None:
+        """The page was loaded again: go on with the correction, if there is one."""
+        visitor = self._visitor
+        if self._correction is None and visitor.studio.drafts.correction_of(visitor.identity) is not None:
+            self.resume()
+
+    def _keep(self) -> None:
+        """Write the correction down; one that changes nothing is none."""
+        visitor, correction = self._visitor, self._correction
+        if correction is None:
+            return
+        goal = self._goal.value.strip()
+        if goal or correction.steps != correction.proposed:
+            visitor.studio.drafts.keep_correction(visitor.identity, correction, goal)
+        else:
+            visitor.studio.drafts.discard_correction(visitor.identity)
 
     def _going(self) -> Correction:
         if self._correction is None:
@@ -162,14 +210,19 @@ class CorrectPanel:
         goal = self._goal.value.strip()
         if goal:
             with_goal(session.world.task.problem, goal, "goal")
+        self._visitor.take_over(session, goal, self._done)
+
+    def _done(self) -> None:
+        """The panel where demonstrations are saved has the correction now."""
+        self._visitor.studio.drafts.discard_correction(self._visitor.identity)
         self.entered()
-        self._visitor.take_over(session, goal)
 
     # showing
 
     def _refresh(self) -> None:
         """Show the plan as it is now, and the state after the chosen step, or the last one that is reached."""
         visitor, correction = self._visitor, self._going()
+        self._keep()
         steps, broken = correction.steps, correction.broken()
         self._at = min(self._at, len(steps))
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
@@ -186,4 +239,7 @@ class CorrectPanel:
         marked = {broken.step: why} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         said = f"<p role='status'>{state}</p>"
-        self._text.content = fragment(said) + step_list(lines, self._at, (), marked, of="correct", draggable=True)
+        wording = visitor.studio.offers(visitor.setting.name).wording
+        words = [wording.instruction(step.instruction) for step in steps]
+        listed = step_list(lines, self._at, (), marked, of="correct", draggable=True, words=words)
+        self._text.content = fragment(said) + listed

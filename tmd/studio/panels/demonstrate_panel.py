@@ -76,7 +76,7 @@ class DemonstratePanel:
         self._refused = gui.add_folder("Not possible now, and why", expand_by_default=False, visible=False)
         with self._refused:
             self._reasons = gui.add_html("")
-        self._look_for_draft()
+        guarded(self._look_for_draft)(None)
 
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
@@ -105,13 +105,15 @@ class DemonstratePanel:
 
         self._over("Begin anew?", "Throw it away, and begin", go)
 
-    def take(self, session: Session, goal: str = "") -> None:
+    def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
         """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
 
         def go() -> None:
+            taken()
             put(self._text, session.text)
             self._open(session)
             put(self._goal, goal)
+            self._visitor.show_tab("Demonstrate")
             self._visitor.tell("The corrected plan is under Demonstrate: save it there.", aloud=True)
 
         self._over("Take the corrected plan instead?", "Throw it away, and take the plan", go)
@@ -185,7 +187,8 @@ class DemonstratePanel:
         draft = visitor.studio.drafts.of(visitor.identity)
         if draft is None:
             raise TmdError("there is no demonstration that was not saved")
-        visitor.enter(draft.environment)
+        if draft.environment != visitor.setting.name:
+            visitor.enter(draft.environment)
         session = draft.resume(visitor.setting.world, visitor.studio.corpus.lexicon, visitor.studio.teacher.habits)
         put(self._text, session.text)
         put(self._task, draft.task)
@@ -276,13 +279,14 @@ class DemonstratePanel:
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
             change = session.changes(cursor) if cursor else None
-            said = visitor.studio.offers(visitor.setting.name).wording.fact
-            gains = changed(change.added, change.removed, said) if change else []
+            wording = visitor.studio.offers(visitor.setting.name).wording
+            gains = changed(change.added, change.removed, wording.fact) if change else []
             lines = [
                 (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
                 for step in session.steps
             ]
-            self._steps.content = step_list(lines, cursor, gains, of="demonstrate")
+            words = [wording.instruction(step.instruction) for step in session.steps]
+            self._steps.content = step_list(lines, cursor, gains, of="demonstrate", words=words)
             self._clause.visible = bool(session.steps)
             if session.steps:
                 self._clause.options = tuple(titles)
@@ -328,7 +332,8 @@ class DemonstratePanel:
             self._numbered.append(instruction)
             number = len(self._numbered)
             icon = f"square-number-{number}" if number <= NUMBERED else None
-            button = gui.add_button(str(instruction), icon=icon)  # type: ignore[arg-type]  # icons are told by name
+            words = self._visitor.studio.offers(self._visitor.setting.name).wording.instruction(instruction)
+            button = gui.add_button(str(instruction), icon=icon, hint=words)  # type: ignore[arg-type]  # icons are told by name
             button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
             self._offered.append(button)
         by_name = {str(instruction): instruction for instruction in possible[_FEW:]}

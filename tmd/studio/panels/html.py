@@ -28,7 +28,7 @@ STYLE = """<style>
 white-space:nowrap}
 .tmd .plus{color:var(--tmd-added,#00664b);font-weight:600}.tmd .minus{color:var(--tmd-removed,#a34700);font-weight:600}
 .tmd [data-step]{cursor:pointer}.tmd [data-step]:hover{text-decoration:underline}
-.tmd .folded{list-style:none;opacity:.75}
+.tmd .said{margin:.1rem 0;font-style:italic}.tmd .folded{list-style:none;opacity:.75}
 .tmd h4{margin:.5rem 0 .15rem;font-size:.85rem}.tmd p{margin:.25rem 0}.tmd .quiet{opacity:.75}
 .tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
 .tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
@@ -65,6 +65,7 @@ def step_list(
     of: str = "",
     folded: Collection[int] = (),
     draggable: bool = False,
+    words: Sequence[str] = (),
 ) -> str:
     """Numbered steps.
 
@@ -76,6 +77,7 @@ def step_list(
         of: The panel whose steps they are; a click on one is told to it.
         folded: The numbers of steps that are not listed, but counted.
         draggable: Whether a step can be dragged to the place of another.
+        words: What each step does in words: on hover, and below the step that was taken last.
     """
     rows: list[str] = []
     hidden = 0
@@ -93,10 +95,12 @@ def step_list(
         wrong = (faults or {}).get(number, ())
         if wrong:
             name = f'<span class="broken">{name}</span>'
+        said = escape(words[number - 1]) if number <= len(words) else ""
         notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
-        below = f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
+        below = f"<p class='said'>{said}</p>" if said and number == current else ""
+        below += f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
         drag = ' draggable="true"' if draggable else ""
-        step = f'data-step="{number}" tabindex="0" role="link"{drag}'
+        step = f'data-step="{number}" tabindex="0" role="link" title="{said}"{drag}'
         rows.append(
             f'<li value="{number}"><span {step}>{name}</span><span class="tag">{escape(purpose)}</span>{below}</li>'
         )

@@ -45,6 +45,11 @@ class PlayerPanel:
         name = str(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
         self.say(f"{step} / {self._last} {name}" if found else "")
 
+    @property
+    def owner(self) -> Played | None:
+        """The panel whose steps are looked at."""
+        return self._owner
+
     def say(self, words: str) -> None:
         """Put a caption over the picture."""
         content = f'<p class="tmd-caption" hidden>{escape(words)}</p>'

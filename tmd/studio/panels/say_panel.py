@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -14,10 +15,11 @@ from tmd.diagnostics import TmdError
 from tmd.export.end_goal import asked_problem
 from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
-from tmd.inference.energy import title
-from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.inference.energy import meaning, title
+from tmd.inference.ranking import PlanStep, RankedPlan, Refusal
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import format_plan
+from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
@@ -35,6 +37,9 @@ from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiDropdownHandle
+
+
+_ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
 
 
 def energies(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[Refusal] = ()) -> str:
@@ -63,16 +68,24 @@ def _factors(plans: Sequence[RankedPlan]) -> str:
     if not plans:
         return ""
     head = "".join(f"<th scope='col'>plan {index}</th>" for index in range(1, len(plans) + 1))
-    rows = [("energy", [f"<b>{number(plan.energy)}</b>" for plan in plans])]
-    rows += [(title(name), [number(plan.factors.get(name, 0.0)) for plan in plans]) for name in factors_of(plans)]
-    rows.append(("steps", [str(len(plan.steps)) for plan in plans]))
+    rows = [("energy", _ENERGY, [f"<b>{number(plan.energy)}</b>" for plan in plans])]
+    rows += [
+        (title(name), meaning(name), [number(plan.factors.get(name, 0.0)) for plan in plans])
+        for name in factors_of(plans)
+    ]
+    rows.append(("steps", "", [str(len(plan.steps)) for plan in plans]))
     body = "".join(
-        f"<tr><th scope='row'>{escape(name)}</th>{''.join(f'<td>{value}</td>' for value in values)}</tr>"
-        for name, values in rows
+        f"<tr><th scope='row' title='{escape(told)}'>{escape(name)}</th>"
+        f"{''.join(f'<td>{value}</td>' for value in values)}</tr>"
+        for name, told, values in rows
+    )
+    means = "".join(
+        f"<li><b>{escape(title(name))}</b> {escape(meaning(name))}</li>" for name in factors_of(plans) if meaning(name)
     )
     return (
         f"<h4>Energies by factor</h4><table class='numbers'><thead><tr><td></td>{head}</tr></thead>"
         f"<tbody>{body}</tbody></table>"
+        f"<details><summary>What the factors count</summary><p>{_ENERGY}</p><ul>{means}</ul></details>"
     )
 
 
@@ -125,6 +138,8 @@ class SayPanel:
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         self._grounded: Grounded | None = None
+        self._waiting: PageLink | None = None
+        self._plans: list[tuple[PlanStep, ...]] = []
         self._reels: list[Reel] = []
         self._asked: list[ShownGoal] = []
         self._step = 0
@@ -171,7 +186,7 @@ class SayPanel:
 
     def _clear(self) -> None:
         """No plan; the picture shows the beginning."""
-        self._grounded, self._reels = None, []
+        self._grounded, self._waiting, self._plans, self._reels = None, None, [], []
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
         for handle in (self._which, self._fold, self._more, self._after):
             handle.visible = False
@@ -194,20 +209,55 @@ class SayPanel:
         self._tell(grounded, took)
         visitor.keep_link()
 
-    def come_back(self, link: PageLink) -> None:
-        """Plan what an address says, and look at what it looked at."""
-        put(self._text, link.say)
-        self.plan()
-        if self._grounded is not None and link.plan <= len(self._grounded.plans):
-            put(self._which, self._which.options[link.plan - 1])
-            self._choose(link.plan - 1)
-            self.goto(link.step)
+    def come_back(self, link: PageLink, kept: tuple[PlanStep, ...]) -> None:
+        """Show the plan that the window kept at once, and plan what its address says in the background."""
+        visitor = self._visitor
+        with visitor.holding():
+            put(self._text, link.say)
+            self._waiting, self._step = link, link.step
+            problem = visitor.setting.world.task.problem
+            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal of its own
+            if kept and validate(problem, [step.instruction for step in kept]).status in works:
+                self._plans, self._reels = [kept], [self._played(kept)]
+                self._which.options = ("1",)
+                self._fold.visible = True
+                self.goto(link.step)
+                visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
+            else:
+                visitor.tell("Planning …")
+        threading.Thread(target=visitor.guarded(lambda: self._plan_again(link)), args=(None,), daemon=True).start()
+
+    def _plan_again(self, link: PageLink) -> None:
+        """Plan what an address says, while the visitor may do something else."""
+        visitor = self._visitor
+        begun = time.perf_counter()
+        text = visitor.studio.checked_text(link.say)
+        grounded = visitor.studio.teacher.ground(text, visitor.setting.world, top=TOP)
+        took = time.perf_counter() - begun
+        with visitor.holding():
+            if self._waiting is not link:
+                return  # something else was said meanwhile
+            before, step = self._plans, self._step
+            found = [plan.steps for plan in grounded.plans]
+            place = found.index(before[0]) if before and before[0] in found else link.plan - 1
+            free = visitor.shows(self)
+            self._show(grounded, place if place < len(found) else 0, step, watch=free)
+        other = bool(before) and before[0] not in found
+        if free or other:
+            self._tell(grounded, took, _OTHER if other else None)
+        visitor.keep_link()
 
     def looked_at(self) -> tuple[int, int, str]:
         """The number of the plan that is shown, the step, and the sentence, for the window's address."""
+        if self._waiting is not None:
+            return self._waiting.plan, self._step, self._waiting.say
         if self._grounded is None:
             return 1, 0, ""
         return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
+
+    def listed(self) -> tuple[PlanStep, ...]:
+        """The plan that is shown; empty for none."""
+        return self._plans[self._number()] if self._plans else ()
 
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
@@ -241,13 +291,13 @@ class SayPanel:
         studio = self._visitor.studio
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
-    def _tell(self, grounded: Grounded, took: float) -> None:
-        """Say what came of it: how many plans there are, or why there is none."""
+    def _tell(self, grounded: Grounded, took: float, more: str | None = None) -> None:
+        """Say what came of it: how many plans there are, with ``more`` about them, or why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
-            visitor.tell(f"Planned in {took:.1f} s: {count}.{so}")
+            visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
             return
         example = visitor.studio.nearest_example(parsed.text, visitor.setting.name)
         tried = f"try: {' '.join(example.split())}" if example else None
@@ -263,17 +313,22 @@ class SayPanel:
             hint = "; or ".join(filter(None, (shown, tried)))
             visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
 
-    def _show(self, grounded: Grounded) -> None:
-        self._grounded = grounded
+    def _played(self, plan: Sequence[PlanStep]) -> Reel:
+        """The states that a plan leads through."""
+        task = self._visitor.setting.world.task
+        states = [task.init]
+        for step in plan:
+            states.append(task.by_instruction[step.instruction].apply(states[-1]))
+        reel = Reel(self._visitor.setting)
+        reel.become(states)
+        return reel
+
+    def _show(self, grounded: Grounded, place: int = 0, step: int = 0, *, watch: bool = True) -> None:
+        """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
+        self._grounded, self._waiting = grounded, None
         world = self._visitor.setting.world
-        self._reels = []
-        for plan in grounded.plans:
-            states = [world.task.init]
-            for instruction in plan.instructions:
-                states.append(world.task.by_instruction[instruction].apply(states[-1]))
-            reel = Reel(self._visitor.setting)
-            reel.become(states)
-            self._reels.append(reel)
+        self._plans = [plan.steps for plan in grounded.plans]
+        self._reels = [self._played(plan) for plan in self._plans]
         found = bool(grounded.plans)
         for handle in (self._which, self._fold, self._after):
             handle.visible = found
@@ -288,19 +343,20 @@ class SayPanel:
             unseen = () if grounded.refused is not None else grounded.unseen
             self._understood.content = _styled(lit_sentence(grounded.parsed, unseen=unseen))
             self._judged.content = self._goals.content = self._steps.content = ""
-            self._visitor.watch(Reel(self._visitor.setting), 0)
+            if watch:
+                self._visitor.watch(Reel(self._visitor.setting), 0)
             return
         self._which.options = tuple(
             f"{number} of {len(grounded.plans)}: {len(plan.steps)} step{'' if len(plan.steps) == 1 else 's'}"
             for number, plan in enumerate(grounded.plans, start=1)
         )
-        put(self._which, self._which.options[0])
-        self._choose(0)
+        put(self._which, self._which.options[place])
+        self._choose(place, step, watch=watch)
 
     def _number(self) -> int:
         return list(self._which.options).index(chosen(self._which))
 
-    def _choose(self, number: int) -> None:
+    def _choose(self, number: int, step: int = 0, *, watch: bool = True) -> None:
         if self._grounded is None or number >= len(self._grounded.plans):
             return
         plan = self._grounded.plans[number]
@@ -312,8 +368,8 @@ class SayPanel:
         told = [*(self._grounded.warnings if not number else ()), *doubts(self._grounded.parsed, plan, world)]
         good = outcome(verdict, reached) + (f": {verdict.reason}" if verdict.reason else "")
         self._judged.content = judgement(good, told)
-        self._step = 0
-        self._look()
+        self._step = min(step, self._last())
+        self._look(watch=watch)
 
     # stepping
 
@@ -332,13 +388,12 @@ class SayPanel:
     def _last(self) -> int:
         return len(self._reels[self._number()].states) - 1 if self._reels else 0
 
-    def _look(self) -> None:
-        grounded = self._grounded
-        if grounded is None or not self._reels:
+    def _look(self, *, watch: bool = True) -> None:
+        if not self._reels:
             return
-        number = self._number()
-        reel, plan = self._reels[number], grounded.plans[number]
-        self._visitor.watch(reel, self._step, self, plan.instructions)
+        reel = self._reels[self._number()]
+        if watch:
+            self._visitor.watch(reel, self._step, self, [step.instruction for step in self.listed()])
         problem = self._visitor.setting.world.task.problem
         self._goals.content = goal_list(self._asked, reel.facts(self._step), problem)
         self._list()
@@ -346,22 +401,21 @@ class SayPanel:
 
     def _list(self) -> None:
         """List the steps, with what the one that is looked at changed."""
-        grounded = self._grounded
-        if grounded is None or not self._reels:
+        if not self._reels:
             return
-        number = self._number()
-        reel, plan = self._reels[number], grounded.plans[number]
+        reel = self._reels[self._number()]
         gains: list[str] = []
-        said = self._visitor.studio.offers(self._visitor.setting.name).wording.fact
+        wording = self._visitor.studio.offers(self._visitor.setting.name).wording
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
-            gains = changed(sorted(now - before), sorted(before - now), said)
+            gains = changed(sorted(now - before), sorted(before - now), wording.fact)
         lines = [
             (str(s.instruction), f"clause {s.clause + 1}" + (", unsaid" if s.latent else ""), s.latent)
-            for s in plan.steps
+            for s in self.listed()
         ]
         folded = self._only_there(reel) if self._fold.value else ()
-        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded)
+        words = [wording.instruction(step.instruction) for step in self.listed()]
+        self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded, words=words)
 
     def _only_there(self, reel: Reel) -> set[int]:
         """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
@@ -415,6 +469,7 @@ class SayPanel:
 
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
+_OTHER = "It gives another plan now than the one that you looked at before."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
 
 
