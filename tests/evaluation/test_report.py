@@ -246,6 +246,10 @@ def test_films_stay_files_beside_the_page(tmp_path: Path) -> None:
     assert 'src="robot/kitchen%201.mp4#t=1"' in page and "gone.png" not in page and "base64" not in page
     assert len(page.encode()) < 2_000_000
     assert "Without physics" in page
+    shown = trial.model_copy(update={"poster": "kitchen 1.jpg"})
+    (run / "robot" / "kitchen1.json").write_text(shown.model_dump_json())
+    (run / "robot" / "kitchen 1.jpg").write_bytes(b"0")
+    assert 'poster="robot/kitchen%201.jpg" src="robot/kitchen%201.mp4"' in write_report(run).read_text(encoding="utf-8")
 
 
 def test_the_paper_stands_beside_rows_and_tasks_that_both_have(tmp_path: Path) -> None:

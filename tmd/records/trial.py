@@ -39,6 +39,7 @@ class Trial(JsonRecord):
     steps: tuple[RanStep, ...] = ()
     film: str | None = Field(default=None, description="The file of the film beside the record.")
     strip: str | None = Field(default=None, description="The file of the filmstrip.")
+    poster: str | None = Field(default=None, description="The file of the film's last picture.")
 
 
 class Skip(JsonRecord):

@@ -138,6 +138,9 @@ def _carried_out(job: Job) -> Trial:
             environment, corpus.folder, problem, orders, prepare=lambda _: (notes,), kinematic=kinematic,
             seed=job.asked.seed, filming=Filming(heading, job.asked.text, movie, strip) if movie is not None else None,
         )  # fmt: skip
+    poster = job.out / f"{where}.jpg"
+    if movie is not None and movie.pictures:
+        movie.write_poster(poster)
     execution, seconds = run.execution, round(run.sim_steps / STEPS_PER_SECOND, 2)
     return Trial(
         asked=job.asked,
@@ -148,6 +151,7 @@ def _carried_out(job: Job) -> Trial:
         steps=tuple(notes.steps),
         film=None if movie is None else movie.path.name,
         strip=None if movie is None else strip.name,
+        poster=poster.name if movie is not None and movie.pictures else None,
     )
 
 

@@ -11,6 +11,7 @@ import multiprocessing
 import os
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
@@ -160,7 +161,10 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
         knowledge = known(corpus, root, tell)
         connection.send(("done", _packed(made_from, len(corpus.demonstrations()), knowledge)))
     except TmdError as error:
-        connection.send(("error", str(error)))
+        with suppress(BrokenPipeError):
+            connection.send(("error", str(error)))
+    except BrokenPipeError:
+        return  # the studio has ended: nobody wants it any more
 
 
 def _packed(made_from: str, count: int, knowledge: Knowledge) -> tuple[Any, ...]:

@@ -168,6 +168,17 @@ def test_an_object_is_pointed_at(kitchen_studio: Served, browser: Browser, scree
         page.locator("svg", has_text="stove1").first.wait_for()
         page.get_by_text("What controls what").first.wait_for()
         page.screenshot(path=screens / "09-object.png")
+        choose(page, "Object", "fridge1")  # one that is opened in the page can be closed again
+        page.get_by_role("heading", name="fridge1: fridge").wait_for()
+        page.get_by_text("Change the world").click()
+        choose(page, "Its state", "door: opened")
+        press(page, "Make it so")
+        told(page, "Changed: fridge1: door: opened.")
+        tab(page, "Say")
+        say(page, "Close the fridge.")
+        told(page, "Planned in")
+        page.get_by_text("✓ reaches its goals").wait_for()
+        assert [step.split(")")[0] for step in shown(page)] == ["moveto(fridge1", "close(fridge1_door"]
 
 
 def test_a_plan_is_corrected(kitchen_studio: Served, browser: Browser, screens: Path) -> None:

@@ -57,14 +57,15 @@ def read_trial(path: Path) -> Trial:
     return Trial.from_text(read_text(path), str(path))
 
 
-_MEDIA = frozenset({".mp4", ".gif", ".png"})
+_MEDIA = frozenset({".mp4", ".gif", ".png", ".jpg"})
 
 
 def films(trials: Trials | None) -> dict[str, str]:
-    """Films and filmstrips by file name, as addresses from the run's directory: they stay files beside the page."""
-    names = [name for trial in (trials.found if trials else ()) for name in (trial.film, trial.strip) if name]
+    """Films, posters and filmstrips by file name, as addresses from the run's directory: they stay files beside it."""
+    found = trials.found if trials else ()
+    names = [name for trial in found for name in (trial.film, trial.strip, trial.poster)]
     return {
         name: f"{trials.directory.name}/{quote(Path(name).name)}"
-        for name in names
+        for name in filter(None, names)
         if trials and Path(name).suffix in _MEDIA and (trials.directory / Path(name).name).is_file()
     }

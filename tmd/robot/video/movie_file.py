@@ -11,6 +11,7 @@ import subprocess
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from functools import partial
+from io import BytesIO
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
@@ -19,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.files import write_bytes
 from tmd.robot.video.captions import pillow
 
 SUFFIXES = (".mp4", ".gif")
@@ -37,6 +39,7 @@ class MovieFile:
 
     Attributes:
         pictures: How many were added.
+        last: The one that was added last; ``None`` for none.
 
     Raises:
         MissingToolError: What writes films of this kind is not installed.
@@ -49,6 +52,7 @@ class MovieFile:
         self.size = size
         self.fps = fps
         self.pictures = 0
+        self.last: NDArray[np.uint8] | None = None
         self._draft = path.with_name(f"{path.stem}.unfinished{path.suffix}")
         known: dict[str, Callable[[Path, tuple[int, int], int], _Writer]] = {
             ".mp4": partial(_Mp4, small=small),
@@ -92,6 +96,21 @@ class MovieFile:
         except OSError as error:
             raise self._error(error) from error
         self.pictures += times
+        self.last = picture
+
+    def write_poster(self, path: Path) -> None:
+        """Save the last picture, for pages to show before the film plays.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        if self.last is None:
+            return
+        from PIL import Image
+
+        buffer = BytesIO()
+        Image.fromarray(self.last).save(buffer, "JPEG", quality=80)
+        write_bytes(path, buffer.getvalue())
 
     def close(self) -> None:
         """Finish the film and give it its name; a film without pictures leaves nothing.

@@ -165,7 +165,7 @@
   function label(input) {
     for (let box = input.parentElement, up = 0; box && up < 7; box = box.parentElement, up += 1) {
       const text = [...box.querySelectorAll("label, [class*=label], div, p")].find((each) =>
-        each.children.length === 0 && each.textContent.trim() && !each.contains(input) && !each.closest("[role=option]"));
+        each.children.length === 0 && /\p{L}/u.test(each.textContent) && !each.contains(input) && !each.closest("[role=option]"));
       if (text) return [text.textContent.trim(), box];
     }
     return ["", null];
@@ -192,6 +192,9 @@
       if (name === EVENT && row) row.classList.add("tmd-unseen");
       if (name === EVENT) input.tabIndex = -1;
       if (input instanceof HTMLTextAreaElement) input.placeholder ||= "What is to be done, in English. Enter goes on.";
+    }
+    for (const slider of document.querySelectorAll("[role=slider]")) {
+      if (!slider.getAttribute("aria-label")) slider.setAttribute("aria-label", label(slider)[0]);
     }
     for (const button of document.querySelectorAll("button:not([aria-label]), [role=button]:not([aria-label])")) {
       if (button.textContent.trim()) continue;

@@ -38,6 +38,7 @@ class ObjectPanel:
         self._which.on_update(visitor.guarded(self._chosen))
         self._facts = gui.add_html("")
         self._changes: dict[str, StateChange] = {}
+        self._offered: str | None = None
         guarded = visitor.guarded
         with gui.add_folder("Change the world", expand_by_default=False):
             gui.add_html(fragment("<p>A changed world is a new environment; the file of this one stays as it is.</p>"))
@@ -83,6 +84,7 @@ class ObjectPanel:
     def _offer(self) -> None:
         """The states that the object can be given."""
         edited, name = self._edited(), self._visitor.selected
+        self._offered = name
         found = edited.changes(name) if edited is not None and name is not None else []
         self._changes = {str(change): change for change in found}
         self._state.options = (NOTHING, *self._changes)
@@ -154,6 +156,7 @@ class ObjectPanel:
             return
         if self._which.value != name:
             put(self._which, name)
+        if self._offered != name:
             self._offer()
         reel, step = visitor.reel, visitor.cursor
         world = visitor.setting.world
