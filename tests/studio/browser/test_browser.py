@@ -66,7 +66,7 @@ def told(page: Page, words: str) -> None:
 
 def say(page: Page, text: str) -> None:
     page.locator("textarea:visible").first.fill(text)
-    page.wait_for_timeout(300)  # the page sends what was typed a moment later
+    page.wait_for_timeout(1000)  # the page sends what was typed a moment later, on a busy machine later still
     press(page, "Plan it")
 
 
