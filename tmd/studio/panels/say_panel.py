@@ -262,29 +262,31 @@ class SayPanel:
     def saved(self, demonstration: Demonstration) -> None:
         """Plan the text of what was saved again, show that, and say whether it is what was shown."""
         visitor = self._visitor
-        self._saved = demonstration
-        with visitor.holding():
+        with visitor.holding():  # learning may end meanwhile: what it has to say comes after this
+            learning = visitor.studio.teacher.learning
+            self._saved = demonstration
             grounded = self._again(demonstration)
             put(self._text, demonstration.text)
             self._show(grounded)
-        visitor.tell(
-            f"Saved as {demonstration.id}. {whether_used(demonstration.instructions, grounded)}", _LATER, aloud=True
-        )
+            used = whether_used(demonstration.instructions, grounded)
+            visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
         """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
-        visitor, saved, self._saved = self._visitor, self._saved, None
-        if saved is None:
-            visitor.tell("Everything that was saved is learned.")
-            return
+        visitor = self._visitor
         with visitor.holding():
+            saved, self._saved = self._saved, None
+            if saved is None:
+                visitor.tell("Everything that was saved is learned.")
+                return
             grounded = self._again(saved)
             before = self._grounded
             same = before is not None and before.parsed.text == grounded.parsed.text
             if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
                 self._show(grounded)
-        said = " ".join(saved.text.split())
-        visitor.tell(f'Everything is learned. "{said}": {whether_used(saved.instructions, grounded)}', aloud=True)
+            used = whether_used(saved.instructions, grounded)
+            said = " ".join(saved.text.split())
+            visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
         """The text of a demonstration, planned where it was shown."""
