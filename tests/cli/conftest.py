@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import atexit
+import json
 import os
+import select
 import signal
 import subprocess
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -33,6 +38,44 @@ def heed_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+PATIENCE = 240
+"""Seconds that a command may take."""
+
+
+class Forks:
+    """A process that has imported everything, and runs each command in a fork of itself (see ``fork_server``)."""
+
+    def __init__(self) -> None:
+        self._process = subprocess.Popen(
+            [sys.executable, "-m", "tests.cli.fork_server"],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=ROOT, env=_environ({}),
+        )  # fmt: skip
+        atexit.register(self._process.kill)
+
+    def run(self, arguments: Sequence[str], cwd: Path, stdin: bytes) -> Ended:
+        """Run a command, and wait for its end."""
+        assert self._process.stdin is not None and self._process.stdout is not None
+        with TemporaryDirectory() as name:
+            streams = [Path(name) / stream for stream in ("in", "out", "err")]
+            for path, content in zip(streams, (stdin, b"", b""), strict=True):
+                path.write_bytes(content)
+            request = {"arguments": list(arguments), "cwd": str(cwd), "environ": _environ({})}
+            self._process.stdin.write(json.dumps(request | {"streams": list(map(str, streams))}).encode() + b"\n")
+            self._process.stdin.flush()
+            if not select.select([self._process.stdout], [], [], PATIENCE)[0]:
+                self._process.kill()
+                raise TimeoutError(f"tmd {' '.join(arguments)} did not end: {streams[2].read_text()}")
+            code = int(self._process.stdout.readline())
+            return Ended(code, streams[1].read_text("utf-8"), streams[2].read_text("utf-8"))
+
+
+forks = cache(Forks)
+
+
+def _environ(more: Mapping[str, str]) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(ROOT), **more}
+
+
 def run_tmd(
     arguments: Sequence[str | Path],
     cwd: Path,
@@ -41,17 +84,23 @@ def run_tmd(
     env: Mapping[str, str] | None = None,
     before: str = "",
 ) -> Ended:
-    """Run ``tmd`` in ``cwd``; ``before`` is Python that is executed first, to take something away from it."""
+    """Run ``tmd`` in ``cwd``; ``before`` is Python that is executed first, to take something away from it.
+
+    With another environment, or something taken away, it is started from nothing.
+    """
+    words = list(map(str, arguments))
+    if not env and not before:
+        return forks().run(words, cwd, stdin)
     start = [sys.executable, "-m", "tmd"]
     if before:
         start = [sys.executable, "-c", f"{before}\nfrom tmd.cli import main\nmain()"]
     done = subprocess.run(
-        [*start, *map(str, arguments)],
+        [*start, *words],
         cwd=cwd,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        env=_environ(env or {}),
         input=stdin,
         capture_output=True,
-        timeout=240,
+        timeout=PATIENCE,
         check=False,
     )
     return Ended(done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8"))
