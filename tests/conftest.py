@@ -46,6 +46,12 @@ def pytest_configure(config: pytest.Config) -> None:
         subprocess.run([sys.executable, "-m", "tmd.planning"], cwd=ROOT, capture_output=True, check=True)
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One process more than there are processors: many tests wait for a browser, a cluster or a time to be over."""
+    return len(os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count() or 1)) + 1
+
+
 @pytest.fixture(scope="session")
 def learned(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
     """A directory as `tmd learn --out` leaves it, for commands that tests run; one process learns each domain."""

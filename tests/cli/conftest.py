@@ -3,19 +3,22 @@
 from __future__ import annotations
 
 import atexit
-import json
 import os
-import select
 import signal
+import socket
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from tempfile import TemporaryDirectory, TemporaryFile
 
 import pytest
+
+from tests.cli.fork_server import PATIENCE, ask
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
@@ -38,38 +41,26 @@ def heed_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-PATIENCE = 240
-"""Seconds that a command may take."""
+@cache
+def fork_server() -> str:
+    """The socket of a process that has imported everything, and carries out each command in a fork of itself."""
+    directory = TemporaryDirectory(prefix="tmd-fork-")
+    address = Path(directory.name) / "socket"
+    process = subprocess.Popen([sys.executable, "-m", "tests.cli.fork_server", address], cwd=ROOT, env=_environ({}))
 
+    def end() -> None:
+        process.kill()
+        process.wait()
+        directory.cleanup()
 
-class Forks:
-    """A process that has imported everything, and runs each command in a fork of itself (see ``fork_server``)."""
-
-    def __init__(self) -> None:
-        self._process = subprocess.Popen(
-            [sys.executable, "-m", "tests.cli.fork_server"],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=ROOT, env=_environ({}),
-        )  # fmt: skip
-        atexit.register(self._process.kill)
-
-    def run(self, arguments: Sequence[str], cwd: Path, stdin: bytes) -> Ended:
-        """Run a command, and wait for its end."""
-        assert self._process.stdin is not None and self._process.stdout is not None
-        with TemporaryDirectory() as name:
-            streams = [Path(name) / stream for stream in ("in", "out", "err")]
-            for path, content in zip(streams, (stdin, b"", b""), strict=True):
-                path.write_bytes(content)
-            request = {"arguments": list(arguments), "cwd": str(cwd), "environ": _environ({})}
-            self._process.stdin.write(json.dumps(request | {"streams": list(map(str, streams))}).encode() + b"\n")
-            self._process.stdin.flush()
-            if not select.select([self._process.stdout], [], [], PATIENCE)[0]:
-                self._process.kill()
-                raise TimeoutError(f"tmd {' '.join(arguments)} did not end: {streams[2].read_text()}")
-            code = int(self._process.stdout.readline())
-            return Ended(code, streams[1].read_text("utf-8"), streams[2].read_text("utf-8"))
-
-
-forks = cache(Forks)
+    atexit.register(end)
+    for _ in range(PATIENCE * 20):
+        with socket.socket(socket.AF_UNIX) as connection, suppress(OSError):
+            connection.connect(str(address))
+            return str(address)
+        assert process.poll() is None, "the process that carries out commands has ended"
+        time.sleep(0.05)
+    raise TimeoutError("the process that carries out commands does not begin")
 
 
 def _environ(more: Mapping[str, str]) -> dict[str, str]:
@@ -90,7 +81,13 @@ def run_tmd(
     """
     words = list(map(str, arguments))
     if not env and not before:
-        return forks().run(words, cwd, stdin)
+        with TemporaryFile() as given, TemporaryFile() as out, TemporaryFile() as err:
+            given.write(stdin)
+            for stream in (given, out, err):
+                stream.seek(0)
+            code = ask(fork_server(), words, str(cwd), _environ({}), (given.fileno(), out.fileno(), err.fileno()))
+            said = [stream.seek(0) or stream.read().decode("utf-8") for stream in (out, err)]
+        return Ended(code, *said)
     start = [sys.executable, "-m", "tmd"]
     if before:
         start = [sys.executable, "-c", f"{before}\nfrom tmd.cli import main\nmain()"]

@@ -3,7 +3,7 @@
 "use strict";
 (() => {
   const KEY = "tmd-page", EVENT = "tmdevent", PLAN = "tmd-plan", LOOK = 1500, LATE = 350, PATIENCE = 12000;
-  const SENT = 55, REST = 100, NEAR = 6; // milliseconds, milliseconds, pixels
+  const SENT = 55, REST = 100, SOON = 15, NEAR = 6; // milliseconds; pixels
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -335,7 +335,7 @@
 
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(() => {
-      if (!waiting) waiting = true, requestAnimationFrame(tidy);
+      if (!waiting) waiting = true, setTimeout(tidy, SOON); // not with a frame: where graphics are slow, those are rare
     }).observe(document.documentElement, {
       subtree: true, childList: true, characterData: true, attributeFilter: ["data-mantine-color-scheme"] });
     addEventListener("click", (event) => {

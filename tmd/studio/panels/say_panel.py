@@ -154,7 +154,7 @@ class SayPanel:
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
         self._which.on_update(guarded(lambda: self._choose(self._number())))
         self._goals = gui.add_html("")
-        self._fold = gui.add_checkbox("Fold away finding and going", False, visible=False)
+        self._fold = gui.add_checkbox("Main steps only", False, visible=False)
         self._fold.on_update(guarded(self._look))
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
