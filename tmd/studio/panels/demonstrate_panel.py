@@ -338,7 +338,8 @@ class DemonstratePanel:
             self._offered.append(button)
         more = dict(told[_FEW:])
         if more:
-            choice = gui.add_dropdown(f"More {group.action}", tuple(more))
-            button = gui.add_button(f"Do that {group.action}")
+            verb = told[0][0].split()[0].lower()
+            choice = gui.add_dropdown(f"More: {verb}", tuple(more))
+            button = gui.add_button(f"Do that: {verb}")
             button.on_click(guarded(lambda: self.do(more[chosen(choice)])))
             self._offered += [choice, button]
