@@ -17,6 +17,7 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.text_following import Follower, goal_reader
 from tmd.grounded import Grounded
 from tmd.inference.algorithm1 import Inference
+from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
 from tmd.inference.goal_directed import GoalInference
@@ -105,6 +106,24 @@ def infer(
     top: int = 1,
 ) -> Inferred:
     """The plans for clauses, here and in the experiments: Algorithm 1, with goals where the model has them."""
+    wanted = max(top, PLANS) if config.samples and policy is not None else top
+    found = _least_energy(parsed, world, library, energy, planners, config, policy, goals, wanted)
+    if not config.samples or policy is None:
+        return found
+    return decided(found, parsed.clauses, world, policy, planners.quick(world.task), config, top)
+
+
+def _least_energy(
+    parsed: Parsed,
+    world: World,
+    library: Library,
+    energy: Energy,
+    planners: TaskPlanners,
+    config: InferenceConfig,
+    policy: SequenceModel | None,
+    goals: GoalTable | None,
+    top: int,
+) -> Inferred:
     proposers = proposers_of(config, world, library, energy, policy)
     if not config.goals:
         inference = Inference(world, energy, planners.quick(world.task), proposers, config)

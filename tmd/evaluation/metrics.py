@@ -26,6 +26,8 @@ from dataclasses import dataclass, fields
 from itertools import pairwise
 from typing import TypeAlias
 
+from rapidfuzz.distance import Levenshtein
+
 from tmd.pddl.forced_execution import ForcedExecution, Rollout, rollout
 from tmd.pddl.model import Formula, GroundAtom, Instruction, Problem, universe
 from tmd.pddl.semantics import holds
@@ -97,13 +99,8 @@ def _token(instruction: Instruction | str) -> tuple[str, ...]:
 
 def levenshtein(a: Sequence[Hashable], b: Sequence[Hashable]) -> int:
     """The fewest insertions, deletions and substitutions that turn ``a`` into ``b``."""
-    row = list(range(len(b) + 1))
-    for i, left in enumerate(a, 1):
-        corner, row[0] = row[0], i
-        for j, right in enumerate(b, 1):
-            best = corner if left == right else 1 + min(corner, row[j], row[j - 1])
-            corner, row[j] = row[j], best
-    return row[-1]
+    codes = {token: number for number, token in enumerate(dict.fromkeys((*a, *b)))}  # not their hashes, which may meet
+    return Levenshtein.distance([codes[token] for token in a], [codes[token] for token in b])
 
 
 def changes(before: AbstractSet[GroundAtom], after: AbstractSet[GroundAtom]) -> frozenset[GroundAtom]:

@@ -7,7 +7,7 @@ measured. The ablations of the paper are presets with one thing changed (:mod:`t
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import nearest
@@ -45,6 +45,9 @@ class InferenceConfig:
         cap: Generated states after which a search of the in-process planner gives up.
         last_resort: Whether planners that are content with any plan are asked for the goal of a clause where the
             optimal search gave up.
+        samples: How many sequences are drawn from the policy, against which the expected loss of each plan decides
+            (:mod:`tmd.inference.bayes_risk`); 0 decides by energy.
+        drawn_candidates: Whether those sequences are candidates as well, where no declared goal must be reached.
     """
 
     weights: str
@@ -63,6 +66,8 @@ class InferenceConfig:
     guess: bool = False
     cap: int = 2_000  # what people leave unsaid is short: a candidate that needs more is not the best one
     last_resort: bool = True
+    samples: int = 0
+    drawn_candidates: bool = True
 
     @property
     def akin(self) -> float:
@@ -74,9 +79,11 @@ PAPER = InferenceConfig("paper")
 PAPER_EXTENDED = InferenceConfig("paper_extended", extended=True)
 POLICY = InferenceConfig("policy", extended=True, policy=True)
 GOALS = InferenceConfig("goals", extended=True, policy=True, goals=True, beam=1)
+BAYES_RISK = replace(GOALS, sources=("declared",), samples=64)
 
 PRESETS: Mapping[str, InferenceConfig] = {
     "goals": GOALS,
+    "bayes_risk": BAYES_RISK,
     "policy": POLICY,
     "paper_extended": PAPER_EXTENDED,
     "paper": PAPER,

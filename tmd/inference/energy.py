@@ -151,6 +151,7 @@ _TITLES = {
     "latent_inpr": "latent instruction prior",
     "latent_para": "latent parameter prior",
     "latent_cons": "latent inconsistent end",
+    "risk": "expected loss",
 }
 
 
@@ -177,6 +178,7 @@ _MEANINGS = {
     "latent_inpr": "How rare the actions are that the planner puts in.",
     "latent_para": "How rare such things are in the steps that the planner puts in.",
     "latent_cons": "How unlike what is usual the state is that the steps which the planner puts in leave behind.",
+    "risk": "How far the plan is on average from what people may do, in steps and in what they change, in percent.",
 }
 
 

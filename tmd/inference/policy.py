@@ -201,7 +201,7 @@ def followers(before: Instruction | None, position: int, things: KnownObjects) -
 
 
 @dataclass(frozen=True, slots=True)
-class Said:
+class ClauseContext:
     """What a text says, seen from one of its clauses.
 
     Attributes:
@@ -226,7 +226,7 @@ class Node(NamedTuple):
     own: tuple[Instruction, ...] = ()
 
 
-class Parts(NamedTuple):
+class WeightBlocks(NamedTuple):
     """The weights, part by part.
 
     Attributes:
@@ -294,12 +294,12 @@ class Features:
         self._ends = np.cumsum(parts).tolist()
         self.size: int = self._ends[-1]
 
-    def parts(self, theta: Floats) -> Parts:
+    def parts(self, theta: Floats) -> WeightBlocks:
         """Views of the weights (or of anything of their size), part by part."""
         local, text, paired, facts, reals = np.split(theta, self._ends[:-1])
         places = len(self.places) + 1
         whole = text.reshape(self.shape) if self.facts else None
-        return Parts(local.reshape(self.shape), whole, paired, facts.reshape(places, len(self.facts)), reals)
+        return WeightBlocks(local.reshape(self.shape), whole, paired, facts.reshape(places, len(self.facts)), reals)
 
     def ridge(self) -> Floats:
         """How much the square of each weight counts: alike in the paper's baseline."""
@@ -317,7 +317,7 @@ class Features:
 
 _FACT_PLACES = 2
 """What an atom says of its first two arguments is looked at; a third one is mostly a word of the domain."""
-_REMEMBERED = 20_000
+_REMEMBERED = 5_000
 """States and sequences that a menu keeps at most."""
 
 
@@ -342,6 +342,7 @@ class Menu:
         things: The environment.
         numbers: The number of each thing; one more stands for none.
         properties: C × properties, 1 where an instruction has one.
+        having: C × the most that one has, their numbers; where it has fewer, the number after the last property.
         actions: C, the actions.
         args: C × arity, the things that are named.
         places: C × arity, the places they are named in.
@@ -357,6 +358,7 @@ class Menu:
         self.numbers = {name: number for number, name in enumerate(things.kinds)}
         count = len(self.choices)
         self.properties: Floats = np.zeros((count, len(features.properties)))
+        own: list[list[int]] = []
         self.actions: Ints = np.array([features.actions[choice.name] for choice in self.choices], np.int64)
         self.args: Ints = np.full((count, features.arity), len(self.numbers), np.int64)
         self.places: Ints = np.full((count, features.arity), len(features.places), np.int64)
@@ -364,37 +366,62 @@ class Menu:
         for row, choice in enumerate(self.choices):
             having = [features.properties[p] for p in properties(choice, things) if p in features.properties]
             self.properties[row, having] = 1
+            own.append(having)
             for place, arg in enumerate(choice.args):
                 key = (choice.name, place)
                 self.args[row, place] = self.numbers[arg]
                 self.places[row, place] = features.places[key]
                 needs += [(row, features.actions[n], self.numbers[arg]) for n in features.syntax.needs.get(key, ())]
+        most = max(map(len, own))
+        self.having: Ints = np.array([[*row, *[len(features.properties)] * (most - len(row))] for row in own], np.int64)
         self.needs: Ints = np.array(needs, np.int64).reshape(-1, 3)
         self.words: Mask = np.array([*(things.is_constant(name) for name in things.kinds), True])
-        self._operators = [things.world.task.by_instruction.get(choice) for choice in self.choices]
-        self._reached: dict[tuple[Instruction, ...], Bits] = {(): things.world.task.init}
+        self._task = things.world.task
+        self._operators = [self._task.by_instruction.get(choice) for choice in self.choices]
+        self._reached: dict[tuple[Instruction, ...], Bits] = {(): self._task.init}
         self._seen: dict[Bits, Seen] = {}
-        self._masks: list[tuple[int, int, Bits]] = []
-        masks: Counter[tuple[str, tuple[str, int]]] = Counter()
-        for bit, atom in enumerate(things.world.task.atoms if features.facts else ()):
+        if features.facts:
+            self._prepare_states()
+
+    def _prepare_states(self) -> None:
+        """The bits of all operators and facts as rows of words, so that a state is compared with all at once."""
+        operators = [operator for operator in self._operators if operator is not None]
+        self._possible: Ints = np.flatnonzero([operator is not None for operator in self._operators])
+        self._positive = self._rows(operator.precondition.positive for operator in operators)
+        self._negative = self._rows(operator.precondition.negative for operator in operators)
+        self._adds = self._rows(operator.add for operator in operators)
+        self._deletes = self._rows(operator.delete & ~operator.add for operator in operators)
+        self._special = [i for i, operator in enumerate(operators) if operator.forbidden or operator.conditional]
+        self._special_operators = [operators[i] for i in self._special]
+        masks: Counter[tuple[int, int]] = Counter()
+        for bit, atom in enumerate(self._task.atoms):
             for place, name in enumerate(atom.args[:_FACT_PLACES]):
-                if name in self.numbers and (atom.predicate, place) in features.facts:
-                    masks[name, (atom.predicate, place)] += 1 << bit
-        self._masks = [(self.numbers[name], features.facts[fact], bits) for (name, fact), bits in masks.items()]
+                fact = self.features.facts.get((atom.predicate, place))
+                if name in self.numbers and fact is not None:
+                    masks[self.numbers[name], fact] += 1 << bit
+        self._about = tuple(np.array(list(masks), np.int64).reshape(-1, 2).T)
+        self._masks = self._rows(masks.values())
+
+    def _rows(self, sets: Iterable[Bits]) -> NDArray[np.uint64]:
+        """Bit sets as rows of words of 64 bits."""
+        length = 8 * (len(self._task.atoms) // 64 + 1)
+        return np.frombuffer(b"".join(s.to_bytes(length, "little") for s in sets), np.uint64).reshape(-1, length // 8)
 
     def seen_after(self, sequence: tuple[Instruction, ...]) -> Seen:
         """The state that a sequence leads to, as the features see it; what can never apply changes nothing."""
         state = self._state(sequence)
         known = self._seen.get(state)
         if known is None:
+            (row,) = self._rows([state])
+            applies = ~((self._positive & ~row) | (self._negative & row)).any(axis=1)
+            changes = ((self._adds & ~row) | (self._deletes & row)).any(axis=1)
+            for i, operator in zip(self._special, self._special_operators, strict=True):
+                applies[i] = applies[i] and operator.applicable(state)
+                changes[i] = applies[i] and operator.apply(state) != state
             effects: Ints = np.full(len(self.choices), _UNKNOWN, np.int64)
-            for row, operator in enumerate(self._operators):
-                if operator is not None:
-                    applies = operator.applicable(state)
-                    effects[row] = applies + (applies and operator.apply(state) != state)
+            effects[self._possible] = np.where(applies, np.where(changes, _CHANGES, _APPLIES), 0)
             facts: Floats = np.zeros((len(self.numbers) + 1, len(self.features.facts)))
-            for thing, fact, bits in self._masks:
-                facts[thing, fact] = bool(state & bits)
+            facts[self._about] = (self._masks & row).any(axis=1)
             if len(self._seen) == _REMEMBERED:
                 self._seen.clear()
             known = self._seen[state] = Seen(effects, facts)
@@ -406,9 +433,9 @@ class Menu:
             known -= 1
         state = self._reached[sequence[:known]]
         if len(self._reached) > _REMEMBERED:
-            self._reached = {(): self.things.world.task.init}
+            self._reached = {(): self._task.init}
         for length in range(known, len(sequence)):
-            operator = self.things.world.task.by_instruction.get(sequence[length])
+            operator = self._task.by_instruction.get(sequence[length])
             state = operator.apply(state) if operator is not None else state
             self._reached[sequence[: length + 1]] = state
         return state
@@ -429,7 +456,7 @@ class Steps:
     """
 
     menu: Menu
-    said: Said
+    said: ClauseContext
     followers: tuple[Ints, ...]
     pairs: Ints
     facts: Floats
@@ -437,7 +464,7 @@ class Steps:
     allowed: Mask
 
 
-def steps(menu: Menu, said: Said, nodes: Sequence[Node]) -> Steps:
+def steps(menu: Menu, said: ClauseContext, nodes: Sequence[Node]) -> Steps:
     """The features of every choice at each node.
 
     Args:
@@ -450,7 +477,7 @@ def steps(menu: Menu, said: Said, nodes: Sequence[Node]) -> Steps:
     return Steps(menu, said, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
 
 
-def _look(menu: Menu, said: Said, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
+def _look(menu: Menu, said: ClauseContext, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
     """One node's part of :class:`Steps`."""
     features, none = menu.features, len(menu.numbers)
     n = len(features.actions)
@@ -545,7 +572,9 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     if parts.text is not None:
         words = words + _share(at.said) * parts.text[at.said.text].sum(axis=0)
     rows = words + np.stack([parts.local[words].sum(axis=0) for words in at.followers])
-    reward = rows @ menu.properties.T + parts.paired[at.pairs].sum(axis=2) + at.reals @ parts.reals
+    # an instruction has few of the many properties: a product of matrices would take ten times as long
+    padded = np.pad(rows, ((0, 0), (0, 1)))
+    reward = padded[:, menu.having].sum(axis=2) + parts.paired[at.pairs].sum(axis=2) + at.reals @ parts.reals
     if features.facts:
         worth = at.facts @ parts.facts.T  # H × (things + 1) × places
         reward += worth[:, menu.args, menu.places].sum(axis=2)
@@ -555,7 +584,7 @@ def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     return logs
 
 
-def _share(said: Said) -> float:
+def _share(said: ClauseContext) -> float:
     """What each word of the whole text counts: a long text has many that tell little."""
     return 1.0 / float(np.sqrt(max(len(said.text), 1)))
 
@@ -676,7 +705,7 @@ class Policy:
         self.beam = beam
         self.bonus = bonus
         self.slack = slack
-        self._last: tuple[tuple[object, ...], tuple[Menu, Said]] | None = None
+        self._last: tuple[tuple[object, ...], tuple[Menu, ClauseContext]] | None = None
 
     def knows(self, verb: str) -> bool:
         """Whether it was learned from demonstrations with that verb."""
@@ -716,20 +745,15 @@ class Policy:
         return found
 
     def sample(
-        self, clauses: Sequence[Clause], count: int, random: np.random.Generator, *, temperature: float = 1.0
-    ) -> list[tuple[Instruction, ...]]:
-        """``count`` sequences for a whole text, drawn from the distribution.
-
-        Args:
-            clauses: The clauses of the text.
-            count: How many are wanted; some may be alike.
-            random: The draws.
-            temperature: What the logarithms of the probabilities are divided by: below 1 what is likely gets likelier.
-        """
-        drawn: list[tuple[Instruction, ...]] = [()] * count
+        self, clauses: Sequence[Clause], count: int, random: np.random.Generator
+    ) -> list[tuple[tuple[Instruction, ...], ...]]:
+        """``count`` sequences for a whole text, drawn from the distribution, clause by clause; some may be alike."""
+        drawn: list[tuple[tuple[Instruction, ...], ...]] = [()] * count
+        before: list[tuple[Instruction, ...]] = [()] * count
         for number in range(len(clauses)):
-            own = self._sampled(clauses, number, drawn, random, temperature)
-            drawn = [(*before, *after) for before, after in zip(drawn, own, strict=True)]
+            own = self._sampled(clauses, number, before, random)
+            drawn = [(*parts, part) for parts, part in zip(drawn, own, strict=True)]
+            before = [(*earlier, *part) for earlier, part in zip(before, own, strict=True)]
         return drawn
 
     def _sampled(
@@ -738,7 +762,6 @@ class Policy:
         number: int,
         before: Sequence[tuple[Instruction, ...]],
         random: np.random.Generator,
-        temperature: float,
     ) -> list[tuple[Instruction, ...]]:
         """A sequence for one clause after each of those ``before``."""
         features = self.reward.features
@@ -747,8 +770,7 @@ class Policy:
         going = list(range(len(before)))
         for _ in range(features.syntax.longest):
             nodes = list(dict.fromkeys(Node(before[i], own[i]) for i in going))
-            logs = log_probabilities(features, self.reward.theta, steps(menu, said, nodes)) / temperature
-            shares = np.exp(logs - logs.max(axis=1, keepdims=True)).cumsum(axis=1)
+            shares = np.exp(log_probabilities(features, self.reward.theta, steps(menu, said, nodes))).cumsum(axis=1)
             sums = dict(zip(nodes, np.round(shares / shares[:, -1:], _ROUNDED), strict=True))
             still = []
             for i, draw in zip(going, random.random(len(going)).tolist(), strict=True):
@@ -780,7 +802,7 @@ class Policy:
         ]
         return round(sum(each) / len(each), _ROUNDED)
 
-    def _read(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, Said]:
+    def _read(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, ClauseContext]:
         """The choices, and what the text says there; that of the last clause is remembered."""
         key = (number, *((c.text, c.verb, c.resolved()) for c in clauses))
         last = self._last
@@ -788,17 +810,17 @@ class Policy:
             last = self._last = key, self._reading(clauses, number)
         return last[1]
 
-    def _reading(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, Said]:
+    def _reading(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, ClauseContext]:
         said = said_in(clauses, number, self.menu, grounded=self.grounded)
         return (_with_mentioned(self.menu, said.levels) if self.grounded else self.menu), said
 
 
-def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: bool) -> Said:
+def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: bool) -> ClauseContext:
     """What a text says, seen from one of its clauses."""
     features, things, clause = menu.features, menu.things, clauses[number]
     words = features.known(bag(clause, grounded=grounded))
     if not grounded:
-        return Said(words, words, nothing(things), nothing(things), 0)
+        return ClauseContext(words, words, nothing(things), nothing(things), 0)
     where = 0 if number == 0 else 2 if number == len(clauses) - 1 else 1
     text = features.known(word for each in clauses for word in bag(each, grounded=True))
     later = nothing(things)
@@ -806,7 +828,7 @@ def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: boo
     for noun in (noun for each in clauses[number + 1 :] for noun in each.resolved()):
         matches = things.world.mentions.of(noun, _NO_STATE)
         later[[numbers[match.name] for match in matches if match.score == matches[0].score]] = 1
-    return Said(words, text, mentioned(clause, clauses[:number], things), later, where)
+    return ClauseContext(words, text, mentioned(clause, clauses[:number], things), later, where)
 
 
 def bag(clause: Clause, *, grounded: bool) -> list[str]:

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
+import numpy as np
+
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
 from tmd.inference.ranking import Path, Refusal
@@ -165,6 +167,12 @@ class SequenceModel(Protocol):
         self, clauses: Sequence[Clause], number: int, done: Sequence[Instruction], count: int
     ) -> Sequence[tuple[float, Instructions]]:
         """The ``count`` likeliest sequences for a clause of a text, each after its score, likeliest first."""
+        ...
+
+    def sample(
+        self, clauses: Sequence[Clause], count: int, random: np.random.Generator
+    ) -> Sequence[tuple[Instructions, ...]]:
+        """``count`` sequences for a whole text, drawn from the distribution, clause by clause."""
         ...
 
     def surprise(

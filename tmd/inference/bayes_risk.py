@@ -1,0 +1,161 @@
+"""Deciding by expected loss (minimum Bayes risk): the plan that is nearest to whatever people may do.
+
+People who do the same task do it differently, so the likeliest sequence is like few of theirs. The policy is a
+distribution over what they do; sequences drawn from it stand for them. The loss of a plan against a sequence is half
+that of the instruction edit distance and half that of what is changed in the end (IED and END, under the planning
+rules), and the plan of least mean loss is chosen. Candidates are the plans of least energy and, where no declared goal
+says what must be reached, the drawn sequences as well, made executable. Not in the paper.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.inference.config import InferenceConfig
+from tmd.inference.proposers import SequenceModel
+from tmd.inference.ranking import Choice, Inferred, PlanStep, RankedPlan, why_lost
+from tmd.language.clause import Clause
+from tmd.pddl.model import Instruction
+from tmd.pddl.semantics import Constraints
+from tmd.pddl.task import Bits
+from tmd.planning.result import Filled, Planner
+from tmd.veil.world import World
+
+PLANS = 10
+"""How many plans of least energy are looked at."""
+RISK = "risk"
+"""The name of the factor by which such plans are ranked."""
+SAMPLE_SOURCE = "policy sample"
+"""The source of a plan that was drawn from the policy."""
+_SEED = 0
+"""The draws depend on text and environment alone."""
+_FILLED = 3
+"""How many instructions may be put before one that does not apply; with more it is left out."""
+_SHARE_OF_IED = 0.5
+
+Drawn = Sequence[tuple[Instruction, ...]]
+"""A sequence that was drawn, clause by clause."""
+
+
+def decided(
+    inferred: Inferred,
+    clauses: Sequence[Clause],
+    world: World,
+    policy: SequenceModel,
+    planner: Planner,
+    config: InferenceConfig,
+    top: int,
+) -> Inferred:
+    """The ``top`` plans of least expected loss, among those that inference found and those that were drawn.
+
+    Args:
+        inferred: The outcome of inference, with about :data:`PLANS` plans; where it refuses the text it stays as it is.
+        clauses: The clauses of the text.
+        world: The environment.
+        policy: What people may do.
+        planner: Finds what a drawn instruction needs.
+        config: The model: how many sequences are drawn, and whether they are candidates.
+        top: How many plans are wanted.
+    """
+    if not inferred.plans or not clauses:
+        return replace(inferred, plans=inferred.plans[:top])
+    drawn = policy.sample(clauses, config.samples, np.random.default_rng(_SEED))
+    plans = {plan.instructions: plan for plan in inferred.plans}
+    open_ended = not any(goal.source == "declared" for plan in inferred.plans for goal in plan.goals)
+    if open_ended and config.drawn_candidates:
+        executor = _Executor(world, planner)
+        for sequence in dict.fromkeys(tuple(sequence) for sequence in drawn):
+            plan = executor.plan(sequence)
+            plans.setdefault(plan.instructions, plan)
+    people = [tuple(i for own in sequence for i in own) for sequence in drawn]
+    losses = expected_losses(list(plans), people, world)
+    order = sorted(zip(losses.tolist(), plans.values(), strict=True), key=lambda pair: (pair[0], pair[1].instructions))
+    ranked = [_with_risk(plan, loss) for loss, plan in order[:top]]
+    told = (replace(plan, why=why_lost(plan, ranked[0]) if place else "") for place, plan in enumerate(ranked))
+    return replace(inferred, plans=tuple(told))
+
+
+def _with_risk(plan: RankedPlan, loss: float) -> RankedPlan:
+    """The plan with its expected loss, in percent, in the place of its energy."""
+    factors = [{RISK: 100 * loss} if not number else {} for number in range(len(plan.choices))]
+    choices = (replace(choice, factors=own) for choice, own in zip(plan.choices, factors, strict=True))
+    return replace(plan, choices=tuple(choices))
+
+
+def expected_losses(
+    plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
+) -> NDArray[np.float64]:
+    """The mean loss of each plan against all sequences, from 0 to 1."""
+    from rapidfuzz import process  # most models decide by energy
+    from rapidfuzz.distance import Levenshtein
+
+    codes = {i: chr(number) for number, i in enumerate(dict.fromkeys(i for s in (*plans, *people) for i in s), start=1)}
+    mine, theirs = (["".join(codes[i] for i in sequence) for sequence in group] for group in (plans, people))
+    similar = process.cdist(mine, theirs, scorer=Levenshtein.normalized_similarity, dtype=np.float64)
+    ends = {sequence: _changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
+    same = np.array([[_jaccard(ends[plan], ends[other]) for other in people] for plan in plans])
+    found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same).mean(axis=1)
+    return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
+
+
+def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
+    state = world.task.init
+    for instruction in sequence:
+        operator = world.task.by_instruction.get(instruction)
+        state = operator.apply(state) if operator is not None else state
+    return state ^ world.task.init
+
+
+def _jaccard(a: Bits, b: Bits) -> float:
+    return (a & b).bit_count() / (a | b).bit_count() if a or b else 1.0
+
+
+class _Executor:
+    """Makes drawn sequences executable: what is missing is put in, and what cannot be done is left out."""
+
+    def __init__(self, world: World, planner: Planner) -> None:
+        self.world = world
+        self.planner = planner
+        self.constraints = Constraints(world.task)
+        self._needed: dict[tuple[Bits, Instruction], tuple[Instruction, ...] | None] = {}
+
+    def plan(self, sequence: Drawn) -> RankedPlan:
+        """The sequence as a plan, with a choice for each clause."""
+        state = self.world.task.init
+        choices = []
+        for number, own in enumerate(sequence):
+            steps: list[PlanStep] = []
+            for instruction in own:
+                added, state = self._done(instruction, state)
+                steps += [PlanStep(i, number, latent=i is not instruction) for i in added]
+            choices.append(Choice(SAMPLE_SOURCE, tuple(steps), {}, {}))
+        return RankedPlan(tuple(choices), state)
+
+    def _done(self, instruction: Instruction, state: Bits) -> tuple[list[Instruction], Bits]:
+        operators = self.world.task.by_instruction
+        operator = operators.get(instruction)
+        if operator is None:
+            return [], state
+        needed = self._before(instruction, state)
+        if needed is None:
+            return [], state
+        for each in needed:
+            state = operators[each].apply(state)
+        after = operator.apply(state)
+        if after == state and instruction.args:  # what has no arguments, waiting, changes nothing by itself
+            return list(needed), state
+        return [*needed, instruction], after
+
+    def _before(self, instruction: Instruction, state: Bits) -> tuple[Instruction, ...] | None:
+        if self.world.task.by_instruction[instruction].applicable(state):
+            return ()
+        key = state, instruction
+        if key not in self._needed:
+            answer = self.planner.fill(state, self.constraints.of((instruction,)))
+            short = isinstance(answer, Filled) and len(answer.plan) <= _FILLED
+            self._needed[key] = answer.plan if isinstance(answer, Filled) and short else None
+        return self._needed[key]
