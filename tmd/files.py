@@ -1,16 +1,40 @@
-"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer."""
+"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer.
+
+Reading has an end, whatever is read.
+"""
 
 from __future__ import annotations
 
+import errno
 import os
-import platform
-import shutil
 import stat
 from contextlib import suppress
 from pathlib import Path
+from typing import IO
 from zlib import crc32
 
 from tmd.diagnostics import OutputError
+
+MAX_BYTES = 100_000_000
+"""More than this is read of no file: a device may have no end."""
+_PIECE = 1 << 20
+
+
+def read_bytes(source: str | Path | IO[bytes]) -> bytes:
+    """All bytes of a file, or of an open one.
+
+    Raises:
+        OSError: It cannot be read, or has more than :data:`MAX_BYTES`.
+    """
+    if isinstance(source, str | Path):
+        with Path(source).open("rb") as file:
+            return read_bytes(file)
+    pieces: list[bytes] = []
+    while piece := source.read(_PIECE):
+        pieces.append(piece)
+        if len(pieces) > MAX_BYTES // _PIECE:
+            raise OSError(errno.EFBIG, f"it is larger than {MAX_BYTES // 1_000_000} MB")
+    return b"".join(pieces)
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -110,6 +134,8 @@ def remove_leftovers(target: Path) -> None:
     except OSError:
         return
     for name in names:
+        import shutil  # seldom needed, and slow to load
+
         number, _, end = name.removeprefix(beginning).partition(".")
         if end == "part" and number.isdecimal() and not _lives(int(number)):
             left = target.with_name(name)
@@ -118,7 +144,7 @@ def remove_leftovers(target: Path) -> None:
 
 
 def _beginning(target: Path) -> str:
-    return f".{target.name}.{crc32(platform.node().encode()):08x}."
+    return f".{target.name}.{crc32(os.uname().nodename.encode()):08x}."
 
 
 def _lives(process: int) -> bool:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from random import Random
 
-from experiments.robustness.fuzz import ROOT
+from experiments.robustness.workspace import ROOT
 from tmd.diagnostics import ExitCode
 
 _OWN = ("log.txt",)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from tmd import __version__
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
 from tmd.export.record import parse_record
 from tmd.export.strips import restored
+from tmd.files import read_bytes
 from tmd.grounded import why_refused
 from tmd.language import parse
 from tmd.language.clause import Clause
@@ -19,7 +19,7 @@ from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Problem
 from tmd.pddl.plan_file import Plan, parse_plan
 from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import nearest, read_text
+from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
 from tmd.records.json_record import json_value
@@ -230,7 +230,7 @@ def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None
 
 def _picture(path: Path, count: int) -> Strip | None:
     try:
-        return read_strip(path.read_bytes(), count)
+        return read_strip(read_bytes(path), count)
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror}", hint="give what tmd run --strip wrote") from None
 
@@ -322,12 +322,7 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
 
 
 def _read(asked: ViewRequest) -> str:
-    if asked.source != STANDARD:
-        return read_text(asked.path)
-    try:
-        return sys.stdin.buffer.read().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
+    return read_standard_input() if asked.source == STANDARD else read_text(asked.path)
 
 
 def _of_text(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
