@@ -227,14 +227,22 @@ def load_problem(problem: str | Path, domain: str | Path | None = None) -> Probl
     return Roots().problem(Path(problem), None if domain is None else str(domain))
 
 
-def find_plan(problem: Problem, *, planner: str = AUTO) -> tuple[Instruction, ...]:
+def find_plan(
+    problem: Problem, *, planner: str = AUTO, seconds: float | None = None, memory: int | None = None
+) -> tuple[Instruction, ...]:
     """A plan for ``problem``, as ``tmd plan`` finds it.
+
+    Args:
+        problem: The problem.
+        planner: Whose plan.
+        seconds: The limit of time; 300 by default.
+        memory: The limit in bytes; most of what the machine has by default.
 
     Raises:
         NoPlanError: There is none, or none was found.
         TmdError: There is no such planner, or it refuses the problem.
     """
-    answer = solve(problem, planner)
+    answer = solve(problem, planner, seconds=seconds, memory=memory)
     if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):

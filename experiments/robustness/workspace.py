@@ -36,6 +36,8 @@ from tmd.diagnostics import ExitCode
 ROOT = Path(__file__).resolve().parents[2]
 SECONDS = 60.0
 """No command on a damaged small file takes longer on a busy machine."""
+PATIENCE = 2.0
+"""Seconds in which the processes of a command that has ended must have ended."""
 MEMORY = 4_000_000_000
 """Bytes of address space that a command may have."""
 LISTENING = 4.0
@@ -97,7 +99,7 @@ class Workspace:
 
     folder: Path
     kept: dict[str, bytes] = field(default_factory=dict)
-    _stamps: dict[str, tuple[int, int, int]] = field(default_factory=dict)
+    _stamps: dict[str, tuple[int, int]] = field(default_factory=dict)
 
     def prepare(self, *, robot: bool = False) -> None:
         """Make the folder, and load what commands need; takes half a minute, with the robot a whole one."""
@@ -142,7 +144,7 @@ class Workspace:
         if keep:
             shutil.copy(self.folder.parent / "stdout", self.folder / keep)
 
-    def _files(self) -> dict[str, tuple[int, int, int]]:
+    def _files(self) -> dict[str, tuple[int, int]]:
         """Every file, with what changes when it is written."""
         found = {}
         start = len(os.fspath(self.folder)) + 1
@@ -153,7 +155,7 @@ class Workspace:
                     waiting.append(entry.path)
                 else:
                     status = entry.stat(follow_symlinks=False)
-                    found[entry.path[start:]] = (status.st_mtime_ns, status.st_size, status.st_ino)
+                    found[entry.path[start:]] = (status.st_mtime_ns, status.st_size)
         return found
 
     def changed(self) -> Iterator[str]:
@@ -177,8 +179,7 @@ class Workspace:
             if path.is_symlink() or path.is_dir():
                 shutil.rmtree(path) if path.is_dir() and not path.is_symlink() else path.unlink()
             path.write_bytes(self.kept[name])
-            status = path.stat()
-            self._stamps[name] = (status.st_mtime_ns, status.st_size, status.st_ino)
+            os.utime(path, ns=(self._stamps[name][0], self._stamps[name][0]))
         for path in sorted(self.folder.rglob("*"), reverse=True) if self._odd_directories() else ():
             if path.is_dir() and not path.is_symlink() and not any(path.iterdir()):
                 path.rmdir()
@@ -218,14 +219,14 @@ class Workspace:
         _, status = os.waitpid(child, 0)
         return self.judged(case, os.waitstatus_to_exitcode(status), time.monotonic() - begun, before)
 
-    def judged(self, case: Case, code: int, seconds: float, before: Mapping[str, tuple[int, int, int]]) -> Outcome:
+    def judged(self, case: Case, code: int, seconds: float, before: Mapping[str, tuple[int, int]]) -> Outcome:
         """What is to be said of a case that has just ended."""
         printed = (self.folder.parent / "stdout").read_bytes()
         told = (self.folder.parent / "stderr").read_bytes().decode("utf-8", "replace")
         fault = _fault(case, code, printed, told) or _survivors() or self._left(case, before)
         return Outcome(code, seconds, fault, told)
 
-    def _left(self, case: Case, before: Mapping[str, tuple[int, int, int]]) -> str:
+    def _left(self, case: Case, before: Mapping[str, tuple[int, int]]) -> str:
         """Files that a command has no right to leave behind or to change."""
         after = self._files()
         leftovers = [name for name in after.keys() - before.keys() if _LEFTOVER.search(name)]
@@ -377,7 +378,7 @@ def _spoilt(how: str) -> int:
 
 def _survivors() -> str:
     """Whether a process outlived its command; it is ended."""
-    deadline = time.monotonic() + 2.0
+    deadline = time.monotonic() + PATIENCE
     while True:
         try:
             number, _ = os.waitpid(-1, os.WNOHANG)

@@ -46,6 +46,8 @@ EXPLAINING = 20.0
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
 _NO_MEMORY = (20, 22, 24)
+_PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
+"""How the translator may end where it should end with one of those codes."""
 _UNSUPPORTED = 34
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
@@ -83,7 +85,7 @@ class FastDownward:
             TmdError: It does not take the problem.
         """
         try:
-            with started or DownwardProcess(self.search) as running:
+            with started or DownwardProcess(self.search, self.deadline.memory) as running:
                 running.give(texts_for_planners(self.problem), self.deadline)
                 from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
@@ -105,7 +107,8 @@ class FastDownward:
         sas.seek(0)
         with unnamed_file() as plan:
             command = search_command(search, plan)
-            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),)) as process:
+            memory = self.deadline.memory
+            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),), memory=memory) as process:
                 answer = self._answer(process, search, plan)
                 if answer is None:
                     raise process.failed("ended without a plan and without a proof")
@@ -122,8 +125,8 @@ class FastDownward:
         if code == 0:
             plan.seek(0)
             return checked(self.problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
-        if code in _NO_MEMORY:
-            return GaveUp(f"the memory of {NAME}")
+        if code in _NO_MEMORY or (code == 1 and any(word in process.said() for word in _PYTHON_WITHOUT_MEMORY)):
+            return GaveUp(self.deadline.memory_of(NAME))
         exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.said()
         if code in _UNSOLVABLE or exhausted:  # the dead ends of other searches are no proof
             return Unreachable(self._reason())
@@ -149,7 +152,7 @@ class FastDownward:
         if self._prover is None:
             from tmd.planning.prover import Prover
 
-            self._prover = Prover(self.problem)
+            self._prover = Prover(self.problem, self.deadline.memory)
         return self._prover
 
     def _reason(self) -> str:

@@ -35,7 +35,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
             *(_program(), *(f"/dev/fd/{file}" for file in files), "--threads", "1", "-v"),  # one: the same plan again
             *("--timeout", f"{max(deadline.left(), 0.01):.3f}", "--anytime" if optimal else "--no-anytime"),
         ]
-        with PlannerProcess(NAME, command, passed=files, keep_output=True) as process:
+        with PlannerProcess(NAME, command, passed=files, keep_output=True, memory=deadline.memory) as process:
             code = process.wait(Deadline(deadline.left() + 1.0))  # it knows the limit itself, and has a plan by then
             match code:
                 case 0:
@@ -46,7 +46,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
                 case 10:
                     return Unreachable(f"{NAME} proved it")
                 case 12:
-                    return GaveUp(f"the memory of {NAME}")
+                    return GaveUp(deadline.memory_of(NAME))
                 case 14:
                     return GaveUp(f"the end of what {NAME} can search")
                 case 13:

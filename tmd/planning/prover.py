@@ -35,9 +35,10 @@ class Prover:
 
     Args:
         problem: The problem.
+        memory: Bytes that it may take.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, memory: int | None = None) -> None:
         with unnamed_file() as question:
             pickle.dump(problem, question)
             question.seek(0)
@@ -47,6 +48,7 @@ class Prover:
                 stdin=question,
                 environment={"PYTHONPATH": ":".join(filter(None, sys.path))},
                 keep_output=True,
+                memory=memory,
             )
 
     def reason(self, deadline: Deadline) -> str | None:

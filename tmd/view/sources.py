@@ -223,7 +223,7 @@ def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None
     if asked.source == STANDARD:
         return None
     names = [Path(recorded).name] if recorded else []
-    paths = [asked.path.with_name(name) for name in names] + [asked.path.with_suffix(".png")]
+    paths = [asked.path.parent / name for name in names] + [asked.path.with_suffix(".png")]
     path = next((path for path in paths if path.is_file()), None)
     return None if path is None else _picture(path, count)
 
@@ -281,7 +281,7 @@ def _scene(
     if asked.environment is not None:
         return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
     if file is not None:
-        paths = [Path(file), asked.path.with_name(Path(file).name)]
+        paths = [Path(file), asked.path.parent / Path(file).name]
         path = next((path for path in paths if path.is_file()), None)
         if path is None:
             raise TmdError(f"the environment {file} is not there any more", hint="give it with --environment FILE")
@@ -316,7 +316,8 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     found = _of_text(roots, asked, text)
     if len(found.subject.steps) > MAX_STEPS:
         raise TmdError(
-            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown"
+            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown",
+            hint="cut the plan",
         )
     return found
 
@@ -354,7 +355,10 @@ def _of_json(roots: Roots, asked: ViewRequest, first: dict[str, Any], lines: lis
         _only(asked, "environment", "domain")
         return grounding_found(roots, asked, first)
     if isinstance(first.get("error"), dict):
-        raise TmdError(f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}")
+        raise TmdError(
+            f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}",
+            hint=f"give {_KINDS}",
+        )
     raise TmdError(f"{asked.name} is JSON of no kind that can be shown", hint=f"give {_KINDS}")
 
 
@@ -364,7 +368,7 @@ def _only(asked: ViewRequest, *meant: str) -> None:
     names |= {"demonstration": "--id", "strip": "--strip"}
     for field, option in names.items():
         if field not in meant and getattr(asked, field) is not None:
-            raise OptionError(f"{option} has no meaning for {asked.name}")
+            raise OptionError(f"{option} has no meaning for {asked.name}", hint="leave it out")
 
 
 def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
@@ -375,10 +379,13 @@ def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
     return value
 
 
+_WHERE = "a plan file does not say where it belongs: --problem p.pddl, or --environment kitchen1"
+
+
 def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     """A plan file, in a problem or an environment."""
     if (asked.problem is None) == (asked.environment is None):
-        raise OptionError(f"for the plan {asked.name} give one of --problem and --environment")
+        raise OptionError(f"for the plan {asked.name} give one of --problem and --environment", hint=_WHERE)
     plan = parse_plan(text, asked.name)
     if not plan.instructions:
         raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")

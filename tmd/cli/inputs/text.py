@@ -43,7 +43,7 @@ def said(text: str | None, file: str | None) -> str:
     try:
         found.encode("utf-8")
     except UnicodeEncodeError as error:
-        raise TmdError(f"{place}: character {error.start + 1} is not UTF-8") from error
+        raise TmdError(f"{place}: character {error.start + 1} is not UTF-8", hint="send UTF-8") from error
     return found
 
 
