@@ -55,21 +55,33 @@ def fuzzed(work: Path, options: argparse.Namespace, end: float) -> Counter[tuple
     return found
 
 
-def killed(work: Path, options: argparse.Namespace, end: float) -> Counter[tuple[str, str]]:
-    """Kill jobs in turn until ``end``."""
-    names = [name for name in kills.JOBS if not options.jobs_killed or name in options.jobs_killed.split(",")]
+def disturbed(work: Path, options: argparse.Namespace, end: float) -> Counter[tuple[str, str]]:
+    """Disturb jobs in turn until ``end``: mostly by kills."""
+    names = [name for name in kills.JOBS if not options.jobs_killed or name in options.jobs_killed.split(";")]
     found: Counter[tuple[str, str]] = Counter()
-    killers: dict[str, kills.Killer] = {}
-    number = 0
-    while time.monotonic() < end and number < options.cases:
-        name = names[number % len(names)]
-        if name not in killers:
-            killers[name] = kills.Killer(kills.JOBS[name], work / "kill" / str(len(killers)))
-        fault = killers[name].kill(Random(f"{options.seed}-kill-{number}"))
-        found[f"killed: {name}", fault] += 1
-        if fault:
-            print(f"kill {number} of {name}: {fault}", flush=True)
-        number += 1
+    disturbers: dict[str, kills.Disturber] = {}
+    writes: dict[str, list[int]] = {}
+    number = options.first
+    try:
+        while time.monotonic() < end and number < options.first + options.cases:
+            name = names[number % len(names)]
+            if name not in disturbers:
+                disturbers[name] = kills.Disturber(kills.JOBS[name], work / "kill" / str(len(disturbers)))
+            disturber, choose = disturbers[name], Random(f"{options.seed}-kill-{number}")
+            how = options.how or choose.choice((*["kill"] * 7, "twice", "clock", "full"))
+            if how == "full":
+                if not writes.get(name):
+                    writes[name] = list(range(1, disturber.writes() + 1))
+                    choose.shuffle(writes[name])
+                fault = disturber.full(writes[name].pop()) if writes[name] else ""
+            else:
+                fault = {"kill": disturber.kill, "twice": disturber.twice, "clock": disturber.clock_back}[how](choose)
+            found[f"{how}: {name}", fault.partition(":")[0]] += 1
+            print(f"{how} {number} of {name}: {fault or 'as if nothing had happened'}", flush=True)
+            number += 1
+    finally:
+        for disturber in disturbers.values():
+            disturber.close()
     return found
 
 
@@ -84,7 +96,8 @@ def main() -> int:
     parser.add_argument("--only", type=int, help="run this case of the seed alone")
     parser.add_argument("--save", type=Path, help="where failed cases go, a folder each")
     parser.add_argument("--kills", type=float, default=0.4, help="the share of the time for kills")
-    parser.add_argument("--jobs-killed", default="", metavar="A,B", help=f"of: {', '.join(kills.JOBS)}")
+    parser.add_argument("--how", choices=("kill", "twice", "clock", "full"), help="disturb in this way only")
+    parser.add_argument("--jobs-killed", default="", metavar="A;B", help=f"of: {', '.join(kills.JOBS)}")
     options = parser.parse_args()
     if options.only is not None:
         options.cases, options.kills = 1, 0
@@ -96,7 +109,7 @@ def main() -> int:
         if share < 1:
             found += fuzzed(work, options, begun + seconds * (1 - share))
         if share:
-            found += killed(work, options, begun + seconds)
+            found += disturbed(work, options, begun + seconds)
     finally:
         shutil.rmtree(work, ignore_errors=True)
     print("\n| what | tried | failed | how |\n|---|---|---|---|")

@@ -118,6 +118,6 @@ def test_whatever_goes_wrong_is_told(
 
 @pytest.mark.parametrize("name", ["compile"])
 def test_a_killed_command_leaves_nothing_and_goes_on(tmp_path: Path, name: str) -> None:
-    killer = kills.Killer(kills.JOBS[name], tmp_path / "kill")
+    killer = kills.Disturber(kills.JOBS[name], tmp_path / "kill")
     for number in range(2):
         assert killer.kill(Random(f"suite-{number}")) == ""

@@ -10,9 +10,11 @@ import os
 import selectors
 import signal
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from types import TracebackType
 from typing import IO
@@ -29,6 +31,10 @@ _PR_SET_PDEATHSIG = 1
 MEGABYTE = 1 << 20
 MARK = "TMD_PLANNER"
 """The variable that marks the processes of a conversation."""
+
+
+PROGRAM = "TMD_PROGRAM"
+"""The variable that marks what a program started."""
 
 
 class Deadline:
@@ -246,6 +252,42 @@ def end_marked(mark: str) -> None:
         with suppress(OSError):
             if int(path.parent.name) != os.getpid() and wanted in path.read_bytes().split(b"\0"):
                 os.kill(int(path.parent.name), signal.SIGKILL)
+
+
+_GUARD = f"""
+import glob, os, signal, sys
+sys.stdin.buffer.read()
+wanted = f"{PROGRAM}={{sys.argv[1]}}".encode()
+for path in glob.glob("/proc/[0-9]*/environ"):
+    try:
+        number = int(path.split("/")[2])
+        with open(path, "rb") as file:
+            if number != os.getpid() and wanted in file.read().split(b"\\0"):
+                os.kill(number, signal.SIGKILL)
+    except OSError:
+        pass
+"""
+
+
+@cache
+def end_with_program() -> subprocess.Popen[bytes] | None:
+    """Let whatever is started from now on end with this program, even when it is killed before it can say so.
+
+    A process waits for the end of a pipe that only this program holds, and then kills what carries this program's mark
+    in its environment. Libraries start worker processes in ways of their own, so each cannot be bound to us.
+    """
+    if sys.platform != "linux":
+        return None
+    name = f"{os.getpid()}-{time.monotonic_ns()}"
+    guard = subprocess.Popen(
+        [sys.executable, "-S", "-E", "-c", _GUARD, name],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,  # whatever ends the others of our group, this one goes by the pipe
+    )
+    os.environ[PROGRAM] = name
+    return guard  # kept by the cache, and with it the pipe
 
 
 def died(code: int) -> str:
