@@ -52,6 +52,7 @@ _PROBLEM = "problems/04_tea/p01-tea-pantry1.pddl"
 _RUN = ("experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty,chance,goals", "--out", "run")
 _SAVING = """
 from pathlib import Path
+from tmd.lock import locked
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.session import Session
@@ -70,6 +71,8 @@ while (count := len(shown.read_text().splitlines()) if shown.exists() else 0) < 
     archive.save(session)
     if len(shown.read_text().splitlines()) <= count:
         raise SystemExit("a line is lost")
+with locked(shown.with_name(".demonstrations.jsonl.lock"), wait=60):  # of two at once both may have been at 39
+    shown.write_text("".join(shown.read_text().splitlines(keepends=True)[:40]))
 """
 JOBS: dict[str, Job] = {
     "fmt": _tmd("fmt", "domains/04_tea", "problems/04_tea"),

@@ -18,6 +18,14 @@ class _Memory(click.IntRange):
         return int(super().convert(value, param, ctx)) * _MEGABYTE
 
 
+class _Seconds(click.FloatRange):
+    """A time that can pass: not nan, which is below no limit."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:  # noqa: ANN401
+        found = float(super().convert(value, param, ctx))
+        return found if found == found else self.fail(f"'{value}' is no time.", param, ctx)
+
+
 def limit_options(command: _Command) -> _Command:
     """``--time-limit`` and ``--memory-limit``; the command gets them as ``seconds`` and ``memory``, in bytes."""
     command = click.option(
@@ -30,7 +38,7 @@ def limit_options(command: _Command) -> _Command:
     return click.option(
         "--time-limit",
         "seconds",
-        type=click.FloatRange(min=0, min_open=True),
+        type=_Seconds(min=0, min_open=True),
         metavar="SECONDS",
         help="Stop the planner after this time; 300 by default.",
     )(command)
