@@ -35,7 +35,7 @@ static int full(void) {
 
 static int regular(int fd) {
     struct stat status;
-    return fstat(fd, &status) == 0 && S_ISREG(status.st_mode);
+    return fd > 2 && fstat(fd, &status) == 0 && S_ISREG(status.st_mode); /* what is told is no work */
 }
 
 #define NEXT(name) ((__typeof__(&name))dlsym(RTLD_NEXT, #name))
