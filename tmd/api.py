@@ -26,7 +26,7 @@ from tmd.pddl.plan_file import read_plan as read_plan_file
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.backends import AUTO, solve
+from tmd.planning.backends import AUTO, TIME_LIMIT, solve
 from tmd.planning.result import Solved, Unreachable
 from tmd.veil.roots import Roots
 
@@ -228,21 +228,27 @@ def load_problem(problem: str | Path, domain: str | Path | None = None) -> Probl
 
 
 def find_plan(
-    problem: Problem, *, planner: str = AUTO, seconds: float | None = None, memory: int | None = None
+    problem: Problem,
+    *,
+    planner: str = AUTO,
+    optimal: bool = False,
+    time_limit: float = TIME_LIMIT,
+    memory_limit: int | None = None,
 ) -> tuple[Instruction, ...]:
     """A plan for ``problem``, as ``tmd plan`` finds it.
 
     Args:
         problem: The problem.
-        planner: Whose plan.
-        seconds: The limit of time; 300 by default.
-        memory: The limit in bytes; most of what the machine has by default.
+        planner: The planner, as ``tmd plan --planner`` takes it.
+        optimal: Whether only a plan counts that is proven to be optimal.
+        time_limit: Seconds after which the planner is stopped.
+        memory_limit: Bytes that it may take; most of what the machine has by default.
 
     Raises:
         NoPlanError: There is none, or none was found.
         TmdError: There is no such planner, or it refuses the problem.
     """
-    answer = solve(problem, planner, seconds=seconds, memory=memory)
+    answer = solve(problem, planner, optimal=optimal, seconds=time_limit, memory=memory_limit)
     if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):

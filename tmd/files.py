@@ -137,17 +137,23 @@ def remove_leftovers(target: Path) -> None:
         import shutil  # seldom needed, and slow to load
 
         number, _, end = name.removeprefix(beginning).partition(".")
-        if end == "part" and number.isdecimal() and not _lives(int(number)):
+        if end == "part" and number.isdecimal() and not lives(int(number)):
             left = target.with_name(name)
             with suppress(OSError):
                 shutil.rmtree(left) if left.is_dir() else left.unlink()
 
 
 def _beginning(target: Path) -> str:
-    return f".{target.name}.{crc32(os.uname().nodename.encode()):08x}."
+    return f".{target.name}.{machine()}."
 
 
-def _lives(process: int) -> bool:
+def machine() -> str:
+    """This machine, in eight characters for names of files."""
+    return f"{crc32(os.uname().nodename.encode()):08x}"
+
+
+def lives(process: int) -> bool:
+    """Whether a process of this machine runs."""
     try:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):

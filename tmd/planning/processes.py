@@ -20,6 +20,7 @@ from types import TracebackType
 from typing import IO
 
 from tmd.diagnostics import PlannerError
+from tmd.files import lives, machine
 
 _TAIL = 4_096
 """Bytes at the end of what a planner printed that are looked at when it fails."""
@@ -179,7 +180,8 @@ class Conversation:
     def __init__(self, name: str, command: Sequence[str], environment: Mapping[str, str]) -> None:
         from tempfile import TemporaryDirectory
 
-        self._directory = TemporaryDirectory(prefix="tmd-planner-")
+        _remove_left_directories()
+        self._directory = TemporaryDirectory(prefix=f"{_DIRECTORY}{machine()}-{os.getpid()}-")
         self._mark = Path(self._directory.name).name
         questions, self._questions = os.pipe()
         self._answers, answers = os.pipe()
@@ -243,6 +245,20 @@ class Conversation:
             os.close(self._questions)
             os.close(self._answers)
             self._directory.cleanup()
+
+
+_DIRECTORY = "tmd-planner-"
+
+
+def _remove_left_directories() -> None:
+    """Remove what programs left that were killed before their worker could do so."""
+    from shutil import rmtree
+    from tempfile import gettempdir
+
+    for path in Path(gettempdir()).glob(f"{_DIRECTORY}{machine()}-*-*"):
+        number = path.name.split("-")[3]
+        if number.isdecimal() and not lives(int(number)):
+            rmtree(path, ignore_errors=True)
 
 
 def end_marked(mark: str) -> None:
