@@ -13,7 +13,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "tmd"
 LAYERS = (
     ("diagnostics",),
-    ("files", "yaml_nodes"),
+    ("files", "lock", "yaml_nodes"),
     ("pddl", "language"),
     ("world", "planning", "format"),
     ("veil", "datasets", "robot"),

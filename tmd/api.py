@@ -228,7 +228,12 @@ def load_problem(problem: str | Path, domain: str | Path | None = None) -> Probl
 
 
 def find_plan(
-    problem: Problem, *, planner: str = AUTO, optimal: bool = False, time_limit: float = TIME_LIMIT
+    problem: Problem,
+    *,
+    planner: str = AUTO,
+    optimal: bool = False,
+    time_limit: float = TIME_LIMIT,
+    memory_limit: int | None = None,
 ) -> tuple[Instruction, ...]:
     """A plan for ``problem``, as ``tmd plan`` finds it.
 
@@ -237,12 +242,13 @@ def find_plan(
         planner: The planner, as ``tmd plan --planner`` takes it.
         optimal: Whether only a plan counts that is proven to be optimal.
         time_limit: Seconds after which the planner is stopped.
+        memory_limit: Bytes that it may take; most of what the machine has by default.
 
     Raises:
         NoPlanError: There is none, or none was found.
         TmdError: There is no such planner, or it refuses the problem.
     """
-    answer = solve(problem, planner, optimal=optimal, seconds=time_limit)
+    answer = solve(problem, planner, optimal=optimal, seconds=time_limit, memory=memory_limit)
     if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):

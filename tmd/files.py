@@ -1,16 +1,40 @@
-"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer."""
+"""Writing files whole or not at all: a reader never meets half a file, whatever happens to the writer.
+
+Reading has an end, whatever is read.
+"""
 
 from __future__ import annotations
 
+import errno
 import os
-import platform
-import shutil
 import stat
 from contextlib import suppress
 from pathlib import Path
+from typing import IO
 from zlib import crc32
 
 from tmd.diagnostics import OutputError
+
+MAX_BYTES = 100_000_000
+"""More than this is read of no file: a device may have no end."""
+_PIECE = 1 << 20
+
+
+def read_bytes(source: str | Path | IO[bytes]) -> bytes:
+    """All bytes of a file, or of an open one.
+
+    Raises:
+        OSError: It cannot be read, or has more than :data:`MAX_BYTES`.
+    """
+    if isinstance(source, str | Path):
+        with Path(source).open("rb") as file:
+            return read_bytes(file)
+    pieces: list[bytes] = []
+    while piece := source.read(_PIECE):
+        pieces.append(piece)
+        if len(pieces) > MAX_BYTES // _PIECE:
+            raise OSError(errno.EFBIG, f"it is larger than {MAX_BYTES // 1_000_000} MB")
+    return b"".join(pieces)
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -110,18 +134,26 @@ def remove_leftovers(target: Path) -> None:
     except OSError:
         return
     for name in names:
+        import shutil  # seldom needed, and slow to load
+
         number, _, end = name.removeprefix(beginning).partition(".")
-        if end == "part" and number.isdecimal() and not _lives(int(number)):
+        if end == "part" and number.isdecimal() and not lives(int(number)):
             left = target.with_name(name)
             with suppress(OSError):
                 shutil.rmtree(left) if left.is_dir() else left.unlink()
 
 
 def _beginning(target: Path) -> str:
-    return f".{target.name}.{crc32(platform.node().encode()):08x}."
+    return f".{target.name}.{machine()}."
 
 
-def _lives(process: int) -> bool:
+def machine() -> str:
+    """This machine, in eight characters for names of files."""
+    return f"{crc32(os.uname().nodename.encode()):08x}"
+
+
+def lives(process: int) -> bool:
+    """Whether a process of this machine runs."""
     try:
         os.kill(process, 0)
     except (ProcessLookupError, OverflowError):

@@ -7,6 +7,7 @@ Only plain data is accepted: no aliases (an alias can blow a small file up), no 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NoReturn, Protocol
 
 import yaml
@@ -74,7 +75,7 @@ def compose(text: str, file: str) -> yaml.Node | None:
     except yaml.MarkedYAMLError as error:
         raise reader.from_yaml(error) from None
     except yaml.YAMLError as error:
-        reader.fail(None, f"not YAML: {error}".replace("\n", " "), "yaml-syntax")
+        raise reader.unreadable(error) from None
     reader.refuse_keys(root)
     return root
 
@@ -91,7 +92,7 @@ def look_over(text: str, file: str) -> None:
     except yaml.MarkedYAMLError as error:
         raise reader.from_yaml(error) from None
     except yaml.YAMLError as error:
-        reader.fail(None, f"not YAML: {error}".replace("\n", " "), "yaml-syntax")
+        raise reader.unreadable(error) from None
 
 
 def from_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> TmdError:
@@ -99,8 +100,18 @@ def from_yaml(error: yaml.MarkedYAMLError, text: str, file: str) -> TmdError:
     return _Reader(text, file).from_yaml(error)
 
 
+_REWRITE = "indent with blanks, close every bracket, and put text with : # [ or { into quotes"
+_PLAIN = "write plain values: text, numbers, [ ] and { }, a few levels of them"
 _CODES = {"could not determine a constructor": "yaml-tag", "maximum nesting depth": "nested-too-deeply"}
 """What is a kind of its own among the problems that PyYAML and libyaml tell."""
+
+
+@dataclass(slots=True)
+class _Mark:
+    """A place, counted from 0."""
+
+    line: int
+    column: int
 
 
 class _Reader:
@@ -124,9 +135,17 @@ class _Reader:
     def from_yaml(self, error: yaml.MarkedYAMLError) -> TmdError:
         problem = (error.problem or error.context or "not YAML").replace("\n", " ")
         code = next((code for words, code in _CODES.items() if words in problem), "yaml-syntax")
-        hint = "indent with blanks, close every bracket, and put text with : # [ or { into quotes"
         mark = error.problem_mark or error.context_mark
-        return self.error(mark, f"not YAML: {problem}", code, hint if code == "yaml-syntax" else None)
+        return self.error(mark, f"not YAML: {problem}", code, _REWRITE if code == "yaml-syntax" else _PLAIN)
+
+    def unreadable(self, error: yaml.YAMLError) -> TmdError:
+        """What a problem without a place means: a character that YAML does not have."""
+        number = getattr(error, "character", None)
+        if not isinstance(number, int):
+            return self.error(None, f"not YAML: {' '.join(str(error).split())}", "yaml-syntax", _REWRITE)
+        before = self.text.partition(chr(number))[0].splitlines()
+        mark = _Mark(max(len(before) - 1, 0), len(before[-1]) if before else 0)
+        return self.error(mark, f"not YAML: the character U+{number:04X} is not allowed", "yaml-syntax", "remove it")
 
     def look_over(self, aliases: bool) -> None:
         depth = nodes = 0

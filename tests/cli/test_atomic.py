@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import platform
 import stat
 import subprocess
 import sys
@@ -106,7 +105,8 @@ def test_two_writers_never_share_a_draft(tmp_path: Path, monkeypatch: pytest.Mon
 
     monkeypatch.setattr(os, "fsync", note)
     for number in (1, 2):
-        monkeypatch.setattr(platform, "node", lambda n=number: f"{'n' * 64}{n}" if other == "host" else "same")
+        name = f"{'n' * 64}{number}" if other == "host" else "same"
+        monkeypatch.setattr(os, "uname", lambda n=name: os.uname_result(("Linux", n, "6", "1", "x86_64")))
         monkeypatch.setattr(os, "getpid", lambda n=number: 4_194_303 if other == "host" else n)
         write_text(tmp_path / "out.txt", "x")
         (tmp_path / "out.txt").unlink()

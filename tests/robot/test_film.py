@@ -203,7 +203,7 @@ def test_a_film_without_pictures_leaves_nothing(tmp_path: Path, name: str) -> No
 
 
 def test_what_cannot_be_written_is_refused_at_once(tmp_path: Path) -> None:
-    with pytest.raises(OutputError, match=r"none/out\.gif cannot be written: No such file or directory"):
+    with pytest.raises(OutputError, match=r"none/out\.gif cannot be written: No such directory"):
         MovieFile(tmp_path / "none" / "out.gif", (64, 48), 10)
     (tmp_path / "out.gif").mkdir()
     with pytest.raises(OutputError, match="Is a directory"):

@@ -58,7 +58,7 @@ def test_a_part_has_the_shape_of_its_class_unless_it_says_more(tmp_path: Path) -
         ("{kind: cup, size: [0.1, 0.1, -1.0]}", "greater than 0"),
         ("{kind: cup, size: [0.1, 0.1, .inf]}", "less than or equal to 10"),
         ("{kind: cup, colour: 7}", "shape.colour"),
-        ("{kind: cup, colour: '#12'}", "pattern"),
+        ("{kind: cup, colour: '#12'}", "should be a colour"),
         ("{kind: cup, wheels: 4}", "unknown key"),
         ("{size: [0.1, 0.1, 0.1]}", "shape.kind"),
     ],

@@ -27,12 +27,18 @@ def main() -> None:
     open_closed_streams()
     try:
         from tmd.cli.program import run
+
+        code = int(run(sys.argv[1:]))
     except ModuleNotFoundError as error:  # not yet able to say so as every other fault is told
         if error.name is None or error.name.startswith("tmd"):
             raise
-        sys.exit(_missing(error.name))
+        code = _missing(error.name)
+    except KeyboardInterrupt:  # before the command heard of signals, or after
+        from tmd.diagnostics import ExitCode
 
-    sys.exit(run(sys.argv[1:]))
+        sys.stderr.write("error: interrupted\n")
+        code = ExitCode.INTERRUPTED
+    sys.exit(code)
 
 
 def _missing(package: str) -> int:

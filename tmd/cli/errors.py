@@ -9,7 +9,16 @@ from dataclasses import dataclass
 
 import click
 
-from tmd.diagnostics import ExitCode, Location, TmdError
+from tmd.diagnostics import (
+    DataError,
+    ExitCode,
+    LimitError,
+    Location,
+    MissingToolError,
+    OutputError,
+    PlannerError,
+    TmdError,
+)
 
 _CANNOT_WRITE = {errno.ENOSPC, errno.EROFS, errno.EDQUOT, errno.EFBIG, errno.EIO}
 _WIDTH = 100
@@ -59,15 +68,21 @@ class Fault:
         }
 
 
-def fault_of(error: BaseException) -> Fault:
-    """What ``error`` means to the user; everything that nobody foresaw is a fault of the program."""
+def fault_of(error: BaseException, command: str = "tmd") -> Fault:
+    """What ``error`` means to the user; everything that nobody foresaw is a fault of the program.
+
+    Args:
+        error: What ended the program.
+        command: What it was doing, whose help is the last resort of those who look for a remedy.
+    """
     if isinstance(error, TmdError):
-        return Fault(error.exit_code, error.message, error.location, error.hint, error.source)
+        hint = error.hint or _remedy(error, command)
+        return Fault(error.exit_code, error.message, error.location, hint, error.source)
     if isinstance(error, click.UsageError):
-        command = error.ctx.command_path if error.ctx else "tmd"
+        command = error.ctx.command_path if error.ctx else command
         return Fault(ExitCode.USAGE, error.format_message(), hint=f"see {command} --help")
     if isinstance(error, click.ClickException):
-        return Fault(ExitCode.USAGE, error.format_message())
+        return Fault(ExitCode.USAGE, error.format_message(), hint=f"see {command} --help")
     if isinstance(error, KeyboardInterrupt | click.Abort):
         return Fault(ExitCode.INTERRUPTED, "interrupted")
     if isinstance(error, RecursionError):
@@ -86,12 +101,33 @@ def fault_of(error: BaseException) -> Fault:
     return _internal(error)
 
 
+_CHECKED = (".pddl", ".yaml", ".yml", ".jsonl")
+"""What ``tmd check`` looks into."""
+_REMEDIES: Mapping[type[TmdError], str] = {
+    PlannerError: "try another --planner; `tmd plan --help` names them",
+    LimitError: "use a smaller problem, or fewer words",
+    DataError: "compare the data with the released files",
+    OutputError: "check that the directory exists, that you may write there and that the disk has room",
+    MissingToolError: "install it, or do without what needs it",
+}
+
+
+def _remedy(error: TmdError, command: str) -> str:
+    """What to do about an error whose author knew nothing better."""
+    kind = next((remedy for kind, remedy in _REMEDIES.items() if isinstance(error, kind)), None)
+    if kind is not None:
+        return kind
+    if error.location is not None and error.location.file.endswith(_CHECKED):
+        return f"`tmd check {error.location.file}` tells everything that is wrong there"
+    return f"see {command} --help"
+
+
 def _system_fault(error: OSError) -> Fault:
     message = f"{error.filename or 'output'}: {error.strerror or error}"
     if error.errno in _CANNOT_WRITE:
         return Fault(ExitCode.CANNOT_WRITE, message, hint="make room, or write elsewhere")
     if error.filename:
-        return Fault(ExitCode.BAD_INPUT, message)
+        return Fault(ExitCode.BAD_INPUT, message, hint="check the path, and that you may read there")
     return _internal(error)
 
 

@@ -14,6 +14,7 @@ import click
 from tmd import __version__
 from tmd.cli.errors import Fault, fault_of
 from tmd.cli.output import emit, emit_json
+from tmd.cli.signals import stoppable
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
 
@@ -70,16 +71,19 @@ def program(ctx: click.Context, domains: Path | None, problems: Path | None, deb
 def run(arguments: Sequence[str]) -> ExitCode:
     """Run ``tmd`` and say how it ended; whatever goes wrong is told in one line, never as a traceback."""
     try:
-        code = _invoke(list(arguments) or ["--help"])
-        sys.stdout.flush()
-        return code
+        with stoppable():
+            code = _invoke(list(arguments) or ["--help"])
+            sys.stdout.flush()
+            return code
     except BrokenPipeError:
         _silence()
         return ExitCode.OK
     except (Exception, KeyboardInterrupt) as error:
         if "--debug" in arguments:
             traceback.print_exc()
-        return _tell(fault_of(error), as_json="--json" in arguments)
+        command = next((word for word in arguments if word in COMMANDS), None)
+        fault = fault_of(error, f"tmd {command}" if command else "tmd")
+        return _tell(fault, as_json="--json" in arguments)
 
 
 def _invoke(arguments: list[str]) -> ExitCode:

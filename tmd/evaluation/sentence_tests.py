@@ -74,7 +74,11 @@ def read_sentences(path: Path) -> list[SentenceTest]:
             continue
         test = _read_line(line, Location(str(path), number, 1))
         if test.id in found:
-            raise TmdError(f"the id '{test.id}' stands in this file twice", location=test.location)
+            raise TmdError(
+                f"the id '{test.id}' stands in this file twice",
+                location=test.location,
+                hint="give each an id of its own",
+            )
         found[test.id] = test
     return list(found.values())
 
@@ -93,25 +97,27 @@ def domain_sentences(directory: Path) -> list[SentenceTest]:
     return [test for path in paths for test in read_sentences(path)]
 
 
+_FORM = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
+
+
 def _read_line(line: str, place: Location) -> SentenceTest:
     try:
         data = json.loads(line)
     except json.JSONDecodeError as error:
         where = Location(place.file, place.line, error.colno)
-        raise TmdError(f"the line is not valid JSON: {error.msg}", location=where) from None
+        raise TmdError(f"the line is not valid JSON: {error.msg}", location=where, hint=_FORM, source=line) from None
     except RecursionError:
-        raise TmdError("the line is nested too deeply", location=place) from None
+        raise TmdError("the line is nested too deeply", location=place, hint=_FORM) from None
     except ValueError:  # Python reads no number of more than 4,300 digits
-        raise TmdError("a number of the line has too many digits", location=place) from None
-    hint = 'write {"id": …, "domain": …, "environment": …, "text": …, "goal": "(…)" or null}'
+        raise TmdError("a number of the line has too many digits", location=place, hint=_FORM) from None
     if not isinstance(data, dict):
-        raise TmdError("a sentence test is a JSON object", location=place, hint=hint)
+        raise TmdError("a sentence test is a JSON object", location=place, hint=_FORM)
     for key in _TEXTS:
         if not isinstance(data.get(key), str):
-            raise TmdError(f"the key '{key}' is missing or is not a text", location=place, hint=hint)
+            raise TmdError(f"the key '{key}' is missing or is not a text", location=place, hint=_FORM)
     goal = data.get("goal", 0)
     if goal is not None and not isinstance(goal, str):
-        raise TmdError("the key 'goal' is missing, or is neither a text nor null", location=place, hint=hint)
+        raise TmdError("the key 'goal' is missing, or is neither a text nor null", location=place, hint=_FORM)
     kinds = data.get("kind", [])
     listed = tuple(k for k in kinds if isinstance(k, str)) if isinstance(kinds, list) else ()
     name, domain, environment, text = (data[key] for key in _TEXTS)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import LimitError
 from tmd.export.planned_problem import Planned
 from tmd.planning.downward_process import DownwardProcess
 from tmd.planning.fast_downward import texts_for_planners
@@ -18,14 +18,16 @@ def format_sas(source: Planned) -> str:
     Raises:
         MissingToolError: Fast Downward is not installed.
         PlannerError: The translator refuses the problem, or died.
-        TmdError: It did not end.
+        LimitError: It did not end.
     """
     deadline = Deadline(_LIMIT)
     with DownwardProcess(None) as translator:
         translator.give(texts_for_planners(source.problem), deadline)
         code = translator.process.wait(deadline)
         if code is None:
-            raise TmdError(f"Fast Downward's translator did not end within {_LIMIT:g} s")
+            raise LimitError(
+                f"Fast Downward's translator did not end within {_LIMIT:g} s", hint="use a smaller problem"
+            )
         if code:
             raise translator.process.failed(f"did not translate the problem: it {died(code)}")
         translator.sas.seek(0)

@@ -140,7 +140,12 @@ def _seconds(text: str, place: Location, line: str) -> Decimal:
     try:
         return Decimal(text)
     except InvalidOperation:
-        raise TmdError(f'"{_shown(text)}" is no time', location=place, source=line) from None
+        raise TmdError(
+            f'"{_shown(text)}" is no time',
+            location=place,
+            source=line,
+            hint="a plan with times has START: (name argument ...) [DURATION]",
+        ) from None
 
 
 def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
@@ -161,6 +166,7 @@ def _parse_instruction(code: str, place: Location, line: str) -> Instruction:
                 f'"{_shown(word)}" is not a name',
                 location=Location(place.file, place.line, column),
                 source=line,
+                hint="a name has letters, digits, _ and -, a letter first",
             )
     return Instruction(words[0], tuple(words[1:]))
 

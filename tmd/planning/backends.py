@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from importlib.util import find_spec
+from threading import TIMEOUT_MAX, Thread
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import MissingToolError, PlannerError, TmdError
@@ -12,7 +13,7 @@ from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.downward_process import DownwardProcess
 from tmd.planning.fast_downward import FastDownward, FirstPlan
-from tmd.planning.processes import Deadline
+from tmd.planning.processes import Deadline, memory_limit
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Solution, Solved
 
 if TYPE_CHECKING:
@@ -124,7 +125,8 @@ def solve(
     planner: str = AUTO,
     *,
     optimal: bool = False,
-    seconds: float = TIME_LIMIT,
+    seconds: float | None = None,
+    memory: int | None = None,
     started: DownwardProcess | None = None,
 ) -> Solution:
     """A plan for a whole PDDL problem, from its initial state to its goal.
@@ -133,7 +135,9 @@ def solve(
         problem: The problem.
         planner: ``auto``, ``fast-downward``, ``kairos``, ``in-process`` or ``up:ENGINE``.
         optimal: Whether a plan counts only if it is proven that none is cheaper; otherwise the first one does.
-        seconds: The limit for planners that are processes. The search in this process has a cap instead.
+        seconds: The limit of time, :data:`TIME_LIMIT` by default. The search in this process has a cap of states too.
+        memory: The limit in bytes, for each process that plans, and for what the search in this process takes beside
+            what is there already; ``None`` for most of what the machine has.
         started: Fast Downward, if it was started while the problem was read.
 
     Raises:
@@ -141,7 +145,7 @@ def solve(
         MissingToolError: The planner is not installed.
         PlannerError: The planner died, or what it gave is no plan.
     """
-    answer = _solution(problem, planner, optimal, Deadline(seconds), started)
+    answer = _solution(problem, planner, optimal, Deadline(TIME_LIMIT if seconds is None else seconds, memory), started)
     if optimal and isinstance(answer, Solved) and not answer.optimal:
         return GaveUp(f"a plan of cost {answer.cost} that {planner} did not prove to be optimal")
     return answer
@@ -171,8 +175,44 @@ def _solution(
         return solved_by_engine(problem, name.removeprefix(UP_PREFIX), deadline)
     if name != IN_PROCESS:
         raise _unknown(name, [AUTO, FAST_DOWNWARD, KAIROS, IN_PROCESS, f"{UP_PREFIX}ENGINE"])
-    from tmd.pddl.grounding.ground_task import ground
+    return _in_time(lambda: _in_process(problem, deadline), deadline)
 
-    task = ground(problem)
-    answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
+
+def _in_time(search: Callable[[], Solution], deadline: Deadline) -> Solution:
+    """What ``search`` answers by the deadline.
+
+    It runs in a thread, because Python hears of no signal while compiled code runs in the main one. A search that is
+    given up goes on until its cap of states, or until the program ends.
+    """
+    answers: list[Solution] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            answers.append(search())
+        except BaseException as error:  # for the thread that asked
+            errors.append(error)
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(min(deadline.left(), TIMEOUT_MAX))
+    if errors:
+        raise errors[0]
+    return answers[0] if answers else GaveUp(f"{deadline.seconds:g} s of {IN_PROCESS}")
+
+
+def _in_process(problem: Problem, deadline: Deadline) -> Solution:
+    """By the search of this package."""
+    from tmd.pddl.grounding.ground_task import ground
+    from tmd.planning.search.in_process import OptimalSearch, chosen
+
+    try:
+        with memory_limit(deadline.memory):
+            task = ground(problem)
+        if deadline.memory is not None:  # the compiled search is loaded by being used, which does not count
+            OptimalSearch(task, backend=chosen("auto"), cap=1).fill(task.init, task.goal)
+        with memory_limit(deadline.memory):
+            answer = make(IN_PROCESS, task, cap=PLAN_CAP).fill(task.init, task.goal)
+    except MemoryError:
+        return GaveUp(deadline.memory_of("this process"))
     return Solved(answer.plan, answer.cost, optimal=True) if isinstance(answer, Filled) else answer

@@ -70,6 +70,7 @@ class DownwardProcess:
 
     Args:
         search: The configuration of the search; without one the problem is translated only.
+        memory: Bytes that it may take.
 
     Attributes:
         process: The process.
@@ -81,7 +82,7 @@ class DownwardProcess:
         PlannerError: It cannot be started.
     """
 
-    def __init__(self, search: str | None) -> None:
+    def __init__(self, search: str | None, memory: int | None = None) -> None:
         programs = binaries()
         self.sas = unnamed_file()  # both are closed when the block is left
         self.plan = unnamed_file()
@@ -99,6 +100,7 @@ class DownwardProcess:
                 ],
                 passed=(*inherited, *files),
                 environment={"PYTHONPATH": str(programs)},
+                memory=memory,
             )
         except BaseException:
             self._close()
@@ -133,8 +135,10 @@ class DownwardProcess:
         self.plan.close()
 
 
-def early_start(planner: str | None, *, optimal: bool) -> AbstractContextManager[DownwardProcess | None]:
+def early_start(
+    planner: str | None, *, optimal: bool, memory: int | None = None
+) -> AbstractContextManager[DownwardProcess | None]:
     """Fast Downward for :func:`tmd.planning.backends.solve`, where ``planner`` asks it first and it is there."""
     first = planner == "fast-downward" or (planner in (None, "auto") and (optimal or not find_spec("kairos")))
     needed = first and find_spec("up_fast_downward")
-    return DownwardProcess(OPTIMAL if optimal else FIRST) if needed else nullcontext()
+    return DownwardProcess(OPTIMAL if optimal else FIRST, memory) if needed else nullcontext()

@@ -42,6 +42,8 @@ million states in vain, with landmarks beside it 1,700. On the bundled problems 
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
 _NO_MEMORY = (20, 22, 24)
+_PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
+"""How the translator may end where it should end with one of those codes."""
 _UNSUPPORTED = 34
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
@@ -64,7 +66,7 @@ class FastDownward:
         self.problem = problem
         self.deadline = deadline
         self.search = search or (OPTIMAL if optimal else FIRST)
-        self._prover = Prover(problem) if prove else None
+        self._prover = Prover(problem, deadline.memory) if prove else None
 
     def solve(self, started: DownwardProcess | None = None) -> Solution:
         """A plan, or why there is none.
@@ -77,7 +79,7 @@ class FastDownward:
             PlannerError: It died, or what it gave is no plan.
             TmdError: It does not take the problem.
         """
-        with self._prover or nullcontext(), started or DownwardProcess(self.search) as running:
+        with self._prover or nullcontext(), started or DownwardProcess(self.search, self.deadline.memory) as running:
             running.give(texts_for_planners(self.problem), self.deadline)
             from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
@@ -96,7 +98,8 @@ class FastDownward:
         sas.seek(0)
         with unnamed_file() as plan:
             command = search_command(search, plan)
-            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),)) as process:
+            memory = self.deadline.memory
+            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),), memory=memory) as process:
                 answer = self._answer(process, search, plan)
                 if answer is None:
                     raise process.failed("ended without a plan and without a proof")
@@ -113,8 +116,8 @@ class FastDownward:
         if code == 0:
             plan.seek(0)
             return checked(self.problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
-        if code in _NO_MEMORY:
-            return GaveUp(f"the memory of {NAME}")
+        if code in _NO_MEMORY or (code == 1 and any(word in process.said() for word in _PYTHON_WITHOUT_MEMORY)):
+            return GaveUp(self.deadline.memory_of(NAME))
         exhausted = code == _INCOMPLETE and search in _OPTIMAL and _EXHAUSTED in process.said()
         if code in _UNSOLVABLE or exhausted:  # the dead ends of other searches are no proof
             return Unreachable(self._reason())

@@ -36,7 +36,10 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
             *(program(), *(f"/dev/fd/{file}" for file in files), "--threads", "1", "-v"),  # one: the same plan again
             *("--timeout", f"{max(deadline.left(), 0.01):.3f}", "--anytime" if optimal else "--no-anytime"),
         ]
-        with PlannerProcess(NAME, command, passed=files, keep_output=True) as process, Prover(problem) as prover:
+        with (
+            PlannerProcess(NAME, command, passed=files, keep_output=True, memory=deadline.memory) as process,
+            Prover(problem, deadline.memory) as prover,
+        ):
             # it knows the limit itself, and has a plan by then
             reason = prover.awaited(process, Deadline(deadline.left() + 1.0))
             if reason is not None:
@@ -50,7 +53,7 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
                 case 10:
                     return Unreachable(prover.reason(deadline.at_most(EXPLAINING)) or f"{NAME} proved it")
                 case 12:
-                    return GaveUp(f"the memory of {NAME}")
+                    return GaveUp(deadline.memory_of(NAME))
                 case 14:
                     return GaveUp(f"the end of what {NAME} can search")
                 case 13:

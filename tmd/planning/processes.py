@@ -10,14 +10,17 @@ import os
 import selectors
 import signal
 import subprocess
+import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
-from contextlib import ExitStack, suppress
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from types import TracebackType
 from typing import IO
 
 from tmd.diagnostics import PlannerError
+from tmd.files import lives, machine
 
 _TAIL = 4_096
 """Bytes at the end of what a planner printed that are looked at when it fails."""
@@ -26,28 +29,39 @@ _LINES = 3
 _LARGEST = 4 << 30
 """Bytes of a file beyond which a planner is stopped: one that prints without end shall not fill the disk."""
 _PR_SET_PDEATHSIG = 1
+MEGABYTE = 1 << 20
 MARK = "TMD_PLANNER"
 """The variable that marks the processes of a conversation."""
 
 
+PROGRAM = "TMD_PROGRAM"
+"""The variable that marks what a program started."""
+
+
 class Deadline:
-    """A time limit for several processes one after another.
+    """A time limit for several processes one after another, and what memory each of them may take.
 
     Args:
         seconds: How long from now.
+        memory: Bytes for each process; ``None`` for most of what the machine has.
     """
 
-    def __init__(self, seconds: float) -> None:
+    def __init__(self, seconds: float, memory: int | None = None) -> None:
         self.seconds = seconds
+        self.memory = memory
         self._end = time.monotonic() + seconds
 
     def left(self) -> float:
         """Seconds that are left, at least 0."""
         return max(0.0, self._end - time.monotonic())
 
+    def memory_of(self, name: str) -> str:
+        """The limit of memory that the process ``name`` came to, in words."""
+        return f"the memory of {name}" if self.memory is None else f"{self.memory // MEGABYTE} MB of {name}"
+
     def at_most(self, seconds: float) -> Deadline:
         """This deadline, or one in ``seconds`` if that is earlier."""
-        return Deadline(min(seconds, self.left()))
+        return Deadline(min(seconds, self.left()), self.memory)
 
 
 class PlannerProcess:
@@ -63,6 +77,7 @@ class PlannerProcess:
         answers: The file descriptor that becomes its standard output, instead.
         directory: Where it runs.
         with_thread: Whether it dies with the thread that started it, and not only with the program.
+        memory: Bytes that it may take; ``None`` for most of what the machine has.
 
     Raises:
         PlannerError: It cannot be started.
@@ -80,6 +95,7 @@ class PlannerProcess:
         answers: int | None = None,
         directory: str | None = None,
         with_thread: bool = True,
+        memory: int | None = None,
     ) -> None:
         self.name = name
         self._files = ExitStack()
@@ -94,7 +110,7 @@ class PlannerProcess:
                 pass_fds=tuple(passed),
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_bound(os.getpid() if with_thread else None),
+                preexec_fn=_bound(os.getpid() if with_thread else None, memory),
                 process_group=0,
             )
         except OSError as error:
@@ -150,7 +166,7 @@ class PlannerProcess:
 
 
 class Conversation:
-    """A process that answers each line with a line, in a directory of its own.
+    """A process that answers each line with a line, in a directory of its own, which is its temporary one as well.
 
     It and all that it started, even in groups of their own, carry a mark in their environment by which
     :func:`end_marked` finds them. It must end by itself when the program dies: it is not bound to a thread.
@@ -164,7 +180,8 @@ class Conversation:
     def __init__(self, name: str, command: Sequence[str], environment: Mapping[str, str]) -> None:
         from tempfile import TemporaryDirectory
 
-        self._directory = TemporaryDirectory(prefix="tmd-planner-")
+        _remove_left_directories()
+        self._directory = TemporaryDirectory(prefix=f"{_DIRECTORY}{machine()}-{os.getpid()}-")
         self._mark = Path(self._directory.name).name
         questions, self._questions = os.pipe()
         self._answers, answers = os.pipe()
@@ -178,7 +195,7 @@ class Conversation:
                     stdin=stdin,
                     answers=answers,
                     directory=self._directory.name,
-                    environment={**environment, MARK: self._mark},
+                    environment={**environment, MARK: self._mark, "TMPDIR": self._directory.name},
                     with_thread=False,
                 )
         except BaseException:
@@ -230,6 +247,20 @@ class Conversation:
             self._directory.cleanup()
 
 
+_DIRECTORY = "tmd-planner-"
+
+
+def _remove_left_directories() -> None:
+    """Remove what programs left that were killed before their worker could do so."""
+    from shutil import rmtree
+    from tempfile import gettempdir
+
+    for path in Path(gettempdir()).glob(f"{_DIRECTORY}{machine()}-*-*"):
+        number = path.name.split("-")[3]
+        if number.isdecimal() and not lives(int(number)):
+            rmtree(path, ignore_errors=True)
+
+
 def end_marked(mark: str) -> None:
     """Kill every process but this one whose environment has the mark."""
     wanted = f"{MARK}={mark}".encode()
@@ -237,6 +268,42 @@ def end_marked(mark: str) -> None:
         with suppress(OSError):
             if int(path.parent.name) != os.getpid() and wanted in path.read_bytes().split(b"\0"):
                 os.kill(int(path.parent.name), signal.SIGKILL)
+
+
+_GUARD = f"""
+import glob, os, signal, sys
+sys.stdin.buffer.read()
+wanted = f"{PROGRAM}={{sys.argv[1]}}".encode()
+for path in glob.glob("/proc/[0-9]*/environ"):
+    try:
+        number = int(path.split("/")[2])
+        with open(path, "rb") as file:
+            if number != os.getpid() and wanted in file.read().split(b"\\0"):
+                os.kill(number, signal.SIGKILL)
+    except OSError:
+        pass
+"""
+
+
+@cache
+def end_with_program() -> subprocess.Popen[bytes] | None:
+    """Let whatever is started from now on end with this program, even when it is killed before it can say so.
+
+    A process waits for the end of a pipe that only this program holds, and then kills what carries this program's mark
+    in its environment. Libraries start worker processes in ways of their own, so each cannot be bound to us.
+    """
+    if sys.platform != "linux":
+        return None
+    name = f"{os.getpid()}-{time.monotonic_ns()}"
+    guard = subprocess.Popen(
+        [sys.executable, "-S", "-E", "-c", _GUARD, name],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.DEVNULL,
+        start_new_session=True,  # whatever ends the others of our group, this one goes by the pipe
+    )
+    os.environ[PROGRAM] = name
+    return guard  # kept by the cache, and with it the pipe
 
 
 def died(code: int) -> str:
@@ -305,13 +372,37 @@ def _until_ended(processes: Sequence[subprocess.Popen[bytes]], seconds: float) -
                 os.close(descriptor)
 
 
-def _bound(parent: int | None) -> Callable[[], None]:
+@contextmanager
+def memory_limit(memory: int | None) -> Iterator[None]:
+    """Let this process take no more than ``memory`` bytes beyond what it has; what needs more is a MemoryError."""
+    import resource
+
+    if memory is None or not Path("/proc/self/statm").exists():
+        yield
+        return
+    taken = int(Path("/proc/self/statm").read_text().split()[0]) * os.sysconf("SC_PAGE_SIZE")
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (_least(taken + memory, before[1]), before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, before)
+
+
+def _least(limit: int, most: int) -> int:
+    """A limit that is not above the one that may not be raised."""
+    import resource
+
+    return limit if most == resource.RLIM_INFINITY else min(limit, most)
+
+
+def _bound(parent: int | None, most: int | None) -> Callable[[], None]:
     """What a new process does first: die with ``parent``, and neither fill the disk nor take all memory."""
     import ctypes
     import resource
 
     library = ctypes.CDLL(None)
-    memory = int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
+    memory = most or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
 
     def bind() -> None:
         if parent is not None and hasattr(library, "prctl"):
@@ -319,7 +410,7 @@ def _bound(parent: int | None) -> Callable[[], None]:
             if os.getppid() != parent:
                 os._exit(1)
         for kind, limit in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST)):
-            _, most = resource.getrlimit(kind)
-            resource.setrlimit(kind, (limit if most == resource.RLIM_INFINITY else min(limit, most), most))
+            _, hard = resource.getrlimit(kind)
+            resource.setrlimit(kind, (_least(limit, hard), hard))
 
     return bind

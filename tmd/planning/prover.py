@@ -44,10 +44,12 @@ class Prover:
 
     Args:
         problem: The problem.
+        memory: Bytes that it may take.
     """
 
-    def __init__(self, problem: Problem) -> None:
+    def __init__(self, problem: Problem, memory: int | None = None) -> None:
         self._problem = problem
+        self._memory = memory
         self._process: PlannerProcess | None = None
 
     def __enter__(self) -> Prover:
@@ -88,6 +90,7 @@ class Prover:
                     stdin=question,
                     environment={"PYTHONPATH": ":".join(filter(None, sys.path))},
                     keep_output=True,
+                    memory=self._memory,
                 )
         return self._process
 

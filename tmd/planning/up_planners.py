@@ -17,7 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from tmd.diagnostics import MissingToolError, PlannerError, TmdError
+from tmd.diagnostics import LimitError, MissingToolError, PlannerError, TmdError
 from tmd.pddl.derived import without_derived
 from tmd.pddl.model import TRUE, And, Domain, Exists, Forall, Formula, Imply, Instruction, Not, Or, Problem
 from tmd.pddl.normalise import portable
@@ -47,6 +47,7 @@ class EngineSpec:
         time_limit: Seconds after which it is stopped.
         skip_checks: Whether to leave out the engine's own check of the problem kind, which costs 14 ms a call.
         takes_timeout: Whether the engine can be told the limit.
+        memory: Bytes that it may take, beside what unified-planning takes; ``None`` for most of what the machine has.
     """
 
     name: str
@@ -54,6 +55,7 @@ class EngineSpec:
     time_limit: float = 60.0
     skip_checks: bool = False
     takes_timeout: bool = True
+    memory: int | None = None
 
 
 class UnifiedPlanner:
@@ -140,7 +142,7 @@ def solved_by_engine(problem: Problem, name: str, deadline: Deadline) -> Solutio
         TmdError: The engine or unified-planning's reader refuses the problem.
     """
     _needed()
-    engine = EngineSpec(name, time_limit=deadline.seconds)
+    engine = EngineSpec(name, time_limit=deadline.seconds, memory=deadline.memory)
     worker = _Worker(_opening(problem, engine), engine)
     try:
         reply = worker.ask({"state": [], "goal": [], "timeout": deadline.left() if engine.takes_timeout else None})
@@ -197,6 +199,7 @@ def _opening(source: Problem, engine: EngineSpec) -> dict[str, Any]:
         "parameters": dict(engine.parameters),
         "skip_checks": engine.skip_checks,
         "takes_timeout": engine.takes_timeout,
+        "memory": engine.memory,
     }
 
 
@@ -267,6 +270,8 @@ def _refusal(reply: dict[str, Any], engine: EngineSpec) -> TmdError:
         return MissingToolError(
             f"unified-planning has no engine '{engine.name}' here", hint=f"pip install up-{engine.name}"
         )
+    if kind == "MemoryError":
+        return LimitError(f"the planner {engine.name} came to the end of its memory", hint="use a smaller problem")
     if kind == "UPUsageError":
         return TmdError(f"the planner {engine.name} does not take this kind of problem: {message}")
     return PlannerError(f"unified-planning failed with {kind}: {message}")

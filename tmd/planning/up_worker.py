@@ -19,7 +19,7 @@ from pathlib import Path
 from shutil import rmtree
 from typing import IO, Any, TypeAlias, cast
 
-from tmd.planning.processes import MARK, end_marked
+from tmd.planning.processes import MARK, end_marked, memory_limit
 
 Message: TypeAlias = dict[str, Any]
 """One line, decoded."""
@@ -35,8 +35,10 @@ class PlannerEngine:
         environment = get_environment()  # its reader mixes other ones with this one
         environment.credits_stream = None
         environment.error_used_name = False  # PDDL lets an action and a predicate share a name
-        self.base: Any = PDDLReader().parse_problem_string(opening["domain"], opening["problem"])
         self.planner: Any = environment.factory.OneshotPlanner(name=opening["engine"], params=opening["parameters"])
+        self._limit = memory_limit(opening["memory"])
+        self._limit.__enter__()  # until the process ends
+        self.base: Any = PDDLReader().parse_problem_string(opening["domain"], opening["problem"])
         self.planner.skip_checks = opening["skip_checks"]
         self.planner.error_on_failed_checks = True
         self.takes_timeout: bool = opening["takes_timeout"]

@@ -203,13 +203,13 @@ def read_log(lines: Sequence[tuple[int, str]], file: str) -> tuple[PlanEvent, li
     found = []
     for number, line in lines:
         try:
-            value = json_value(line, file, number)
+            value = json_value(line, file, number, _Event.REMAKE)
         except TmdError:
             if number == lines[-1][0]:
                 break
             raise
         kind = value.get("event") if isinstance(value, dict) else None
-        if kind not in _EVENTS:
+        if not isinstance(kind, str) or kind not in _EVENTS:
             told = f"this is not {_Event.WHAT}: event: should be one of {', '.join(_EVENTS)}"
             raise TmdError(told, location=Location(file, number, 1), hint=_Event.REMAKE)
         found.append(_EVENTS[kind].from_value(value, file, number))

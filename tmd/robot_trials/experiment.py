@@ -148,7 +148,9 @@ def _forget(directory: Path, names: frozenset[str]) -> None:
         try:
             (directory / name).unlink()
         except OSError as error:
-            raise OutputError(f"{directory / name} cannot be removed: {error.strerror}") from None
+            raise OutputError(
+                f"{directory / name} cannot be removed: {error.strerror}", hint="name a directory you may write to"
+            ) from None
 
 
 def run_experiment(

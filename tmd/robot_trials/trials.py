@@ -303,7 +303,9 @@ def _forget_others(folder: Path, environments: set[str]) -> None:
             try:
                 path.unlink()
             except OSError as error:
-                raise OutputError(f"{path} cannot be removed: {error.strerror}") from None
+                raise OutputError(
+                    f"{path} cannot be removed: {error.strerror}", hint="name a directory you may write to"
+                ) from None
 
 
 def _without_plan(folder: Path, asked: TrialRequest) -> None:

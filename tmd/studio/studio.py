@@ -68,7 +68,10 @@ class Studio:
             self._extra[start] = extra
         names = self.environments()
         if not names:
-            raise TmdError(f"there are no environments in {corpus.directory / 'environments'}")
+            raise TmdError(
+                f"there are no environments in {corpus.directory / 'environments'}",
+                hint="write one, or copy a bundled one",
+            )
         if start is not None and start not in names:
             raise TmdError(f"there is no environment '{start}'", hint=nearest(start, names))
         self.start = start or names[0]

@@ -35,6 +35,9 @@ from tmd.pddl.reading.syntax import read_text, split_lines
 from tmd.pddl.semantics import first_false
 
 _KEYS = ("id", "task", "environment", "text", "segments")
+_LINE = f"a demonstration is a JSON object on one line, with {', '.join(_KEYS)}"
+_SEGMENT = 'write [{"text": "Take the cup", "instructions": ["grasp(cup1)"]}, …]'
+_QUOTES = "text stands in quotes, a list in [ ]"
 _ENDS = "\x85\u2028\u2029"
 
 
@@ -151,26 +154,28 @@ class _Line:
             data = json.loads(self.line)
         except json.JSONDecodeError as error:
             place = Location(str(self.path), self.number, error.colno)
-            raise TmdError(f"not JSON: {error.msg}", location=place, source=self.line, code="json-syntax") from None
+            raise TmdError(
+                f"not JSON: {error.msg}", location=place, source=self.line, hint=_LINE, code="json-syntax"
+            ) from None
         except RecursionError:
             place = Location(str(self.path), self.number, 1)
             message = "not a demonstration: nested too deeply"
-            raise TmdError(message, location=place, code="nested-too-deeply") from None
+            raise TmdError(message, location=place, hint=_LINE, code="nested-too-deeply") from None
         except ValueError:  # Python reads no number of more than 4,300 digits
             place = Location(str(self.path), self.number, 1)
             message = "not a demonstration: a number has too many digits"
-            raise TmdError(message, location=place, code="json-syntax") from None
+            raise TmdError(message, location=place, hint=_LINE, code="json-syntax") from None
         if not isinstance(data, dict):
-            raise self.error("a demonstration is a JSON object")
+            raise self.error("a demonstration is a JSON object", _LINE)
         for key in _KEYS:
             if key not in data:
                 raise self.error(f"the key '{key}' is missing", f"a demonstration has {', '.join(_KEYS)}")
         for key in _KEYS[:4]:
             if not isinstance(data[key], str):
-                raise self.error(f"'{key}' is not a string", at=(key,))
+                raise self.error(f"'{key}' is not a string", _QUOTES, (key,))
         end_state = data.get("end_state", [])
         if not isinstance(end_state, list) or not all(isinstance(item, str) for item in end_state):
-            raise self.error("'end_state' is not a list of strings", at=("end_state",))
+            raise self.error("'end_state' is not a list of strings", _QUOTES, ("end_state",))
         segments = tuple(self._segments(data["text"], data["segments"]))
         return Demonstration(
             data["id"],
@@ -189,7 +194,7 @@ class _Line:
     def _said(self, data: dict[str, object], key: str) -> str | None:
         value = data.get(key)
         if value is not None and not isinstance(value, str):
-            raise self.error(f"'{key}' is not a string", at=(key,))
+            raise self.error(f"'{key}' is not a string", _QUOTES, (key,))
         return value
 
     def _corrected(self, data: dict[str, object], segments: tuple[Segment, ...]) -> tuple[Instruction, ...] | None:
@@ -210,12 +215,12 @@ class _Line:
 
     def _segments(self, text: str, segments: object) -> Iterator[Segment]:
         if not isinstance(segments, list):
-            raise self.error("'segments' is not a list", at=("segments",))
+            raise self.error("'segments' is not a list", _SEGMENT, ("segments",))
         after = 0
         for index, segment in enumerate(segments):
             where, at = f"segment {index + 1}", ("segments", index)
             if not isinstance(segment, dict) or not isinstance(segment.get("text"), str):
-                raise self.error(f"{where} has no 'text'", at=at)
+                raise self.error(f"{where} has no 'text'", _SEGMENT, at)
             start = text.find(segment["text"], after)
             if start < 0:
                 raise self.error(
@@ -232,7 +237,7 @@ class _Line:
 
     def _instructions(self, where: str, lines: object, at: _Path) -> Iterator[Instruction]:
         if not isinstance(lines, list) or not all(isinstance(line, str) for line in lines):
-            raise self.error(f"{where}: '{at[-1]}' is not a list of strings", at=at)
+            raise self.error(f"{where}: '{at[-1]}' is not a list of strings", _QUOTES, at)
         for number, line in enumerate(lines):
             try:
                 yield parse_instruction(line)

@@ -193,6 +193,11 @@ class Roots:
         path = self.environment(environment, domain)
         if path.suffix == ".pddl":
             return self._pddl_world(path, domain)
+        if path.suffix == ".xml":
+            raise TmdError(
+                f"{path}: texts are not grounded in single rooms of VEIL-500",
+                hint="tmd experiment --data veil500 grounds all of its texts",
+            )
         read = load_environment(path)
         corpus = self.corpus(self.folder(domain or read.domain))
         if path == corpus.directory / "environments" / f"{read.name}.yaml":

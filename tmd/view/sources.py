@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -12,6 +11,7 @@ from tmd import __version__
 from tmd.diagnostics import ExitCode, Location, OptionError, TmdError
 from tmd.export.record import parse_record
 from tmd.export.strips import restored
+from tmd.files import read_bytes
 from tmd.grounded import why_refused
 from tmd.language import parse
 from tmd.language.clause import Clause
@@ -19,7 +19,7 @@ from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import Problem
 from tmd.pddl.plan_file import Plan, parse_plan
 from tmd.pddl.reading.reader import with_goal
-from tmd.pddl.reading.syntax import nearest, read_text
+from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
 from tmd.records.json_record import json_value
@@ -223,14 +223,14 @@ def _strip(asked: ViewRequest, recorded: str | None, count: int) -> Strip | None
     if asked.source == STANDARD:
         return None
     names = [Path(recorded).name] if recorded else []
-    paths = [asked.path.with_name(name) for name in names] + [asked.path.with_suffix(".png")]
+    paths = [asked.path.parent / name for name in names] + [asked.path.with_suffix(".png")]
     path = next((path for path in paths if path.is_file()), None)
     return None if path is None else _picture(path, count)
 
 
 def _picture(path: Path, count: int) -> Strip | None:
     try:
-        return read_strip(path.read_bytes(), count)
+        return read_strip(read_bytes(path), count)
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror}", hint="give what tmd run --strip wrote") from None
 
@@ -281,7 +281,7 @@ def _scene(
     if asked.environment is not None:
         return roots.world(asked.environment, asked.domain or _domain_of(asked.environment, domain))
     if file is not None:
-        paths = [Path(file), asked.path.with_name(Path(file).name)]
+        paths = [Path(file), asked.path.parent / Path(file).name]
         path = next((path for path in paths if path.is_file()), None)
         if path is None:
             raise TmdError(f"the environment {file} is not there any more", hint="give it with --environment FILE")
@@ -316,18 +316,14 @@ def subject_of_file(roots: Roots, asked: ViewRequest) -> FoundSubject:
     found = _of_text(roots, asked, text)
     if len(found.subject.steps) > MAX_STEPS:
         raise TmdError(
-            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown"
+            f"{asked.name}: the plan has {len(found.subject.steps):,} steps; at most {MAX_STEPS:,} are shown",
+            hint="cut the plan",
         )
     return found
 
 
 def _read(asked: ViewRequest) -> str:
-    if asked.source != STANDARD:
-        return read_text(asked.path)
-    try:
-        return sys.stdin.buffer.read().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
+    return read_standard_input() if asked.source == STANDARD else read_text(asked.path)
 
 
 def _of_text(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
@@ -359,7 +355,10 @@ def _of_json(roots: Roots, asked: ViewRequest, first: dict[str, Any], lines: lis
         _only(asked, "environment", "domain")
         return grounding_found(roots, asked, first)
     if isinstance(first.get("error"), dict):
-        raise TmdError(f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}")
+        raise TmdError(
+            f"{asked.name} is an error that tmd printed, no plan: {first['error'].get('message')}",
+            hint=f"give {_KINDS}",
+        )
     raise TmdError(f"{asked.name} is JSON of no kind that can be shown", hint=f"give {_KINDS}")
 
 
@@ -369,7 +368,7 @@ def _only(asked: ViewRequest, *meant: str) -> None:
     names |= {"demonstration": "--id", "strip": "--strip"}
     for field, option in names.items():
         if field not in meant and getattr(asked, field) is not None:
-            raise OptionError(f"{option} has no meaning for {asked.name}")
+            raise OptionError(f"{option} has no meaning for {asked.name}", hint="leave it out")
 
 
 def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
@@ -380,10 +379,13 @@ def _object(asked: ViewRequest, text: str) -> dict[str, Any]:
     return value
 
 
+_WHERE = "a plan file does not say where it belongs: --problem p.pddl, or --environment kitchen1"
+
+
 def _plan_found(roots: Roots, asked: ViewRequest, text: str) -> FoundSubject:
     """A plan file, in a problem or an environment."""
     if (asked.problem is None) == (asked.environment is None):
-        raise OptionError(f"for the plan {asked.name} give one of --problem and --environment")
+        raise OptionError(f"for the plan {asked.name} give one of --problem and --environment", hint=_WHERE)
     plan = parse_plan(text, asked.name)
     if not plan.instructions:
         raise TmdError(f"{asked.name}: the plan has no instructions", hint="write one (name argument ...) a line")

@@ -38,6 +38,7 @@ AT = "at"
 """What ``at: on counter1`` compiles to: ``(at object counter1 on)``."""
 _HEADER = "; Compiled from instructions.pddl and objects.yaml; change those and run `tmd compile`.\n;\n"
 _DERIVE = "derive"
+_RULE = "a rule is an effect, such as (when (on ?x table1) (near ?x))"
 
 
 def update_domain(folder: DomainFolder, *, write: bool = True) -> bool:
@@ -78,7 +79,7 @@ def compile_domain(folder: DomainFolder) -> str:
     for section, added in ((":types", types), (":constants", constants)):
         group = next((g for g in document.groups[0].parts[1:] if getattr(g, "head", "") == section), None)
         if group is None or not hasattr(group, "end"):
-            raise TmdError(f"{path}: has no ({section} …) for objects.yaml to add to")
+            raise TmdError(f"{path}: has no ({section} …) for objects.yaml to add to", hint=f"write ({section})")
         insertions.append((group.end, added, section))
     for end, added, section in sorted(insertions, key=lambda item: item[0], reverse=True):
         row, column = end.line - 1, end.column - 1
@@ -257,7 +258,7 @@ def derive(problem: Problem, folder: DomainFolder, state: State) -> State:
         try:
             state = apply(Instruction(_DERIVE), state, _with_action(problem, schema))
         except TmdError as error:
-            raise TmdError(f"derive: {rule}: {error}", location=location) from error
+            raise TmdError(f"derive: {rule}: {error.message}", location=location, hint=error.hint or _RULE) from error
     return state
 
 
@@ -273,8 +274,10 @@ def derive_rules(folder: DomainFolder) -> Iterable[tuple[ActionSchema, Location,
         document = parse(rule, str(classes.source.path))
         try:
             effects = tuple(read_effects(document.groups[0], document.source).flat)
-        except (TmdError, IndexError) as error:
-            raise TmdError(f"derive: {rule}: {error}", location=location) from error
+        except TmdError as error:
+            raise TmdError(f"derive: {rule}: {error.message}", location=location, hint=error.hint or _RULE) from error
+        except IndexError:
+            raise TmdError("derive: the rule is empty", location=location, hint=_RULE) from None
         yield ActionSchema(_DERIVE, (), TRUE, effects), location, rule
 
 

@@ -48,7 +48,9 @@ class YamlSource:
             TmdError: With the place of the first key that does not fit.
         """
         if self._root is None:
-            raise TmdError(f"{self.path}: the file is empty", code="empty-file")
+            raise TmdError(
+                f"{self.path}: the file is empty", code="empty-file", hint="see docs/domains.md for what belongs in it"
+            )
         try:
             return model.model_validate(self._data())
         except yaml.MarkedYAMLError as error:
@@ -114,7 +116,7 @@ class YamlSource:
         path = tuple(part for part in fault["loc"] if isinstance(part, str | int))
         where = ".".join(map(str, path)) or "the file"
         if fault["type"] != "extra_forbidden":
-            return self.error(path, f"{where}: {fault['msg']}")
+            return self.error(path, f"{where}: {_expectation(fault)}", _HINTS.get(fault["type"]))
         missing = [str(f["loc"][-1]) for f in faults if f["type"] == "missing" and f["loc"][:-1] == path[:-1]]
         hint = nearest(str(path[-1]), missing, what="missing")
         return self.error(path, f"unknown key '{where}'", hint, "unknown-key")
@@ -125,6 +127,38 @@ class YamlSource:
     def _place(self, mark: YamlMark | None) -> Location:
         line, column = (mark.line + 1, mark.column + 1) if mark is not None else (1, 1)
         return Location(str(self.path), line, column)
+
+
+_EXPECTATIONS = {
+    "missing": "the key is missing",
+    "string_type": "should be text",
+    "list_type": "should be a list",
+    "tuple_type": "should be a list",
+    "dict_type": "should be a mapping",
+    "model_type": "should be a mapping",
+    "model_attributes_type": "should be a mapping",
+    "mapping_type": "should be a mapping",
+}
+_MAPPING = "write `key: value`, a line each, further in than the line above"
+_HINTS = {
+    "missing": "see docs/domains.md for what belongs there",
+    "string_type": "put it into quotes",
+    "list_type": "write [a, b], or a line with `- ` for each",
+    "tuple_type": "write [a, b], or a line with `- ` for each",
+    "dict_type": _MAPPING,
+    "model_type": _MAPPING,
+    "model_attributes_type": _MAPPING,
+    "mapping_type": _MAPPING,
+    "string_pattern_mismatch": "a name has small letters, digits and _, a letter first; a colour is like '#a0c4ff'",
+}
+
+
+def _expectation(fault: ErrorDetails) -> str:
+    """What is wrong with a value, in words of YAML instead of pydantic's."""
+    if fault["type"] == "string_pattern_mismatch":
+        return "should be a colour" if "#" in fault.get("ctx", {}).get("pattern", "") else "should be a name"
+    said = " ".join(fault["msg"].removeprefix("Value error, ").split())
+    return _EXPECTATIONS.get(fault["type"], said.replace("Input should", "should").replace("String should", "should"))
 
 
 def _child(node: yaml.Node | None, part: str | int) -> tuple[yaml.Node, yaml.Mark] | None:

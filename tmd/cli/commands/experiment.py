@@ -25,7 +25,13 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    bar = Progress(*columns, console=Console(stderr=True))
+
+    class Screen(Console):
+        def on_broken_pipe(self) -> None:
+            """Where nobody reads it any more, the work goes on."""
+            self.quiet = True
+
+    bar = Progress(*columns, console=Screen(stderr=True))
     task = bar.add_task(what, total=None)
 
     def tell(done: int, total: int) -> None:
@@ -253,10 +259,9 @@ def _whole(config: ExperimentConfig, step: str, robot: str) -> None:
 
 
 def _trials(config: ExperimentConfig, mode: str) -> None:
-    from tmd.cli.signals import stoppable
     from tmd.robot_trials.experiment import carry_out_predictions
 
-    with stoppable(), progress_bar(f"the robot, {mode}") as progress:
+    with progress_bar(f"the robot, {mode}") as progress:
         trials = carry_out_predictions(config, "physics" if mode == "physics" else "kinematic", progress=progress)
     if trials.skipped:
         emit(f"the robot did nothing: {trials.skipped}\n", error=True)

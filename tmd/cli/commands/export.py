@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from tmd.cli.errors import one_line
+from tmd.cli.inputs.limits import limit_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -28,6 +29,7 @@ _ALL = "all"
 @click.option("--domain", metavar="NAME|FILE", help="The domain; otherwise what stands beside it or what it names.")
 @click.option("--plan", type=click.Path(path_type=Path), metavar="FILE", help="Take this plan; otherwise one is found.")
 @click.option("--planner", metavar="NAME", help="As for tmd plan, or for tmd ground where there is a text.")
+@limit_options
 @click.option("--text", metavar="TEXT", help="What was said, for an environment (YAML or PDDL).")
 @click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
 @click.option(
@@ -48,6 +50,8 @@ def command(
     domain: str | None,
     plan: Path | None,
     planner: str | None,
+    seconds: float | None,
+    memory: int | None,
     text: str | None,
     text_file: str | None,
     goal: str | None,
@@ -65,7 +69,6 @@ def command(
     """
     from tmd.cli.inputs.export import ExportRequest, NoPlan, planned_source
     from tmd.cli.inputs.text import said
-    from tmd.cli.signals import stoppable
     from tmd.export.directory import check_directory, write_directory
     from tmd.export.formats import chosen_files
     from tmd.language.parser import short_enough
@@ -73,14 +76,14 @@ def command(
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
     spoken = None if text is None and text_file is None else short_enough(said(text, text_file))
-    with stoppable():  # planners are to end with us
-        found = planned_source(roots, ExportRequest(source, domain, plan, planner, spoken, goal, example, model))
-        if isinstance(found, NoPlan):
-            emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
-            if as_json:
-                emit_json(_told(directory, {}, None, found.reason, {}))
-            return found.code
-        written = chosen_files(found, names)
+    request = ExportRequest(source, domain, plan, planner, spoken, goal, example, model, seconds, memory)
+    found = planned_source(roots, request)
+    if isinstance(found, NoPlan):
+        emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)
+        if as_json:
+            emit_json(_told(directory, {}, None, found.reason, {}))
+        return found.code
+    written = chosen_files(found, names)
     failures = written.failures
     if not written.files:
         raise next(iter(failures.values()))

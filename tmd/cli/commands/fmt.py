@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from tmd.cli.errors import fault_of
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode, OutputError, TmdError
 from tmd.veil.roots import Roots
@@ -36,7 +37,7 @@ def command(roots: Roots, paths: tuple[str, ...], only_check: bool) -> ExitCode:
         changed += 1
         emit(f"{file}: {'would be reformatted' if only_check else 'reformatted'}\n")
     for fault in failed:
-        emit(f"error: {fault}\n", error=True)
+        emit(fault_of(fault).text(), error=True)
     emit(f"{len(files)} file(s): {changed} {'to change' if only_check else 'changed'}, {len(failed)} failed\n")
     if failed:
         return ExitCode.BAD_INPUT

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from tmd.cli.inputs.limits import limit_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -18,13 +19,7 @@ from tmd.veil.roots import Roots
 @click.option(
     "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
 )
-@click.option(
-    "--time-limit",
-    "seconds",
-    type=click.FloatRange(min=0, min_open=True),
-    metavar="SECONDS",
-    help="Stop the planner after this time; 300 by default.",
-)
+@limit_options
 @click.option("--output", type=click.Path(path_type=Path), metavar="FILE", help="Write the plan to this file.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -35,6 +30,7 @@ def command(
     planner: str | None,
     optimal: bool,
     seconds: float | None,
+    memory: int | None,
     output: Path | None,
     as_json: bool,
 ) -> ExitCode:
@@ -44,10 +40,9 @@ def command(
     or just found. Ends with 0 for a plan, 10 where it is proven that there is none, 20 where the planner gave up at
     its limit, and 35 where it failed.
     """
-    from tmd.cli.signals import stoppable
     from tmd.planning.downward_process import early_start
 
-    with stoppable(), early_start(planner, optimal=optimal) as started:  # it starts while we import and read the rest
+    with early_start(planner, optimal=optimal, memory=memory) as started:  # it starts while we import and read the rest
         from tmd.cli.show.answer import answer_json, exit_code, plan_text, why_none
         from tmd.pddl.reading.reader import read_problem
         from tmd.planning.backends import AUTO, solve
@@ -55,8 +50,7 @@ def command(
 
         name = planner or AUTO
         wanted = read_problem(problem, roots.domain(domain))
-        limit = {} if seconds is None else {"seconds": seconds}
-        answer = solve(wanted, name, optimal=optimal, started=started, **limit)
+        answer = solve(wanted, name, optimal=optimal, seconds=seconds, memory=memory, started=started)
         if isinstance(answer, Solved) and output:
             from tmd.files import write_text
 

@@ -89,7 +89,6 @@ def command(
     from tmd.cli.inputs.plan import orders_of_file, orders_of_text
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling
-    from tmd.cli.signals import stoppable
     from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
@@ -114,7 +113,6 @@ def command(
     chosen = planner or IN_PROCESS
     orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
-        stack.enter_context(stoppable())
         movie = stack.enter_context(open_movie(video)) if video else None
         if strip:
             pillow()

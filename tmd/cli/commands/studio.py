@@ -36,7 +36,6 @@ def command(
     Type a text and see how it is understood, which plans there are and why the others lost; step through them; point at
     objects; show how a thing is done, and save it beside the domain's demonstrations. Ctrl-C ends it.
     """
-    from tmd.cli.signals import stoppable
     from tmd.studio.server import Server, free_port, need_viser
     from tmd.studio.studio import open_studio
 
@@ -54,8 +53,7 @@ def command(
             emit(f"Only who has this address can see it, from this machine. To share it: {forward}\n", error=True)
         else:
             emit(f"Whoever has this address and reaches {host} can see it and save demonstrations.\n", error=True)
-        with stoppable():
-            server.serve()
+        server.serve()
     finally:
         server.close()
     return ExitCode.OK

@@ -19,6 +19,9 @@ ASKED, CHANGED = "asked", "changed"
 """Goals by name, for a text: what it asks for, and everything that its plan changes."""
 
 
+_MAKER = "give what tmd ground --json or tmd export --format json wrote"
+
+
 @dataclass(frozen=True, slots=True)
 class ExportRequest:
     """The options that say what is to be exported."""
@@ -31,6 +34,8 @@ class ExportRequest:
     goal: str | None = None
     example: str | None = None
     model: str | None = None
+    seconds: float | None = None
+    memory: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +74,7 @@ def _of_problem(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoP
     problem = roots.problem(path, asked.domain)
     if asked.goal:
         problem = with_goal(problem, asked.goal)
-    return _of_file(problem, asked.plan) if asked.plan else _solved(problem, asked.planner)
+    return _of_file(problem, asked.plan) if asked.plan else _solved(problem, asked)
 
 
 def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
@@ -87,7 +92,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
         goal = _goal(asked, orders.grounding.plans[0].goal if orders.grounding else None)
         return _checked(problem, tuple(order.instruction for order in orders.orders), goal)
     if asked.plan is None:
-        return _solved(with_goal(problem, asked.goal or ""), asked.planner)
+        return _solved(with_goal(problem, asked.goal or ""), asked)
     if asked.goal:
         return _of_file(with_goal(problem, asked.goal), asked.plan)
     plan = _read_plan(problem, asked.plan)
@@ -103,11 +108,11 @@ def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan
     from tmd.records.plan import FORMAT
 
     text = read_text(path)
-    value = json_value(text, str(path))
+    value = json_value(text, str(path), hint=_MAKER)
     if isinstance(value, dict) and value.get("format") == FORMAT:
         return parse_record(text, str(path))
     if not isinstance(value, dict) or "plans" not in value:
-        raise TmdError(f"{path} is no plan", hint="give what tmd ground --json or tmd export --format json wrote")
+        raise TmdError(f"{path} is no plan", hint=_MAKER)
     told = GroundingRecord.from_value(value, str(path))
     if not told.plans:
         return NoPlan(f"{path} has no plan", ExitCode.NOT_GROUNDED)
@@ -163,12 +168,12 @@ def _refusal(problem: Problem, plan: Plan) -> NoPlan | None:
     return NoPlan(f"{place}{verdict.reason}", ExitCode.INVALID_PLAN)
 
 
-def _solved(problem: Problem, planner: str | None) -> Planned | NoPlan:
+def _solved(problem: Problem, asked: ExportRequest) -> Planned | NoPlan:
     from tmd.cli.show.answer import exit_code, why_none
     from tmd.planning.backends import AUTO, solve
     from tmd.planning.result import Solved
 
-    answer = solve(problem, planner or AUTO)
+    answer = solve(problem, asked.planner or AUTO, seconds=asked.seconds, memory=asked.memory)
     if isinstance(answer, Solved):
         return planned(problem, answer.plan)
     return NoPlan(why_none(answer), exit_code(answer))

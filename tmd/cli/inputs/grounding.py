@@ -89,6 +89,8 @@ def grounding_options(command: _Command) -> Callable[..., Any]:
     return found
 
 
+_MOST = 1_000_000
+"""States and instructions beyond which a number is a slip; 0 follows all states."""
 _OPTIONS = (
     click.option("--top", type=click.IntRange(1, 100), default=1, show_default=True, help="How many plans to show."),
     click.option("--planner", metavar="NAME", help="in-process (default), fast-downward or up:ENGINE."),
@@ -105,12 +107,12 @@ _OPTIONS = (
     learned_option,
     click.option(
         "--beam",
-        type=click.IntRange(0),
+        type=click.IntRange(0, _MOST),
         help=f"How many states to follow from clause to clause, {PRESETS[DEFAULT].beam} by default; 0 follows all.",
     ),
     click.option(
         "--trim",
-        type=click.IntRange(0),
+        type=click.IntRange(0, _MOST),
         help="How many leading instructions of a template may be dropped; any by default.",
     ),
 )

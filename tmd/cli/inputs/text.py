@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar
@@ -44,16 +43,11 @@ def said(text: str | None, file: str | None) -> str:
     try:
         found.encode("utf-8")
     except UnicodeEncodeError as error:
-        raise TmdError(f"{place}: character {error.start + 1} is not UTF-8") from error
+        raise TmdError(f"{place}: character {error.start + 1} is not UTF-8", hint="send UTF-8") from error
     return found
 
 
 def _read(file: str) -> str:
-    if file != "-":
-        from tmd.pddl.reading.syntax import read_text
+    from tmd.pddl.reading.syntax import read_standard_input, read_text
 
-        return read_text(Path(file))
-    try:
-        return sys.stdin.buffer.read().decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
+    return read_standard_input() if file == "-" else read_text(Path(file))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.parsers import expat
 
+from tmd import files
 from tmd.diagnostics import DataError, Location
 
 
@@ -70,7 +71,7 @@ def read_bytes(path: Path) -> bytes:
         DataError: The file is missing or cannot be read.
     """
     try:
-        return path.read_bytes()
+        return files.read_bytes(path)
     except FileNotFoundError:
         raise DataError(
             f"{path} is missing",

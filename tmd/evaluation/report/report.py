@@ -44,7 +44,10 @@ def print_table(metrics: Metrics, console: Console | None = None) -> None:
     shown, found = console or Console(), table(metrics)
     if Measurement.get(shown, shown.options.update(max_width=_WIDEST), found).maximum > shown.width:
         found = table(metrics, narrow=True)
-    shown.print(found)
+    try:
+        shown.print(found)
+    except SystemExit:  # rich ends the program where nobody reads its output
+        raise BrokenPipeError from None
 
 
 def table(metrics: Metrics, *, narrow: bool = False) -> Table:

@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 from tmd.evaluation.runs.config import DASK, ExperimentConfig
 from tmd.evaluation.runs.jobs import GO_ON, EvaluationJob, JobOutcome, WorkerLostError, do
+from tmd.planning.processes import end_with_program
 
 _Made = TypeVar("_Made")
 
@@ -56,6 +57,7 @@ def in_processes(work: Callable[..., _Made], tasks: Sequence[tuple[Any, ...]], j
         return
     from joblib import Parallel, delayed, parallel_config
 
+    end_with_program()
     with warnings.catch_warnings(), parallel_config(backend="loky", inner_max_num_threads=1):
         # a worker that has grown is replaced between two units: nothing is lost by it
         warnings.filterwarnings("ignore", message="A worker stopped while some jobs were given")

@@ -96,7 +96,10 @@ def _domain(run: Path) -> str | None:
     if not isinstance(config, dict):
         raise TmdError(f"{path} is not a JSON object", hint=PredictionRecord.REMAKE)
     if config.get("data", BUNDLED) != BUNDLED:
-        raise TmdError(f"{run} is a run on {config['data']}; only plans in bundled environments are exported")
+        raise TmdError(
+            f"{run} is a run on {config['data']}; only plans in bundled environments are exported",
+            hint="give a run on --data bundled",
+        )
     return config.get("domain")
 
 
@@ -105,7 +108,7 @@ def _chosen(rows: Sequence[PredictionRecord], example: str | None, model: str | 
     left = _filtered(rows, "model", "--model", model)
     left = _filtered(left, "id", "--example", example)
     if not left:
-        raise TmdError("the run has no predictions")
+        raise TmdError("the run has no predictions", hint=PredictionRecord.REMAKE)
     return left[0]
 
 

@@ -36,6 +36,9 @@ class Fold:
     training_set: str = ""
 
 
+_ELSEWHERE = "give other --train-tasks, or demonstrations in a second environment"
+
+
 def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
     """The folds of a run: for each group of tasks that are trained together its own.
 
@@ -43,7 +46,9 @@ def folds_of(config: ExperimentConfig, data: Dataset) -> list[Fold]:
         TmdError: They cannot be made.
     """
     if not data.examples:
-        raise TmdError(f"there are no demonstrations of '{config.task}'")
+        raise TmdError(
+            f"there are no demonstrations of '{config.task}'", hint="--task all takes all tasks that there are"
+        )
     tasks = {example.task for example in data.pool}
     tested = [example.task for example in data.examples]
     groups = training_groups(tested, data.trained_with, config.train_tasks, tasks)
@@ -116,7 +121,9 @@ def halves(examples: Sequence[Example], pool: Sequence[Example] | None = None) -
     for environment in sorted({example.environment for example in examples}):
         train = tuple(e for e in pool if e.environment != environment)
         if not train:
-            raise TmdError(f"there is no environment but {environment} that the training tasks were done in")
+            raise TmdError(
+                f"there is no environment but {environment} that the training tasks were done in", hint=_ELSEWHERE
+            )
         test = [e for e in examples if e.environment == environment]
         for half in range(min(HALVES, len(test))):
             folds.append(Fold(f"{environment}{'ab'[half]}", train, tuple(test[half::HALVES])))

@@ -103,7 +103,9 @@ class RunDirectory:
         try:
             handler = _Log(path, encoding="utf-8")
         except OSError as error:
-            raise OutputError(f"{path} cannot be written: {error.strerror}") from None
+            raise OutputError(
+                f"{path} cannot be written: {error.strerror}", hint="name a directory you may write to"
+            ) from None
         handler.setFormatter(logging.Formatter("%(asctime)s %(message)s"))
         return handler
 

@@ -104,7 +104,7 @@ def _read(path: Path) -> Lexicon:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise TmdError(f"cannot read the lexicon {path}: {reason}") from None
+        raise TmdError(f"cannot read the lexicon {path}: {reason}", hint="check the file; it is UTF-8 text") from None
     source = _Source(path, text)
     node = compose(text, str(path))
     if node is None:

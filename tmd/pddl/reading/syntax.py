@@ -8,6 +8,7 @@ raises the first fault, or hands every fault to whoever collects them, and readi
 from __future__ import annotations
 
 import re
+import sys
 import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
@@ -18,6 +19,7 @@ from pathlib import Path
 from typing import ParamSpec, TypeAlias, TypeVar
 
 from tmd.diagnostics import Location, TmdError
+from tmd.files import read_bytes
 
 TOKEN = re.compile(r"[()]|\?*[^\s();?]+|\?+")
 """Parentheses and words; a variable begins a word of its own, whatever it is glued to."""
@@ -181,7 +183,7 @@ def read_text(path: str | Path) -> str:
     """
     place = Location(str(path), 1, 1)
     try:
-        data = Path(path).read_bytes()
+        data = read_bytes(path)
     except OSError as error:
         hint = "check the path, and that you may read there"
         raise TmdError(
@@ -201,6 +203,20 @@ def read_text(path: str | Path) -> str:
             hint="save the file as UTF-8 text",
             code="not-utf8",
         ) from error
+
+
+def read_standard_input() -> str:
+    """The text of standard input.
+
+    Raises:
+        TmdError: It cannot be read, is too large or not UTF-8.
+    """
+    try:
+        return read_bytes(sys.stdin.buffer).decode("utf-8-sig")
+    except OSError as error:
+        raise TmdError(f"standard input cannot be read: {error.strerror or error}", hint="send text") from error
+    except UnicodeDecodeError as error:
+        raise TmdError(f"standard input: byte {error.start + 1} is not UTF-8", hint="send UTF-8") from error
 
 
 def split_lines(text: str) -> tuple[str, ...]:

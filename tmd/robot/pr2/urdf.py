@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.files import make_directory, write_bytes
+from tmd.files import make_directory, read_bytes, write_bytes
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -192,7 +192,7 @@ def with_normals(data: bytes) -> bytes:
 
 def _read(path: Path, tag: str) -> ET.Element:
     try:
-        root = ET.fromstring(path.read_bytes())
+        root = ET.fromstring(read_bytes(path))
     except OSError as error:
         raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
     except ET.ParseError as error:

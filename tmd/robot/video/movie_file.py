@@ -1,7 +1,7 @@
 """Files that films go to, picture by picture: what was written stays readable, whatever ends the run.
 
 A film grows in a neighbour of its file (``out.unfinished.mp4``) and takes its name when it is closed, also after an
-error. If the whole process is killed, the neighbour stays, and can be played.
+error. If the whole process is killed, the neighbour stays, and can be played, until the next film of that name begins.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.files import write_bytes
+from tmd.files import check_writable, write_bytes
+from tmd.lock import try_lock
 from tmd.robot.video.captions import pillow
 
 SUFFIXES = (".mp4", ".gif")
@@ -60,16 +61,19 @@ class MovieFile:
         }
         if path.suffix not in known:
             raise TmdError(f"{path}: films are .mp4 or .gif files", hint=f"call it {path.stem}.mp4")
-        if path.is_dir():
-            raise self._error(IsADirectoryError(0, "Is a directory"))
+        check_writable(path)
         pillow()
+        lock = try_lock(self._draft)  # now, not after the first minute
+        if lock is None:
+            raise OutputError(f"{path} cannot be written: another run is filming there", hint="name another file")
+        self._lock = lock
         try:
-            self._draft.write_bytes(b"")  # now, not after the first minute
             self._writer: _Writer | None = known[path.suffix](self._draft, size, fps)
         except OSError as error:
+            self._lock.release(remove=True)
             raise self._error(error) from error
         except MissingToolError:
-            self._draft.unlink()
+            self._lock.release(remove=True)
             raise
 
     def __enter__(self) -> Self:
@@ -131,6 +135,8 @@ class MovieFile:
             if not self.pictures:
                 self._draft.unlink(missing_ok=True)
             raise self._error(error) from error
+        finally:
+            self._lock.release()
 
     def _error(self, error: OSError) -> OutputError:
         said = error.strerror or (str(error).strip().splitlines() or ["no reason"])[0]

@@ -11,11 +11,11 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.files import make_directory, write_bytes
+from tmd.lock import locked
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.session import Session
-from tmd.studio.lock import locked
 from tmd.veil.corpus import Corpus, check_executable, final_state
 from tmd.veil.demonstration import (
     Demonstration,

@@ -21,11 +21,11 @@ from zlib import crc32
 from tmd.diagnostics import TmdError
 from tmd.files import make_directory, write_text
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.lock import Lock, try_lock
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits
 from tmd.studio.demonstrations.correction import Correction
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
-from tmd.studio.lock import Lock, try_lock
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 
