@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from tmd.inference.energy import Weights, named_weights, read_weights
 from tmd.inference.learned import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import ClauseParser, parse
-from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
@@ -25,9 +25,10 @@ from tmd.veil.world import World, make_world
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest
-    from tmd.robot.monitor.listeners import Order
-    from tmd.robot.run_plan import PlanRun
+    from tmd.records.run import RanStep, RecordedRun
+    from tmd.robot.monitor.listeners import Order, Title
     from tmd.robot.skills.reachability_report import SceneSurvey
+    from tmd.robot.skills.results import ExecutedStep
     from tmd.studio.server import Server
 
 LEARNED = "learned"
@@ -141,7 +142,7 @@ class DomainKit:
         strip: str | Path | None = None,
         urdf: str | Path | None = None,
         gui: bool = False,
-    ) -> PlanRun:
+    ) -> RecordedRun:
         """Let a simulated PR2 carry out a plan, each effect checked, as ``tmd run`` does.
 
         Args:
@@ -158,7 +159,7 @@ class DomainKit:
             gui: Open a window, and go no faster than real time.
 
         Returns:
-            How it ended, with every step.
+            How it ended, with every step, and the record that ``tmd run --json`` prints.
 
         Raises:
             MissingToolError: What simulates or films is not installed.
@@ -174,7 +175,8 @@ class DomainKit:
         from tmd.robot.video.film import open_movie
         from tmd.world.environment import load_room
 
-        room, problem = load_room(self._file(environment)), self.problem(environment)
+        file = self._file(environment)
+        room, problem = load_room(file), self.problem(environment)
         if isinstance(plan, Grounded):
             orders = orders_of(plan)
             said = plan.parsed.text
@@ -186,13 +188,15 @@ class DomainKit:
         for output in (video, strip):
             if output is not None:
                 check_writable(output)
+        steps = _Steps()
         with open_movie(Path(video)) if video else nullcontext() as movie:
             filming = Filming(room.name, said, movie, Path(strip) if strip else None) if video or strip else None
-            return run_plan(
+            run = run_plan(
                 room,
                 self._corpus.folder,
                 problem,
                 orders,
+                prepare=lambda _: (steps,),
                 filming=filming,
                 planner=planner,
                 repairs=repairs,
@@ -202,6 +206,24 @@ class DomainKit:
                 urdf=Path(urdf) if urdf else None,
                 gui=gui,
             )
+        from tmd import __version__
+        from tmd.records.run import OrderRecord, RecordedRun, RunRecord, RunRequest
+
+        asked = RunRequest(
+            text=said or None,
+            domain=self.name,
+            environment=room.name,
+            mode="kinematic" if kinematic else "physics",
+            seed=seed,
+            fault=fault,
+            planner=planner,
+            plan=tuple(map(OrderRecord.of, orders)),
+            version=__version__,
+            environment_file=str(file) if Path(environment).suffix in _FILES else None,
+            strip=Path(strip).name if strip else None,
+            grounding=None,
+        )
+        return RecordedRun(run.execution, RunRecord.of(asked, steps.done, run.faults, run.execution, run.sim_steps))
 
     def survey_scene(
         self,
@@ -323,6 +345,22 @@ class DomainKit:
             return self._corpus.world(str(environment))
         problem = self._corpus.read(Path(environment))
         return make_world(problem.name, problem, self._corpus.lexicon)
+
+
+class _Steps:
+    """Keeps each step of a run as its record."""
+
+    def __init__(self) -> None:
+        self.done: list[RanStep] = []
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """Nothing is over yet."""
+
+    def end(self, title: Title, step: ExecutedStep) -> None:
+        """A step is over."""
+        from tmd.records.run import RanStep
+
+        self.done.append(RanStep.of(title, step))
 
 
 def orders_of(grounded: Grounded) -> list[Order]:

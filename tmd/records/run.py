@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -10,12 +11,14 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
 from tmd.records.json_record import JsonRecord, json_value
+from tmd.robot.sim.engine import STEPS_PER_SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from tmd.robot.monitor.faults import Happening
     from tmd.robot.monitor.listeners import Order, Title
-    from tmd.robot.skills.results import ExecutedStep
+    from tmd.robot.skills.results import ExecutedStep, Execution
 
 StepOutcome: TypeAlias = Literal["ok", "failed", "mismatch"]
 SIGNS: dict[StepOutcome, str] = {"ok": "✓", "failed": "✗", "mismatch": "≠"}
@@ -122,7 +125,8 @@ class RunRequest(JsonRecord):
     version: str
     environment_file: str | None
     strip: str | None = Field(description="The name of the filmstrip's file.")
-    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file.")
+    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file or a goal.")
+    goal: str | None = Field(default=None, description="What a plan was found for, where that was a PDDL condition.")
 
 
 class RunRecord(RunRequest):
@@ -133,10 +137,50 @@ class RunRecord(RunRequest):
 
     steps: tuple[RanStep, ...]
     faults: tuple[FaultRecord, ...]
-    status: Literal["done", "recovered", "stopped", "not_grounded", "invalid_plan"]
+    status: Literal["done", "recovered", "stopped", "not_grounded", "unreachable", "gave_up", "invalid_plan"]
     reason: str | None
     repairs: int
     seconds: float = Field(description="Simulated time.")
+
+    @classmethod
+    def of(
+        cls, asked: RunRequest, steps: Sequence[RanStep], faults: Sequence[Happening], execution: Execution, ticks: int
+    ) -> RunRecord:
+        """A run that is over.
+
+        Args:
+            asked: What was to be done.
+            steps: What was done, in order.
+            faults: The faults that came about.
+            execution: How it ended.
+            ticks: Steps of the physics.
+        """
+        happened = tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in faults)
+        ended = how_it_ended(execution, ticks)
+        return cls.model_validate({**asked.given(), "steps": tuple(steps), "faults": happened, **ended})
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """What came of a run.
+
+    Attributes:
+        execution: How it ended: ``.status``, ``.reason``, and ``.steps`` with the state after each.
+        record: The same as JSON has it: ``.to_value()``.
+    """
+
+    execution: Execution
+    record: RunRecord
+
+
+def how_it_ended(execution: Execution, ticks: int) -> dict[str, Any]:
+    """The keys of a record, or of the last line of a log, that say how a run of ``ticks`` steps of physics ended."""
+    return {
+        "status": execution.status.value,
+        "reason": execution.reason or None,
+        "repairs": execution.repairs,
+        "seconds": round(ticks / STEPS_PER_SECOND, 2),
+    }
 
 
 class _Event(JsonRecord):

@@ -1,4 +1,4 @@
-"""``tmd run``: a text, or a plan, that a simulated PR2 carries out, with every step checked."""
+"""``tmd run``: a text, a goal or a plan that a simulated PR2 carries out, with every step checked."""
 
 from __future__ import annotations
 
@@ -38,6 +38,7 @@ class _File(click.Path):
 @click.option(
     "--plan", "plan_file", type=click.Path(path_type=Path), metavar="FILE", help="Carry out this plan, not a text."
 )
+@click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @learned_option
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
@@ -62,6 +63,7 @@ def command(
     text: str | None,
     text_file: str | None,
     plan_file: Path | None,
+    goal: str | None,
     domain_name: str | None,
     learned: Path | None,
     planner: str | None,
@@ -78,15 +80,17 @@ def command(
 ) -> ExitCode:
     """Carry out what was said, in simulation.
 
-    A text is grounded as by "tmd ground". A PR2 does one instruction after the other; after each, the state is read
-    back from the simulation and compared with what PDDL predicts. Where the two differ, the executor replans.
+    A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
+    other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two
+    differ, the executor replans.
 
-    Ends with 12 where no plan was found, and with 14 where the robot stopped before everything was done.
+    Ends with 12 where a text gives no plan, with 10 where it is proven that no plan reaches the goal, and with 14
+    where the robot stopped before everything was done.
     """
-    if plan_file is not None and (text, text_file) != (None, None):
-        raise click.UsageError("give one of --text, --text-file and --plan")
+    if sum(given is not None for given in (text, text_file, plan_file, goal)) != 1:
+        raise click.UsageError("give one of --text, --text-file, --plan and --goal")
 
-    from tmd.cli.inputs.plan import orders_of_file, orders_of_text
+    from tmd.cli.inputs.plan import orders_of_file, orders_of_goal, orders_of_text
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling
     from tmd.cli.signals import stoppable
@@ -100,7 +104,7 @@ def command(
     from tmd.robot.video.captions import pillow
     from tmd.robot.video.film import open_movie
 
-    spoken = None if plan_file is not None else short_enough(said(text, text_file))
+    spoken = None if plan_file is not None or goal is not None else short_enough(said(text, text_file))
     path = roots.environment(environment, domain_name)
     if path.suffix == ".xml":
         raise TmdError(
@@ -118,7 +122,9 @@ def command(
         movie = stack.enter_context(open_movie(video)) if video else None
         if strip:
             pillow()
-        if orders is None:
+        if orders is None and goal is not None:
+            orders = orders_of_goal(goal, world, planner)
+        elif orders is None:
             orders = orders_of_text(spoken or "", corpus, world, environment, chosen, learned)
         for line in orders.remarks:
             emit(line, error=True)
@@ -135,6 +141,7 @@ def command(
             environment_file=environment_file(environment),
             strip=strip.name if strip else None,
             grounding=orders.grounding,
+            **({"goal": goal} if goal is not None else {}),
         )
         if orders.status:
             if as_json:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Literal, Self
+from typing import IO, Literal, Self
 
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
@@ -15,12 +15,12 @@ from tmd.records.run import (
     BeginEvent,
     EndEvent,
     FaultEvent,
-    FaultRecord,
     PlanEvent,
     RanStep,
     RunRecord,
     RunRequest,
     StepEvent,
+    how_it_ended,
 )
 from tmd.robot.monitor.faults import Happening
 from tmd.robot.monitor.listeners import Order, Title
@@ -94,15 +94,12 @@ class Telling:
 
     def log_ending(self, execution: Execution, steps: int) -> None:
         """The last line of the log: how it ended, after so many steps of physics."""
-        self._log(EndEvent(event="end", **_how_it_ended(execution, steps)))
+        self._log(EndEvent(event="end", **how_it_ended(execution, steps)))
 
     def print_ending(self, execution: Execution, steps: int) -> None:
         """What is printed last, when all files are written: how it ended, or the whole record."""
         if self._as_json:
-            faults = [FaultRecord(what=happening.text, tick=happening.tick) for happening in self._happenings()]
-            done = _how_it_ended(execution, steps)
-            seen = {"steps": tuple(self._steps), "faults": tuple(faults)}
-            emit_json(RunRecord.model_validate({**self._asked.given(), **seen, **done}).to_value())
+            emit_json(RunRecord.of(self._asked, self._steps, self._happenings(), execution, steps).to_value())
         else:
             emit(_ending(execution, steps))
 
@@ -113,16 +110,6 @@ class Telling:
     def _log(self, entry: JsonRecord) -> None:
         if self._journal is not None:
             self._journal.write(entry)
-
-
-def _how_it_ended(execution: Execution, steps: int) -> dict[str, Any]:
-    """The keys of a record, or of the last line of a log, that say how a run ended."""
-    return {
-        "status": execution.status.value,
-        "reason": execution.reason or None,
-        "repairs": execution.repairs,
-        "seconds": round(steps / STEPS_PER_SECOND, 2),
-    }
 
 
 def _found(step: ExecutedStep) -> str:
