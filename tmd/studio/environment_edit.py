@@ -12,9 +12,10 @@ import yaml
 
 from tmd.diagnostics import TmdError
 from tmd.files import make_directory, write_text
-from tmd.world.classes import NAME, ROOT, StateValue, Vertex
+from tmd.world.classes import ROOT, StateValue, Vertex
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
+from tmd.world.shape import NAME
 
 _LONGEST = 60
 """Characters that the name of an environment may have."""

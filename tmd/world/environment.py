@@ -29,7 +29,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import Report
-from tmd.world.classes import NAME, StateValue
+from tmd.world.classes import StateValue
+from tmd.world.shape import NAME
 from tmd.world.yaml_positions import YamlSource
 
 Position = tuple[float, float, float]

@@ -9,19 +9,16 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
-import os
-import sys
-import tempfile
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cache
 from pathlib import Path
 
 import numpy as np
 
-from tmd.diagnostics import MissingToolError, OutputError, TmdError
+from tmd.diagnostics import MissingToolError, TmdError
 from tmd.files import make_directory, write_bytes
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -72,19 +69,21 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
         TmdError: ``urdf`` cannot be read, is not a PR2, or lacks a mesh.
     """
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
-    root = _read(source, "robot")
+    root = read_urdf(source)
     check(source, root)
     meshes = {}
     for mesh in root.iter("mesh"):
         name = mesh.get("filename", "")
-        path = _find_mesh(source, name)
+        path = find_mesh(source, name)
         if path is None:
             if urdf is None:
                 raise MissingToolError(f"the PR2's mesh {name} is missing", hint=f"{_ADVICE} --force-reinstall")
             raise TmdError(f"{source}: its mesh {name} is missing", hint="put the meshes where the URDF names them")
         meshes[name] = path
     contents = {path: path.read_bytes() for path in sorted(set(meshes.values()))}
-    folder = _cache() / _digest(source.read_bytes(), *contents.values(), *(str(p).encode() for p in contents))
+    folder = cache_directory("pr2") / _digest(
+        source.read_bytes(), *contents.values(), *(str(p).encode() for p in contents)
+    )
     names = {path: f"{index:02d}-{path.name}" for index, path in enumerate(contents)}
     repair(root, {name: str(folder / names[path]) for name, path in meshes.items()})
     target = folder / "pr2.urdf"
@@ -155,7 +154,7 @@ def repair(root: ET.Element, meshes: dict[str, str]) -> None:
         root.remove(extra)
     while idle := _idle_leaves(root):
         for child in list(root):
-            name = child.get("name", "") if child.tag == "link" else _end(child, "child")
+            name = child.get("name", "") if child.tag == "link" else end_of(child, "child")
             if name in idle:
                 root.remove(child)
     for mesh in root.iter("mesh"):
@@ -190,45 +189,14 @@ def with_normals(data: bytes) -> bytes:
     return data[:84] + mesh.tobytes()
 
 
-def _read(path: Path, tag: str) -> ET.Element:
-    try:
-        root = ET.fromstring(path.read_bytes())
-    except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
-    except ET.ParseError as error:
-        raise TmdError(
-            f"{path} is not valid XML: {error}", hint="name a URDF file; xacro files must be expanded"
-        ) from error
-    if root.tag != tag:
-        raise TmdError(f"{path} is not a URDF: its root is <{root.tag}>, not <{tag}>", hint="name a URDF file")
-    return root
-
-
-def _find_mesh(source: Path, name: str) -> Path | None:
-    """A mesh file: beside the URDF, or anywhere above it for ``package://`` names."""
-    path = Path(name.removeprefix("file://"))
-    if not name.startswith("package://"):
-        found = path if path.is_absolute() else source.resolve().parent / path
-        return found if found.is_file() else None
-    whole = Path(name.removeprefix("package://"))
-    shorter = Path(*whole.parts[1:])
-    candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
-    return next((candidate for candidate in candidates if candidate.is_file()), None)
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")
-
-
 def _root_link(root: ET.Element) -> str:
-    children = {_end(joint, "child") for joint in root.findall("joint")}
+    children = {end_of(joint, "child") for joint in root.findall("joint")}
     return next((link.get("name", "") for link in root.findall("link") if link.get("name") not in children), "")
 
 
 def _idle_leaves(root: ET.Element) -> set[str]:
     """Links without children that are neither seen nor met: sensor frames, and helpers of the gripper."""
-    parents = {_end(joint, "parent") for joint in root.findall("joint")}
+    parents = {end_of(joint, "parent") for joint in root.findall("joint")}
     return {
         link.get("name", "")
         for link in root.findall("link")
@@ -250,28 +218,10 @@ def _inertial(mass: float) -> ET.Element:
 
 def _disabled(root: ET.Element) -> frozenset[tuple[str, str]]:
     """Pairs that need no check: the SRDF's, and links that are joined by one joint."""
-    pairs = {(_end(joint, "parent"), _end(joint, "child")) for joint in root.findall("joint")}
-    srdf = _read(packaged("srdf/pr2.srdf"), "robot")
+    pairs = {(end_of(joint, "parent"), end_of(joint, "child")) for joint in root.findall("joint")}
+    srdf = read_urdf(packaged("srdf/pr2.srdf"))
     pairs |= {(pair.get("link1", ""), pair.get("link2", "")) for pair in srdf.findall("disable_collisions")}
     return frozenset(pairs | {(b, a) for a, b in pairs})
-
-
-@cache
-def _cache() -> Path:
-    """The user's cache directory, or a temporary one where that cannot be written."""
-    if sys.platform == "win32":
-        home = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        home = Path.home() / "Library" / "Caches"
-    else:
-        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    try:
-        folder = make_directory(home / "tmd" / "pr2")
-        if os.access(folder, os.W_OK):
-            return folder
-    except OutputError:
-        pass
-    return Path(tempfile.mkdtemp(prefix="tmd-pr2-"))
 
 
 def _digest(*parts: bytes) -> str:

@@ -138,7 +138,7 @@ class Placing:
     def _frame(self, whole: str, region: Region) -> Pose:
         """The region's frame as the fixture stands at the start: a drawer may be open."""
         model, pose = self._blueprints[whole].model, self.poses[whole]
-        frame = pose * Pose(model.offset(region.link))
+        frame = pose * model.frame(region.link)
         link = model.links[region.link]
         if link.kind == "prismatic" and self._environment.objects[whole].states.get(_OPEN) is True:
             way = next((g.open for g in model.grips if g.link == region.link), 0.0)

@@ -145,7 +145,7 @@ class Still(Catalogue):
         while link != ROOT:
             step = model.links[link]
             position = picture.joints.get((whole, link), 0.0)
-            frame = Pose(step.origin) * moved(step.kind, step.axis, position) * frame
+            frame = step.at_zero() * moved(step.kind, step.axis, position) * frame
             link = step.parent
         return frame
 
