@@ -4,13 +4,30 @@ from __future__ import annotations
 
 from tmd.diagnostics import TmdError
 from tmd.robot.assets.features import Region
-from tmd.robot.assets.shapes import Blueprint
+from tmd.robot.assets.shapes import Blueprint, Shapes
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint
 from tmd.robot.sim.pose import Vector
+from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
 
 FLOOR = "floor"
+
+
+def built(environment: Environment, folder: DomainFolder) -> tuple[dict[str, Blueprint], dict[str, list[str]]]:
+    """How each object of an environment is built, and the names of its parts.
+
+    Raises:
+        TmdError: A shape makes no sense; with its place in ``objects.yaml``.
+    """
+    shapes = Shapes(folder)
+    classes = {name: entry.class_name for name, entry in environment.objects.items()}
+    parts = {
+        name: [vertex for vertex in folder.classes.get(kind).vertices if vertex != CLASS_ROOT]
+        for name, kind in classes.items()
+    }
+    return {name: shapes.blueprint(kind) for name, kind in classes.items()}, parts
 
 
 class Catalogue:
