@@ -140,6 +140,8 @@ class DomainKit:
         fault: str | None = None,
         video: str | Path | None = None,
         strip: str | Path | None = None,
+        trajectory: str | Path | None = None,
+        rate: float = 10.0,
         urdf: str | Path | None = None,
         gui: bool = False,
     ) -> RecordedRun:
@@ -155,6 +157,8 @@ class DomainKit:
             fault: Goes wrong once on the way: ``slip``, ``stuck``, ``moved`` or ``missed``.
             video: Where a film goes, an MP4 or GIF file.
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
+            trajectory: Where joints, base and things are recorded: a .jsonl, .csv, .mcap or .yaml (MoveIt) file.
+            rate: Samples of that a second of simulated time.
             urdf: Another PR2 than the packaged one.
             gui: Open a window, and go no faster than real time.
 
@@ -168,6 +172,7 @@ class DomainKit:
         """
         from contextlib import nullcontext
 
+        from tmd.export.trajectory import SUFFIXES, open_trajectory, recorders
         from tmd.files import check_writable
         from tmd.robot.monitor.faults import InjectedFault
         from tmd.robot.monitor.listeners import Order
@@ -185,18 +190,23 @@ class DomainKit:
         verdict = validate(problem, [order.instruction for order in orders])
         if not verdict.valid:
             raise TmdError(f"the plan does not work: {verdict.reason}")
-        for output in (video, strip):
+        for output in (video, strip, trajectory):
             if output is not None:
                 check_writable(output)
+        if trajectory is not None and Path(trajectory).suffix not in SUFFIXES:
+            raise TmdError(f"{trajectory}: a trajectory ends in one of {', '.join(SUFFIXES)}")
         steps = _Steps()
-        with open_movie(Path(video)) if video else nullcontext() as movie:
+        with (
+            open_movie(Path(video)) if video else nullcontext() as movie,
+            open_trajectory(Path(trajectory)) if trajectory else nullcontext() as recording,
+        ):
             filming = Filming(room.name, said, movie, Path(strip) if strip else None) if video or strip else None
             run = run_plan(
                 room,
                 self._corpus.folder,
                 problem,
                 orders,
-                prepare=lambda _: (steps,),
+                prepare=lambda session: (steps, *recorders(session, recording, rate)),
                 filming=filming,
                 planner=planner,
                 repairs=repairs,

@@ -55,6 +55,18 @@ class _File(click.Path):
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
 @click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
 @click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
+@click.option(
+    "--trajectory",
+    type=_File(".jsonl", ".csv", ".mcap", ".yaml"),
+    metavar="FILE",
+    help="Record joints, base and things: out.jsonl, .csv, .mcap (ROS 2) or .yaml (MoveIt).",
+)
+@click.option(
+    "--rate",
+    type=click.FloatRange(0.1, 240.0),
+    metavar="HZ",
+    help="Samples a second of simulated time; 10 by default.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
 @click.pass_obj
 def command(
@@ -76,6 +88,8 @@ def command(
     video: Path | None,
     strip: Path | None,
     log: Path | None,
+    trajectory: Path | None,
+    rate: float | None,
     as_json: bool,
 ) -> ExitCode:
     """Carry out what was said, in simulation.
@@ -89,11 +103,14 @@ def command(
     """
     if sum(given is not None for given in (text, text_file, plan_file, goal)) != 1:
         raise click.UsageError("give one of --text, --text-file, --plan and --goal")
+    if rate is not None and trajectory is None:
+        raise click.UsageError("--rate is for --trajectory")
 
     from tmd.cli.inputs.plan import orders_of_file, orders_of_goal, orders_of_text
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling
     from tmd.cli.signals import stoppable
+    from tmd.export.trajectory import DEFAULT_RATE, open_trajectory, recorders
     from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
@@ -112,7 +129,7 @@ def command(
             hint="tmd scene shows the room",
         )
     room, folder = roots.room(environment, domain_name)
-    for output in filter(None, (video, strip, log)):
+    for output in filter(None, (video, strip, log, trajectory)):
         check_writable(output)
     corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
@@ -150,10 +167,14 @@ def command(
                 emit_json(RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value())
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
+        recording = stack.enter_context(open_trajectory(trajectory)) if trajectory else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)
         run = run_plan(
             room, folder, world.task.problem, orders.orders,
-            prepare=told.prepare, filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
+            prepare=lambda session: (
+                *told.prepare(session), *recorders(session, recording, rate or DEFAULT_RATE),
+            ),
+            filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
             planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
             kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
         )  # fmt: skip
