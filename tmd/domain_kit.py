@@ -142,6 +142,7 @@ class DomainKit:
         strip: str | Path | None = None,
         trajectory: str | Path | None = None,
         rate: float = 10.0,
+        robot: str = "pr2",
         urdf: str | Path | None = None,
         gui: bool = False,
     ) -> RecordedRun:
@@ -159,7 +160,8 @@ class DomainKit:
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
             trajectory: Where joints, base and things are recorded: a .jsonl, .csv, .mcap or .yaml (MoveIt) file.
             rate: Samples of that a second of simulated time.
-            urdf: Another PR2 than the packaged one.
+            robot: ``pr2`` or ``tiago_pro``.
+            urdf: Another PR2 or TIAGo Pro than the packaged one.
             gui: Open a window, and go no faster than real time.
 
         Returns:
@@ -176,6 +178,7 @@ class DomainKit:
         from tmd.files import check_writable
         from tmd.robot.monitor.faults import InjectedFault
         from tmd.robot.monitor.listeners import Order
+        from tmd.robot.pr2.urdf import packaged_robot
         from tmd.robot.run_plan import Filming, run_plan
         from tmd.robot.video.film import open_movie
         from tmd.world.environment import load_room
@@ -213,7 +216,7 @@ class DomainKit:
                 fault=InjectedFault(fault) if fault else None,
                 kinematic=kinematic,
                 seed=seed,
-                urdf=Path(urdf) if urdf else None,
+                urdf=Path(urdf) if urdf else packaged_robot(robot),
                 gui=gui,
             )
         from tmd import __version__
@@ -241,6 +244,7 @@ class DomainKit:
         *,
         reach: bool = False,
         seed: int = 0,
+        robot: str = "pr2",
         urdf: str | Path | None = None,
         picture: str | Path | None = None,
     ) -> SceneSurvey:
@@ -248,6 +252,7 @@ class DomainKit:
 
         See :func:`tmd.robot.skills.reachability_report.survey_scene` for arguments and errors.
         """
+        from tmd.robot.pr2.urdf import packaged_robot
         from tmd.robot.skills.reachability_report import survey_scene
         from tmd.world.environment import load_room
 
@@ -256,7 +261,7 @@ class DomainKit:
             self._corpus.folder,
             reach=reach,
             seed=seed,
-            urdf=Path(urdf) if urdf else None,
+            urdf=Path(urdf) if urdf else packaged_robot(robot),
             picture=Path(picture) if picture else None,
         )
 

@@ -76,7 +76,10 @@ class StateRecorder:
     def __init__(self, session: SimulationSession, rate: float, writer: SampleWriter) -> None:
         self._session, self._writer, self._period = session, writer, 1 / rate
         scene, robot, sim = session.cell.scene, session.cell.robot, session.sim
-        self._joints = {name: robot.joint_index[name] for name in robot.positions() if name not in BASE_JOINTS}
+        names = [name for name in robot.positions() if name not in BASE_JOINTS]
+        own = robot.model.own_joints
+        self._indices = [robot.joint_index[name] for name in names]
+        self._joints = [own.get(name, (name, 1.0, 0.0)) for name in names]
         self._handles = [
             (name, scene.bodies[whole], scene.link(whole, grip.link))
             for whole, blueprint in scene.blueprints.items()
@@ -110,16 +113,19 @@ class StateRecorder:
 
     def _sample(self) -> None:
         sim, cell, title = self._session.sim, self._session.cell, self._title
-        names = list(self._joints)
-        positions, velocities = sim.joint_states(cell.robot.body, [self._joints[name] for name in names])
+        positions, velocities = sim.joint_states(cell.robot.body, self._indices)
+        joints = [
+            (name, sign * p + shift, sign * v)
+            for (name, sign, shift), p, v in zip(self._joints, positions, velocities, strict=True)
+        ]
         self._writer.write(
             Sample(
                 round(self._time, 6),
                 title.number if title is not None else 0,
                 str(title.instruction) if title is not None else "",
                 cell.robot.base(),
-                dict(zip(names, positions, strict=True)),
-                dict(zip(names, velocities, strict=True)),
+                {name: position for name, position, _ in joints},
+                {name: velocity for name, _, velocity in joints},
                 {item: cell.scene.pose_of(item) for item in cell.scene.items()},
                 {name: sim.joint_position(body, joint) for name, body, joint in self._handles},
             )

@@ -50,7 +50,10 @@ class _File(click.Path):
     type=click.Choice(["slip", "stuck", "moved", "missed"]),
     help="Inject one fault of this kind.",
 )
-@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
+@click.option(
+    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
+)
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
 @click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
@@ -83,6 +86,7 @@ def command(
     kinematic: bool,
     seed: int,
     fault: str | None,
+    robot: str | None,
     urdf: Path | None,
     gui: bool,
     video: Path | None,
@@ -103,6 +107,8 @@ def command(
     """
     if sum(given is not None for given in (text, text_file, plan_file, goal)) != 1:
         raise click.UsageError("give one of --text, --text-file, --plan and --goal")
+    if robot is not None and urdf is not None:
+        raise click.UsageError("give one of --robot and --urdf")
     if rate is not None and trajectory is None:
         raise click.UsageError("--rate is for --trajectory")
 
@@ -116,6 +122,7 @@ def command(
     from tmd.planning.backends import IN_PROCESS
     from tmd.records.run import OrderRecord, RunRecord, RunRequest
     from tmd.robot.monitor.faults import InjectedFault
+    from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
@@ -133,6 +140,7 @@ def command(
         check_writable(output)
     corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
+    model = urdf if robot is None else packaged_robot(robot)
     orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
         stack.enter_context(stoppable())
@@ -176,7 +184,7 @@ def command(
             ),
             filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
             planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
-            kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
+            kinematic=kinematic, seed=seed, urdf=model, gui=gui,
         )  # fmt: skip
         told.log_ending(run.execution, run.sim_steps)
     told.print_ending(run.execution, run.sim_steps)

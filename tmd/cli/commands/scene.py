@@ -31,7 +31,10 @@ if TYPE_CHECKING:
 @click.option(
     "--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed for placement jitter; 0 disables it."
 )
-@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
+@click.option(
+    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
+)
 @click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")
 @click.option("--export", type=click.Path(path_type=Path), metavar="DIR", help="Write the room for other simulators.")
 @click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), sdf, mjcf.")
@@ -44,6 +47,7 @@ def command(
     domain_name: str | None,
     reach: bool,
     seed: int,
+    robot: str | None,
     urdf: Path | None,
     picture: Path | None,
     export: Path | None,
@@ -57,15 +61,19 @@ def command(
     """
     if export is None and (formats or overwrite):
         raise click.UsageError("--format and --overwrite are for --export")
+    if robot is not None and urdf is not None:
+        raise click.UsageError("give one of --robot and --urdf")
     if picture is not None and picture.suffix != ".png":
         raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 
+    from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.skills.reachability_report import survey_scene
 
+    model = urdf if robot is None else packaged_robot(robot)
     room, folder, remarks = _read(roots, environment, domain_name)
     for remark in remarks:
         emit(f"note: {remark}\n", error=True)
-    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
+    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=model, picture=picture)
     stances = found.stances if reach else None
     written = _exported(room, folder, export, formats, overwrite) if export is not None else []
     if as_json:

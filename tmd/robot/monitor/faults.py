@@ -14,7 +14,7 @@ from enum import StrEnum
 from numpy.random import Generator
 
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.pr2.pr2 import ARMS, finger_angle
+from tmd.robot.pr2.pr2 import ARMS
 from tmd.robot.pr2.trajectory_following import hold
 from tmd.robot.scene.scene import Handle, Spot
 from tmd.robot.sim.pose import Pose
@@ -188,7 +188,7 @@ class _Slip:
         assert side is not None
         robot.let_go(side)
         fingers = robot.finger_groups[side]
-        wide = [finger_angle(0.08)] * len(fingers.joints)
+        wide = robot.fingers(0.08)
         hold(sim, robot.body, fingers, wide)
         if robot.kinematic:
             sim.set_joints(robot.body, fingers.joints, wide)

@@ -13,15 +13,6 @@ from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_line
 from tmd.robot.pr2.collision import Collision
 from tmd.robot.sim.pose import Pose
 
-TUCKED = {
-    "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
-    "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
-}
-"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
-
-Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
-lie across each other, and one in the way of the other.
-"""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 
 
@@ -85,7 +76,7 @@ def _fold(robot: PostureModel, side: str, budget: int) -> bool:
 
 def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
     """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
-    usual = TUCKED[side]
+    usual = robot.model.tucked[side]
     others = [
         tuple(value + shift * (joint == number) for number, value in enumerate(usual))
         for shift in ARM_MOTION.tuck_shifts
