@@ -23,6 +23,8 @@ from tmd.robot.sim.pose import Pose
 
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
+_EXACT = 1e-7
+"""Metres and radians: a descent from all of whose starts the pose is reached so well has ended."""
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 
@@ -174,6 +176,8 @@ class ArmKinematics:
         for _ in range(IK.rounds):
             frame, jacobian = self._tool_and_jacobian(torso, arms)
             error = _error(target, frame)
+            if np.abs(error).max(initial=0.0) < _EXACT:
+                break
             turned = np.swapaxes(jacobian, 1, 2)
             damped = jacobian @ turned + IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
                 :, None, None
