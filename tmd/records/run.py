@@ -15,10 +15,13 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from tmd.robot.monitor.listeners import Order, Title
+    from tmd.robot.monitor.observation import Mismatch
     from tmd.robot.skills.results import ExecutedStep
 
 StepOutcome: TypeAlias = Literal["ok", "failed", "mismatch"]
+Basis: TypeAlias = Literal["measured", "inferred", "assumed"]
 SIGNS: dict[StepOutcome, str] = {"ok": "✓", "failed": "✗", "mismatch": "≠"}
+MARKS: dict[Basis, str] = {"measured": "✓", "inferred": "∴", "assumed": "?"}
 
 
 class OrderRecord(InstructionRecord):
@@ -41,8 +44,28 @@ class MismatchRecord(JsonRecord):
     expected: bool
     measured: str
 
+    @classmethod
+    def of(cls, mismatch: Mismatch) -> MismatchRecord:
+        """The mismatch as a record."""
+        return cls(fact=str(mismatch.atom), expected=mismatch.expected, measured=mismatch.measured)
+
     def __str__(self) -> str:
         return f"{'' if self.expected else 'not '}{self.fact} was expected, but {self.measured}"
+
+
+class EffectRecord(JsonRecord):
+    """A fact that changed as predicted."""
+
+    fact: str
+    holds: bool = Field(description="Whether it came to hold; else it ended.")
+    basis: Basis = Field(
+        description="measured: a sensor of the simulation shows it; inferred: it follows from what was measured, by a "
+        "rule; assumed: PDDL says so."
+    )
+    how: str = Field(description="The numbers, or the rule.")
+
+    def __str__(self) -> str:
+        return f"{'' if self.holds else 'not '}{self.fact}"
 
 
 class RanStep(JsonRecord):
@@ -55,7 +78,7 @@ class RanStep(JsonRecord):
     outcome: StepOutcome
     failure: str | None = Field(description="Why the skill failed.")
     evidence: str | None = Field(description="What showed that its event happened.")
-    confirmed: tuple[str, ...] = Field(description="The effects that are observed.")
+    effects: tuple[EffectRecord, ...] = Field(description="What changed as predicted.")
     mismatches: tuple[MismatchRecord, ...]
     begin: int = Field(description="Tick of the simulation.")
     end: int
@@ -72,10 +95,10 @@ class RanStep(JsonRecord):
             outcome="failed" if step.failure else "mismatch" if step.mismatches else "ok",
             failure=step.failure or None,
             evidence=step.evidence or None,
-            confirmed=tuple(map(str, step.confirmed)),
-            mismatches=tuple(
-                MismatchRecord(fact=str(m.atom), expected=m.expected, measured=m.measured) for m in step.mismatches
+            effects=tuple(
+                EffectRecord(fact=str(e.atom), holds=e.holds, basis=e.basis.value, how=e.how) for e in step.effects
             ),
+            mismatches=tuple(map(MismatchRecord.of, step.mismatches)),
             begin=step.begin,
             end=step.end,
         )
@@ -133,6 +156,10 @@ class RunRecord(RunRequest):
 
     steps: tuple[RanStep, ...]
     faults: tuple[FaultRecord, ...]
+    lasting: tuple[MismatchRecord, ...] = Field(
+        default=(), description="What is otherwise in the end than the plan would have left it."
+    )
+    fault_missing: str | None = Field(default=None, description="Why the fault that was asked for did not come about.")
     status: Literal["done", "recovered", "stopped", "not_grounded", "invalid_plan"]
     reason: str | None
     repairs: int
@@ -182,6 +209,8 @@ class EndEvent(_Event):
     reason: str | None
     repairs: int = 0
     seconds: float = 0.0
+    lasting: tuple[MismatchRecord, ...] = ()
+    fault_missing: str | None = None
 
 
 RunEvent: TypeAlias = PlanEvent | BeginEvent | FaultEvent | StepEvent | EndEvent

@@ -51,6 +51,7 @@ class SimulationSession:
         cell: Robot and scene.
         skills: The domain's.
         happenings: The faults that came about.
+        fault_missing: After a run, why the fault that was asked for did not come about, if so.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -73,6 +74,7 @@ class SimulationSession:
         self._seed = seed
         self.skills = load_skills(folder)
         self.happenings: list[Happening] = []
+        self.fault_missing = ""
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
@@ -118,6 +120,7 @@ class SimulationSession:
         plan = [order.instruction for order in orders]
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot
+        faulty: FaultyPerformer | None = None
         if fault is not None:
             performer = faulty = FaultyPerformer(robot, fault, np.random.default_rng([self._seed, 1]), plan)
             self.happenings = faulty.log
@@ -125,7 +128,9 @@ class SimulationSession:
         executor = Executor(
             self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
         )
-        return executor.execute(plan)
+        execution = executor.execute(plan)
+        self.fault_missing = faulty.missing() if faulty is not None else ""
+        return execution
 
 
 class _Signs:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Protocol
@@ -23,6 +23,12 @@ TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
 """So often something is tried before a way round it is looked for, by the stage at which it fails.
 
 Another try finds another path, and no other place to stand. What failed at other stages was within reach.
+"""
+
+AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
+"""So often the same instruction is tried while nothing has moved, by the stage at which it fails; others twice.
+
+Paths are drawn at random: another try may find one.
 """
 
 DROP = 6
@@ -162,6 +168,14 @@ class Performer(Protocol):
         """The simulation's step."""
         ...
 
+    def situation(self) -> Hashable:
+        """Where everything is but the robot: as long as it is the same, what failed fails again."""
+        ...
+
+    def idle(self, instruction: Instruction) -> bool:
+        """Whether an instruction moves nothing but the robot itself."""
+        ...
+
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Do it, and give the evidence that its event happened.
 
@@ -214,6 +228,8 @@ class Executor:
         self._repairs = 0
         self._setbacks = Setbacks(self.observer.skills.seen)
         self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
+        self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
+        self._spent: set[tuple[Instruction, Hashable]] = set()
         state = self.observer.now(self.problem.init)
         wanted = self._wanted(plan, state)
         waiting = [(instruction, False) for instruction in plan]
@@ -246,7 +262,7 @@ class Executor:
                 return self._stopped(repaired if tried is None else f"after {self._last()}, {repaired}", state)
             waiting = repaired
         status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
-        return Execution(status, "", tuple(self._steps), self._repairs, state)
+        return Execution(status, "", tuple(self._steps), self._repairs, state, self._lasting(plan, state))
 
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
         """Whether what an instruction changes is as it should be."""
@@ -264,17 +280,21 @@ class Executor:
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
+        key = instruction, self.performer.situation()
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
             failure = str(error)
             self._setbacks.failed(instruction, state, error.stage)
-        now = self.observer.after(state, instruction, happened=not failure)
+            self._tried[key] += 1
+            if self._tried[key] >= AGAIN.get(error.stage, 2):
+                self._spent.add(key)
+        now = self.observer.after(state, instruction, happened=not failure, evidence=evidence)
         self._setbacks.observed(now)
         mismatches = self.observer.mismatches(predicted, now)
-        confirmed = tuple(sorted((predicted - state) & now))
+        effects = tuple(self.observer.effects(state, predicted, now))
         step = ExecutedStep(
-            instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock, now
+            instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
         self._steps.append(step)
         if self.watch is not None:
@@ -286,15 +306,30 @@ class Executor:
     ) -> list[tuple[Instruction, bool]] | str:
         """What is to be done now, each with whether it is a repair; or why there is no way.
 
-        What could not be done is avoided where that is possible. Where it is not, it is tried again.
+        What could not be done is avoided where that is possible. Where it is not, it is tried again, unless nothing has
+        moved since it failed.
         """
         task = ground(replace(self.problem, init=state))
-        around = self._around(task, waiting, wanted)
-        if around is not None:
-            return around
-        plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
-        way = _missing(self.planner, plain, waiting, wanted)
-        return way if isinstance(way, str) else _joined(way, waiting)
+        found: list[tuple[Instruction, bool]] | str | None = self._around(task, waiting, wanted)
+        if found is None:
+            plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
+            way = _missing(self.planner, plain, waiting, wanted)
+            found = way if isinstance(way, str) else _joined(way, waiting)
+        if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
+            return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
+        return found
+
+    def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
+        """The first instruction that moves something, if it has failed as everything stands now."""
+        first = next((instruction for instruction in way if not self.performer.idle(instruction)), None)
+        return first if first is not None and (first, self.performer.situation()) in self._spent else None
+
+    def _lasting(self, plan: Sequence[Instruction], state: State) -> tuple[Mismatch, ...]:
+        """What is not as the plan would have left it, whatever it is for."""
+        end = self.problem.init
+        for instruction in plan:
+            end = apply(instruction, end, self.problem)
+        return tuple(self.observer.lasting(end, state))
 
     def _around(
         self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
@@ -329,7 +364,8 @@ class Executor:
         return gained, frozenset(a for a in state - end if a.predicate not in aside)
 
     def _stopped(self, reason: str, state: State) -> Execution:
-        return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state)
+        lasting = tuple(self.observer.lasting(self.problem.init, state, odd=True))
+        return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state, lasting)
 
     def _last(self) -> str:
         """What went wrong last."""

@@ -133,6 +133,11 @@ class CollisionChecker:
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
         self._pairs = self._self_pairs(frames)
 
+    @property
+    def sim(self) -> Simulator:
+        """The simulation."""
+        return self._sim
+
     def __enter__(self) -> CollisionChecker:
         sim, body, joints = self._sim, self._robot.body, self._robot.movable
         positions, velocities = sim.joint_states(body, joints)

@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -36,6 +36,8 @@ _FINGER_RANGE = (0.0, 0.548)
 _TIP_OFFSET = 0.0336
 """Metres between the frames of the finger tips when their surfaces meet."""
 _TOUCHING = 0.002
+_SOLVE_WORK = 700
+"""Microseconds of the inverse kinematics of a pose, about."""
 _EYE = (0.1, 0.0, 0.11)
 """The cameras, in the frame of head_tilt_link."""
 _VIEW = (0.75, 0.6)
@@ -62,6 +64,7 @@ class Pr2:
         movable: The numbers of all joints that move.
         arm_joints: The names of the seven joints of each arm.
         arm_groups: The drives of the arms.
+        keeps_level: See :class:`tmd.robot.pr2.arm_motion.ArmModel`; who knows what the hands hold sets it.
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
@@ -94,6 +97,7 @@ class Pr2:
         self.arm_kinematics = {side: ArmKinematics(self.tree, side) for side in ARMS}
         self.arm_joints = {side: self.arm_kinematics[side].joints for side in ARMS}
         self._held: dict[str, tuple[int, int, Pose]] = {}
+        self.keeps_level: Callable[[str], bool | None] = lambda side: None
         self._solid: dict[int, list[int]] = {}
         self._make_groups()
         self._set_up(pose)
@@ -370,6 +374,7 @@ class Pr2:
             Solutions within the joint limits, nearest to the seed first; collisions are not looked at.
         """
         kinematics = self.arm_kinematics[side]
+        self.sim.work += _SOLVE_WORK
         inside = self.base_link(base).inverse() * tool
         return kinematics.solve(inside, self.torso() if torso is None else torso, seed or self.arm(side))
 

@@ -203,6 +203,8 @@ class Bodies(Engine):
         return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self._client)]
 
 
+_QUERY_WORK = 40
+"""Microseconds of asking what touches or is near, about."""
 WELD_FORCE = 500.0
 """Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""
 
@@ -405,6 +407,7 @@ class Simulator(Bodies):
     ) -> list[Contact]:
         asked = {"bodyB": other, "linkIndexA": link, "linkIndexB": other_link}
         chosen = {name: value for name, value in asked.items() if value is not None}
+        self.work += _QUERY_WORK
         points = query(bodyA=body, **chosen, **options, physicsClientId=self._client) or ()
         return [_contact(point, body) for point in points]
 

@@ -80,6 +80,7 @@ class Film:
         self._last: Pixels | None = None
         self._tries: Counter[int] = Counter()
         self._done: set[int] = set()
+        self._ran: list[ExecutedStep] = []
         self._of = 0
         if movie is not None:
             width, height = movie.size
@@ -111,13 +112,15 @@ class Film:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: the facts are marked, and the picture stays for a moment."""
-        facts: list[tuple[str, Mark]] = [(str(atom), "confirmed") for atom in step.confirmed]
+        told = sorted(step.effects, key=lambda effect: not effect.holds)
+        facts: list[tuple[str, Mark]] = [(str(effect), effect.basis.value) for effect in told]
         facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
         badge = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
         measured = "; ".join(m.measured for m in step.mismatches)
         note = step.failure or measured or step.evidence
         # what is missing first: there is room for a few facts only
-        facts.sort(key=lambda fact: fact[1] == "confirmed")
+        facts.sort(key=lambda fact: fact[1] != "missing")
+        self._ran.append(step)
         if badge == "ok" and not title.repair:
             self._done.add(title.number)
         number = self._number(title)
@@ -130,7 +133,10 @@ class Film:
         """End with how it ended."""
         repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
         badge = "stopped" if execution.status is SkillStatus.STOPPED else ""
-        note = execution.reason or "Every effect of the plan is confirmed."
+        lasting = "; ".join(f"left otherwise than planned: {each}" for each in execution.lasting)
+        effects = Counter(effect.basis.value for each in self._ran for effect in each.effects)
+        known = ", ".join(f"{count} {basis}" for basis, count in sorted(effects.items(), key=lambda pair: -pair[1]))
+        note = execution.reason or lasting or f"Every effect is as predicted: {known}."
         title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
         self._caption = Caption(
             title,
