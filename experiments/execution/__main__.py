@@ -117,7 +117,8 @@ def _put(page: Path, tables: str) -> None:
 
 def _line(record: Record) -> str:
     said = " ".join(filter(None, (record.mode, record.fault, record.status)))
-    return f"{record.name} {said}, {record.seconds:.1f} s{': ' * bool(record.reason)}{record.reason}"
+    false = f", {len(record.false)} false" if record.false else ""
+    return f"{record.name} {said}{false}, {record.cpu:.1f} s{': ' * bool(record.reason)}{record.reason}"
 
 
 def _names(text: str) -> tuple[str, ...]:

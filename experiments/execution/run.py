@@ -5,17 +5,19 @@ from __future__ import annotations
 import re
 import time
 import traceback
+from collections import Counter
 from collections.abc import Sequence
 from functools import cache
 
+from experiments.execution.judge import Judge, summary
 from experiments.execution.record import FAILED, Case, Record, TimedStep
+from experiments.execution.recorder import Recorder
 from experiments.execution.trace import Trace
 from tmd.pddl.model import GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
 from tmd.records.run import FaultRecord, RanStep
 from tmd.robot.monitor.faults import InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep
@@ -64,33 +66,39 @@ def _run(case: Case) -> Record:
     fault = InjectedFault(case.fault) if case.fault else None
     trace = Trace()
     notes = _Notes(skills_of(case.domain))
-    started = (begin, 0)
-
-    def prepare(session: SimulationSession) -> tuple[_Notes]:
-        nonlocal started
+    with SimulationSession(
+        environment, found.folder, problem, kinematic=not case.physics, seed=case.seed
+    ) as session:
         if case.twice:
             session.sim.add_watcher(trace)
-        started = (time.perf_counter(), session.sim.steps)
+        recorder = Recorder(session)
+        ready, cpu, steps = time.perf_counter(), time.process_time(), session.sim.steps
         notes.restart()
-        return (notes,)
-
-    run = run_plan(
-        environment, found.folder, problem, orders, prepare=prepare, repairs=case.repairs, fault=fault,
-        kinematic=not case.physics, seed=case.seed,
-    )  # fmt: skip
-    ready, steps = started
+        execution = session.execute(orders, (notes, recorder), repairs=case.repairs, fault=fault)
+        seconds, used, after = time.perf_counter() - ready, time.process_time() - cpu, session.sim.steps
+        digest = trace.digest() if case.twice else ""
+        verdict = Judge(recorder).judge(execution)
+    effects = Counter(effect.basis.value for step in execution.steps for effect in step.effects)
     return _record(
         case,
-        status=run.execution.status.value,
-        reason=run.execution.reason,
-        repairs=run.execution.repairs,
+        status=execution.status.value,
+        reason=execution.reason,
+        repairs=execution.repairs,
         steps=tuple(notes.steps),
-        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in run.faults),
-        goal=tuple(literal for literal in case.end_state if not holds(literal, run.execution.state)),
+        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in session.happenings),
+        fault_missing=session.fault_missing,
+        lasting=tuple(map(str, execution.lasting)),
+        goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
         setup=round(ready - begin, 3),
-        seconds=round(time.perf_counter() - ready, 3),
-        simulated=round((run.sim_steps - steps) / STEPS_PER_SECOND, 3),
-        trajectory=trace.digest() if case.twice else "",
+        seconds=round(seconds, 3),
+        cpu=round(used, 3),
+        simulated=round((after - steps) / STEPS_PER_SECOND, 3),
+        trajectory=digest,
+        known=dict(sorted(effects.items())),
+        judged=verdict.true,
+        unjudged=verdict.unjudged,
+        false=tuple(verdict.false),
+        worst=summary(recorder),
     )
 
 
@@ -125,7 +133,10 @@ class _Notes:
 def _record(case: Case, **told: object) -> Record:
     """The record of a case; what is not told is as where nothing was done."""
     name, mode, fault, seed = case.key
-    nothing = {"repairs": 0, "steps": (), "faults": (), "goal": (), "setup": 0.0, "simulated": 0.0}
+    nothing = {
+        "repairs": 0, "steps": (), "faults": (), "fault_missing": "", "lasting": (), "goal": (), "setup": 0.0, "cpu": 0.0,
+        "simulated": 0.0, "known": {}, "judged": 0, "unjudged": 0, "false": (), "worst": (),
+    }  # fmt: skip
     asked = {"name": name, "task": case.task, "environment": case.environment, "mode": mode, "fault": fault}
     return Record.model_validate({**asked, "seed": seed, **nothing, "trajectory": "", "repeated": None, **told})
 
