@@ -121,7 +121,7 @@ class Judge:
             case "hot":
                 return self._hot(atom.args[0], step, index, state) if holds else None
             case "active":
-                return self._switched(step)
+                return self._switched(step) if index < len(self._seen.steps) else None
         return None
 
     # hands, places, joints
@@ -173,10 +173,12 @@ class Judge:
         if relation == "next_to":
             low, high = low - 0.1, high + 0.1
         slack = 0.03
+        if part:  # a niche or a plate: what can be touched of it is small
+            low, high = low - [0.1, 0.1, 0.5], high + [0.1, 0.1, 0.3]
         if np.any(middle[:2] < low[:2] - slack) or np.any(middle[:2] > high[:2] + slack):
             return f"its middle is beside {whole}{'_' * bool(part)}{part}"
         top = high[2] + (0.15 if relation != "in" else 0.2)
-        if not low[2] - slack <= middle[2] <= max(top, low[2] + 0.6 if part else top):
+        if not low[2] - slack <= middle[2] <= top:
             return f"its middle is {middle[2]:.2f} m up, and that reaches from {low[2]:.2f} to {high[2]:.2f}"
         return ""
 
@@ -311,12 +313,12 @@ class Judge:
             for one, target in ((other, item), (item, other)):
                 if one != other and target == other:
                     continue
-                end = self._lowest(one, frame)
-                if one != item and hypot(*(end - middle)[:2]) <= radius + 0.012 and end[2] > middle[2] - 0.06:
-                    return True
+                for end in self._ends(one, frame):
+                    if one != item and hypot(*(end - middle)[:2]) <= radius + 0.012 and end[2] > middle[2] - 0.06:
+                        return True
         if item not in frame.held:
             return False
-        head = self._lowest(item, frame)  # a spoon that is dipped into something
+        head = self._ends(item, frame)[0]  # a spoon that is dipped into something
         for source in self._seen.items:
             if source != item and self._seen.models[source].opening is not None:
                 rim, wide = self._rim(source, frame)
@@ -326,7 +328,7 @@ class Judge:
 
     def _over_rim(self, item: str, frame: Frame) -> bool:
         """Whether the lowest end of a thing is over the opening of another, or over a basin."""
-        end = self._lowest(item, frame)
+        end = self._ends(item, frame)[0]
         for other in self._seen.items:
             if other != item and self._seen.models[other].opening is not None:
                 rim, wide = self._rim(other, frame)
@@ -342,20 +344,21 @@ class Judge:
             for region in self._seen.models[whole].regions
         )
 
-    def _lowest(self, item: str, frame: Frame) -> Array:
-        """Where contents leave a thing: the lowest point of its rim, or of the box round it."""
+    def _ends(self, item: str, frame: Frame) -> list[Array]:
+        """Where contents may leave a thing: the lowest point of its rim, the head of a spoon, the ends of a packet."""
         model = self._seen.models[item]
         if model.opening is not None:
             x, y, z = model.opening.centre
             out = model.opening.radius + 0.005
             around = [(x + out * np.cos(a), y + out * np.sin(a), z) for a in np.linspace(0, 2 * pi, 32)]
-        else:
-            around = [(a, (model.low[1] + model.high[1]) / 2, c) for a in (model.low[0], model.high[0])
-                      for c in (model.low[2], model.high[2])]  # fmt: skip
-            around += [((model.low[0] + model.high[0]) / 2, 0.0, c) for c in (model.low[2], model.high[2])]
-        points = [frame.point(item, each) for each in around]
-        found: Array = min(points, key=lambda point: float(point[2]))
-        return found
+            return [min((frame.point(item, each) for each in around), key=lambda point: float(point[2]))]
+        if model.contents:
+            return [frame.point(item, (model.low[0] + 0.02, 0.0, model.low[2]))]
+        low, high = model.low, model.high
+        middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+        ends = [(low[0] + 0.015, middle[1], middle[2]), (high[0] - 0.015, middle[1], middle[2])]
+        ends += [(middle[0], middle[1], low[2]), (middle[0], middle[1], high[2])]
+        return [frame.point(item, each) for each in ends]
 
     def _hot(self, item: str, step: Step, index: int, state: State) -> str | None:
         """Hot things stood on what is lit, or got something hot."""

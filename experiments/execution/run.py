@@ -66,9 +66,7 @@ def _run(case: Case) -> Record:
     fault = InjectedFault(case.fault) if case.fault else None
     trace = Trace()
     notes = _Notes(skills_of(case.domain))
-    with SimulationSession(
-        environment, found.folder, problem, kinematic=not case.physics, seed=case.seed
-    ) as session:
+    with SimulationSession(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as session:
         if case.twice:
             session.sim.add_watcher(trace)
         recorder = Recorder(session)

@@ -85,8 +85,8 @@ class ArticulationParameters:
 
     approach: float = 0.09
     """Metres from which a hand goes straight to a handle or a button."""
-    button_overtravel: float = 0.012
-    """Metres that a finger goes on beyond the surface of a button."""
+    button_overtravel: float = 0.0095
+    """Metres that a finger goes on beyond the surface of a button: less than that goes down."""
     lid_gap: float = 0.02
     """Metres from the fingers to the lid between them."""
     pressed_share: float = 0.5
@@ -144,6 +144,8 @@ class PouringParameters:
     """Metres from where a spoon pours to the middle of its head."""
     dip_leans: tuple[float, ...] = (0.9, 0.6, 0.3, 1.2, 0.0)
     """Radians by which a spoon is dipped with its end down, best first."""
+    level_shares: tuple[float, ...] = (0.0, 0.33, 0.67, 1.0)
+    """How it is leaned above the rim: parts of the whole lean, so that its end stays over the rim meanwhile."""
     rim_penetration: float = 0.003
     """Metres that a spoon may be in the rim."""
     outside_shares: tuple[float, ...] = (0.6, 0.8, 1.0)

@@ -83,6 +83,12 @@ class Setbacks:
                 self.standing.append(setback)
                 return
 
+    def fruitless(self, instruction: Instruction, facts: frozenset[GroundAtom]) -> None:
+        """Take note that an instruction did not bring about what it should, as things stand."""
+        setback = Setback(instruction, facts)
+        if facts and setback not in self.standing:
+            self.standing.append(setback)
+
     def observed(self, state: State) -> None:
         """Forget what may be tried again, as things are now."""
         self.standing = [setback for setback in self.standing if setback.lasting or setback.facts <= state]
@@ -228,8 +234,10 @@ class Executor:
         self._repairs = 0
         self._setbacks = Setbacks(self.observer.skills.seen)
         self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
+        self._lost: frozenset[GroundAtom] = frozenset()
         self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
         self._spent: set[tuple[Instruction, Hashable]] = set()
+        self._named = {name for instruction in plan for name in instruction.args}
         state = self.observer.now(self.problem.init)
         wanted = self._wanted(plan, state)
         waiting = [(instruction, False) for instruction in plan]
@@ -267,7 +275,16 @@ class Executor:
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
         """Whether what an instruction changes is as it should be."""
         predicted = apply(instruction, before, self.problem)
-        return predicted - before <= after and not (before - predicted) & after
+        changed = {atom for atom in predicted ^ before if not self._aside(atom)}
+        return all((atom in predicted) is (atom in after) for atom in changed)
+
+    def _aside(self, atom: GroundAtom) -> bool:
+        """Whether a fact is about what is in something that the plan has nothing to do with: it stands there."""
+        return (
+            atom.predicate in self.observer.skills.inferred
+            and atom.args[0] not in self._named
+            and (self.observer.skills.inferred[atom.predicate] != "event")
+        )
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
         """Whether what is waiting can be executed from here as it is: then nothing is to be replanned."""
@@ -293,6 +310,11 @@ class Executor:
         self._setbacks.observed(now)
         mismatches = self.observer.mismatches(predicted, now)
         effects = tuple(self.observer.effects(state, predicted, now))
+        if not failure:
+            self._setbacks.fruitless(instruction, self._in_vain(mismatches, now))
+        self._lost = (
+            frozenset() if failure else frozenset(m.atom for m in mismatches if m.expected and not self._aside(m.atom))
+        )
         step = ExecutedStep(
             instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
@@ -300,6 +322,13 @@ class Executor:
         if self.watch is not None:
             self.watch(step)
         return step, now
+
+    def _in_vain(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
+        """Where things are that should have got something into them, and did not."""
+        skills = self.observer.skills
+        missing = [m.atom for m in mismatches if m.expected and not self._aside(m.atom)]
+        dry = {atom.args[0] for atom in missing if skills.inferred.get(atom.predicate) == "contents"}
+        return frozenset(a for a in now if skills.seen.get(a.predicate) == "support" and a.args[0] in dry)
 
     def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
@@ -342,6 +371,9 @@ class Executor:
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
+        first = self._what_was_lost(task, waiting, wanted)
+        if first is not None:
+            return first
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
         freed = self._setbacks.with_free_hands(task.decode(task.init))
@@ -354,14 +386,36 @@ class Executor:
         self._hopeless.add(question)
         return None
 
+    def _what_was_lost(
+        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | None:
+        """A way to what the last instruction should have brought about and did not, from which the rest goes on."""
+        state = task.decode(task.init)
+        lost = frozenset(atom for atom in self._lost if atom not in state)
+        if not lost or not waiting:
+            return None
+        plain = careful(task, self.observer.skills)
+        chances = without(plain, self._setbacks.standing)
+        way = _missing(IN_PROCESS, chances, (), (lost, frozenset()))
+        if isinstance(way, str):
+            return None
+        after = plain.init
+        for instruction in way:
+            after = plain.by_instruction[instruction].apply(after)
+        rest = waiting[1:]
+        more = _missing(IN_PROCESS, replace(plain, init=after), rest, wanted)
+        if isinstance(more, str) or not _leads(plain, [*way, *more, *rest], wanted):
+            return None
+        return _joined([*way, *more], rest)
+
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
         """What the plan is for: the facts that it brings about, and those that it ends."""
         end = state
         for instruction in plan:
             end = apply(instruction, end, self.problem)
         aside = self.observer.skills.confirmed
-        gained = frozenset(a for a in end - state if a.predicate not in aside)
-        return gained, frozenset(a for a in state - end if a.predicate not in aside)
+        gained = frozenset(a for a in end - state if a.predicate not in aside and not self._aside(a))
+        return gained, frozenset(a for a in state - end if a.predicate not in aside and not self._aside(a))
 
     def _stopped(self, reason: str, state: State) -> Execution:
         lasting = tuple(self.observer.lasting(self.problem.init, state, odd=True))

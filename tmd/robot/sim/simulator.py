@@ -156,9 +156,7 @@ class Bodies(Engine):
         """
         self.wake(body)
         mass = pose * self._inertial[body]
-        self._bullet.resetBasePositionAndOrientation(
-            body, mass.position, mass.orientation, physicsClientId=self.client
-        )
+        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation, physicsClientId=self.client)
         self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self.client)
 
     def wake(self, body: int | None = None) -> None:
@@ -176,9 +174,7 @@ class Bodies(Engine):
     def set_motion(self, body: int, motion: tuple[Pose, Vector, Vector]) -> None:
         """Put a root back as :meth:`motion` found it, to the bit."""
         pose, linear, angular = motion
-        self._bullet.resetBasePositionAndOrientation(
-            body, pose.position, pose.orientation, physicsClientId=self.client
-        )
+        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation, physicsClientId=self.client)
         self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self.client)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:

@@ -103,7 +103,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         here = cell.sim.pose(body)
         return any(_beside(cell, here.apply(how.at), target) <= POURING.mouth_offset for how in known)
 
-    with cell.leaning(item, over_rim, target):
+    with cell.leaning(item, over_rim):
         chosen = reach_for(cell, target, options, Pose(_overs(cell, target, POURING.heights[0][0])[0]), attempt)
         how = known[chosen.spot]
         if squeezed:
@@ -111,6 +111,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         here = cell.sim.pose(body)
         tilt = _tilt(here, how)
         beside = _beside(cell, here.apply(how.at), target)
+        cell.load(target)
         cell.moment()
         _go_back(cell, chosen)
     said = (
@@ -187,10 +188,11 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     how = _head(cell, item, _side(cell, item))
     body = cell.scene.bodies[item]
     focus = Pose(_overs(cell, target, POURING.dip_heights[0])[0])
-    with cell.leaning(item, lambda: _beside(cell, cell.sim.pose(body).apply(how.at), target) <= 0.0, item):
+    with cell.leaning(item, lambda: _beside(cell, cell.sim.pose(body).apply(how.at), target) <= 0.0):
         chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
         at = cell.sim.pose(body).apply(how.at)
         beside, below = _beside(cell, at, target), _rim_height(cell, target) - at[2]
+        cell.load(item)
         cell.moment()
         _go_back(cell, chosen)
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
@@ -222,8 +224,13 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
         if touched[index] <= POURING.rim_penetration:
             up = height + POURING.dip_depth
             # above the rim it is level again: what slides off it before falls back
-            level = _held_at(_heading(ways[index][1]), how, (over[0], over[1], over[2] + up), 0.0)
-            poses = (level * grip, _moved_up(there * grip, up), there * grip)
+            lean, number = ways[index]
+            above = (over[0], over[1], over[2] + up)
+            turning = [
+                _held_at(_leaning(_heading(number), how, share * lean), how, above, 0.0) * grip
+                for share in POURING.level_shares
+            ]
+            poses = (*turning, there * grip)
             options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, index))
     return options
 

@@ -126,14 +126,18 @@ class Cell:
                 self._leant[item] = tilt
 
     @contextmanager
-    def leaning(self, item: str, over_rim: Callable[[], bool], loaded: str) -> Iterator[None]:
-        """While an item may lean where nothing is lost by it; ``loaded`` has something in it from then on."""
+    def leaning(self, item: str, over_rim: Callable[[], bool]) -> Iterator[None]:
+        """While an item may lean where nothing is lost by it."""
         self.over_rim[item] = over_rim
-        self._loaded.add(loaded)
         try:
             yield
         finally:
             del self.over_rim[item]
+
+    def load(self, item: str) -> None:
+        """Something is in an item from now on: it is remembered how far it leans."""
+        self._loaded.add(item)
+        self._leant.pop(item, None)
 
     def leant(self, item: str) -> tuple[float, float] | None:
         """See :class:`tmd.robot.monitor.inference.ContentSenses`."""
@@ -256,7 +260,8 @@ class Cell:
                 return f"{len(self.held())} hands hold something"
             case "support":
                 place, at = self.support(name), self.sim.pose(self.scene.bodies[name]).position
-                where = f"{place[1]} {place[0]}" if place else "nowhere"
+                side = self.side_of(name)
+                where = f"{place[1]} {place[0]}" if place else f"in the {side} hand" if side else "nowhere"
                 leans = f" and leans by {degrees(self.tilt(name)):.0f} degrees" if self.fallen(name) else ""
                 return f"{name} is {where}{leans}, at {at[0]:.2f} {at[1]:.2f} {at[2]:.2f}"
             case "joint":
