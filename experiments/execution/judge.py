@@ -174,7 +174,7 @@ class Judge:
             low, high = low - 0.1, high + 0.1
         slack = 0.03
         if part:  # a niche or a plate: what can be touched of it is small
-            low, high = low - [0.1, 0.1, 0.5], high + [0.1, 0.1, 0.3]
+            low, high = low - np.array([0.1, 0.1, 0.5]), high + np.array([0.1, 0.1, 0.3])
         if np.any(middle[:2] < low[:2] - slack) or np.any(middle[:2] > high[:2] + slack):
             return f"its middle is beside {whole}{'_' * bool(part)}{part}"
         top = high[2] + (0.15 if relation != "in" else 0.2)

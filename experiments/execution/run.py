@@ -132,8 +132,8 @@ def _record(case: Case, **told: object) -> Record:
     """The record of a case; what is not told is as where nothing was done."""
     name, mode, fault, seed = case.key
     nothing = {
-        "repairs": 0, "steps": (), "faults": (), "fault_missing": "", "lasting": (), "goal": (), "setup": 0.0, "cpu": 0.0,
-        "simulated": 0.0, "known": {}, "judged": 0, "unjudged": 0, "false": (), "worst": (),
+        "repairs": 0, "steps": (), "faults": (), "fault_missing": "", "lasting": (), "goal": (), "setup": 0.0,
+        "cpu": 0.0, "simulated": 0.0, "known": {}, "judged": 0, "unjudged": 0, "false": (), "worst": (),
     }  # fmt: skip
     asked = {"name": name, "task": case.task, "environment": case.environment, "mode": mode, "fault": fault}
     return Record.model_validate({**asked, "seed": seed, **nothing, "trajectory": "", "repeated": None, **told})

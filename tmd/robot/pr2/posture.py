@@ -104,7 +104,7 @@ def _carry(robot: PostureModel, side: str, budget: int) -> bool:
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
     level = robot.keeps_level(side)
-    goals: list[Sequence[float]] = []
+    goals: list[tuple[float, ...]] = []
     for place in _tool_places(now, side):
         tool = base * place
         found = [goal for goal in robot.solve(side, tool)[:2] if not robot.collides(side=side, arm=goal)]

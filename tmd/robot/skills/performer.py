@@ -31,7 +31,7 @@ class RobotPerformer:
         return self.cell.sim.ticks
 
     def situation(self) -> Hashable:
-        """See :class:`tmd.robot.monitor.executor.Performer`: poses to the centimetre, joints to a tenth of their way."""
+        """Poses to the centimetre, joints to a tenth of their way."""
         cell = self.cell
         poses = [cell.sim.pose(cell.scene.bodies[item]) for item in cell.scene.items()]
         held = tuple(sorted((side, item, _rounded(cell.in_tool(side, item))) for side, item in cell.in_hand.items()))
