@@ -14,6 +14,10 @@ class StanceParameters:
 
     distances: tuple[float, ...] = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90, 1.0)
     """Metres from the base to what is to be reached, best first."""
+    low: float = 0.35
+    """Metres from the floor below which what is to be reached is near the base."""
+    low_distances: tuple[float, ...] = (0.5, 0.56, 0.45, 0.62, 0.7)
+    """Metres from the base to that, best first."""
     bearings: tuple[float, ...] = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
     """Radians off the front of what is to be reached, best first."""
     turns: tuple[float, ...] = (0.0, 0.35, -0.35)
@@ -67,6 +71,8 @@ class GraspParameters:
     """Metres that the fingers get round."""
     above_ground: float = 0.006
     """Metres that the finger tips keep from what a thing lies on."""
+    bar: float = 0.05
+    """Metres that the fingers stand open for a handle, at most."""
     most_lying: int = 64
     """Grasps of a lying thing that are looked at."""
     tall: float = 0.12

@@ -28,7 +28,7 @@ Base = tuple[float, float, float]
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
 """How far each joint may move between two checks: 2 to 4 cm at the hand."""
 _ENDLESS = (4, 6)
-_TRACK_WORK = 150
+_TRACK_WORK = 80
 """Microseconds of following a pose, about."""
 
 

@@ -36,7 +36,7 @@ _FINGER_RANGE = (0.0, 0.548)
 _TIP_OFFSET = 0.0336
 """Metres between the frames of the finger tips when their surfaces meet."""
 _TOUCHING = 0.002
-_SOLVE_WORK = 700
+_SOLVE_WORK = 350
 """Microseconds of the inverse kinematics of a pose, about."""
 _EYE = (0.1, 0.0, 0.11)
 """The cameras, in the frame of head_tilt_link."""

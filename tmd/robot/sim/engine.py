@@ -16,7 +16,7 @@ from tmd.robot.sim.rendering import egl_starts, pybullet, quiet, window_opens
 STEPS_PER_SECOND = 240
 ITERATIONS = 50
 GRAVITY = 9.81
-_STEP_WORK = 900
+_STEP_WORK = 500
 """Microseconds of a step, about."""
 
 

@@ -199,7 +199,7 @@ class Bodies(Engine):
         return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
 
 
-_QUERY_WORK = 40
+_QUERY_WORK = 18
 """Microseconds of asking what touches or is near, about."""
 WELD_FORCE = 500.0
 """Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""

@@ -9,8 +9,8 @@ from math import degrees, pi
 
 import numpy as np
 
-from tmd.robot.assets.features import Frame
-from tmd.robot.assets.fittings import DOWN, TIP
+from tmd.robot.assets.features import Frame, Grasp
+from tmd.robot.assets.fittings import DOWN, INTO, TIP
 from tmd.robot.parameters import CONTACT, GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.results import SkillError, SkillPhase
@@ -31,12 +31,14 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     if not cell.free():
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     body = cell.scene.bodies[item]
+    start = cell.sim.pose(body)
     for side in cell.free():
         cell.robot.open_gripper(side)
     chosen = reach(cell, item, options, cell.sim.pose(body), cell.front(item), attempt)
     side = chosen.side
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
+        cell.unfit_grips.setdefault(item, []).append(start.inverse() * chosen.poses[-1])
         _let_off(cell, side, chosen)
         raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch {item}")
     below = cell.support(item)
@@ -98,9 +100,21 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
                 down = Frame((x, y, max(z, floor)), DOWN, (ax, ay, az)).pose()
                 found += [down * Pose.about((0.0, 1.0, 0.0), angle) for angle in (0.0, 0.6, -0.6, 1.1, -1.1)]
     turns = [number * pi / 4 for number in range(8)]
-    found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in usual for angle in turns]
+    bars = [here * grasp.tool.pose() for grasp in cell.scene.grasps(item) if _of_bar(grasp)]
+    length = here.rotate((1.0, 0.0, 0.0))
+    rolled = [
+        Pose(tool.position, (Pose.about(length, angle) * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation)
+        for tool in bars
+        for angle in turns
+    ]
+    found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in (*usual, *rolled) for angle in turns]
     kept = [tool for tool in found if tool.rotate((1.0, 0.0, 0.0))[2] < 0.3]
     return sorted(kept, key=lambda tool: round(tool.rotate((1.0, 0.0, 0.0))[2], 1))[: GRASP.most_lying]
+
+
+def _of_bar(grasp: Grasp) -> bool:
+    """Whether it is one of a bar along x, round which the hand may be anywhere: taken from its end."""
+    return grasp.opening < GRASP.bar and grasp.tool.approach == INTO
 
 
 def _width(cell: Cell, item: str, along: Vector) -> float:

@@ -100,34 +100,48 @@ def reach(
             SkillPhase.STANCE, f"no hand fits in at {what}, {len(options)} ways were tried{_in_the_way(cell, options)}"
         )
     found = candidates(cell, fitting, focus, front, what=what, stay=stay, accept=accept)
-    last: SkillError | None = None
+    said: list[SkillError] = []
     failed: list[StanceCandidate] = []
     closed: list[Base] = []
     tried_before = list(islice(found, 2 * attempt))
-    for candidate in chain(found, tried_before):
+    for candidate in _timely(chain(found, tried_before), said):
         cell.look_on(f"the way to {what}")
         if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
             continue
         try:
             get_to(cell, candidate.base, candidate.torso)
         except SkillError as error:
-            last = error
+            said.append(error)
             closed.append(candidate.base)
         else:
             try:
                 _take(cell, what, candidate.option, stop)
             except SkillError as error:
-                last = error
+                said.append(error)
                 failed.append(candidate)
             else:
                 return candidate.option
         if len(failed) + len(closed) >= STANCE.max_tries:
             break
-    if last is None:
+    if not said:
         raise SkillError(SkillPhase.STANCE, _unreached(cell, what, fitting, focus, front, stay=stay))
-    if last.stage is SkillPhase.PATH and failed:
+    if said[-1].stage is SkillPhase.PATH and failed:
         return _insist(cell, what, failed[0], stop)
-    raise last
+    raise said[-1]
+
+
+def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Iterator[StanceCandidate]:
+    """The same; where they take too long, what was said last is told with that.
+
+    Raises:
+        SkillError: They take too long.
+    """
+    try:
+        yield from found
+    except SkillError as error:
+        if error.stage is not SkillPhase.TIME or not said:
+            raise
+        raise SkillError(SkillPhase.TIME, f"{error.reason}; before that, {said[-1].reason}") from error
 
 
 def _insist(cell: Cell, what: str, candidate: StanceCandidate, stop: int | None) -> Option:
@@ -235,7 +249,9 @@ def stances(
     cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = STANCE.distances
 ) -> Iterator[Base]:
     """Where to stand: here, then round the focus."""
-    x, y, _ = focus.position
+    x, y, z = focus.position
+    if z < STANCE.low:
+        distances = (*STANCE.low_distances, *(d for d in distances if d > STANCE.low_distances[-1]))
     here = cell.robot.base()
     if hypot(here[0] - x, here[1] - y) < 1.05:
         yield here
