@@ -25,8 +25,9 @@ class Case:
         name: Of the demonstration or plan.
         domain: The domain's name.
         task: Which task it serves.
-        environment: Where.
-        plan: The instructions, in functional notation.
+        environment: Where: the name of a bundled environment, or a file.
+        plan: The instructions, in functional notation; none where there is a goal.
+        goal: A PDDL condition that a plan is made for.
         end_state: Literals that hold when all is done.
         physics: Under physics; otherwise kinematically.
         fault: Which kind of fault is injected; empty for none.
@@ -40,6 +41,7 @@ class Case:
     task: str
     environment: str
     plan: tuple[str, ...]
+    goal: str
     end_state: tuple[str, ...]
     physics: bool
     fault: str

@@ -7,14 +7,20 @@ import time
 import traceback
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
 from experiments.execution.judge import Judge, summary
 from experiments.execution.record import FAILED, Case, Record, TimedStep
 from experiments.execution.recorder import Recorder
 from experiments.execution.trace import Trace
-from tmd.pddl.model import GroundAtom, State
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import And, GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.reading.reader import with_goal
+from tmd.pddl.writer import format_formula
+from tmd.planning.backends import solve
+from tmd.planning.result import Solved
 from tmd.records.run import FaultRecord, RanStep
 from tmd.robot.monitor.faults import InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
@@ -23,7 +29,7 @@ from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.veil.corpus import Corpus
-from tmd.world.environment import load_environment
+from tmd.veil.roots import Roots
 from tmd.world.folder import find_domain, find_root
 
 
@@ -39,6 +45,23 @@ def run(case: Case) -> Record:
 def corpus(domain: str) -> Corpus:
     """The domain's problems; read once in a process."""
     return Corpus(find_domain(domain), find_root("problems") / domain)
+
+
+def planned(case: Case) -> Case:
+    """The case with a plan for its goal, if it has one.
+
+    Raises:
+        TmdError: There is no such environment, or no plan.
+    """
+    if not case.goal:
+        return case
+    _, world = Roots().world(case.environment)
+    problem = with_goal(world.task.problem, case.goal)
+    answer = solve(problem, "in-process")
+    if not isinstance(answer, Solved):
+        raise TmdError(f"{case.name}: no plan for {case.goal}")
+    literals = problem.goal.parts if isinstance(problem.goal, And) else (problem.goal,)
+    return replace(case, plan=tuple(map(str, answer.plan)), end_state=tuple(map(format_formula, literals)))
 
 
 @cache
@@ -59,14 +82,16 @@ def _guarded(case: Case) -> Record:
 
 def _run(case: Case) -> Record:
     begin = time.perf_counter()
-    found = corpus(case.domain)
-    problem = found.world(case.environment).task.problem
-    environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
+    roots = Roots()
+    _, world = roots.world(case.environment)
+    environment, folder = roots.room(case.environment)
+    problem = world.task.problem
+    case = planned(case)
     orders = [Order(parse_instruction(text)) for text in case.plan]
     fault = InjectedFault(case.fault) if case.fault else None
     trace = Trace()
-    notes = _Notes(skills_of(case.domain))
-    with SimulationSession(environment, found.folder, problem, kinematic=not case.physics, seed=case.seed) as session:
+    notes = _Notes(load_skills(folder))
+    with SimulationSession(environment, folder, problem, kinematic=not case.physics, seed=case.seed) as session:
         if case.twice:
             session.sim.add_watcher(trace)
         recorder = Recorder(session)
