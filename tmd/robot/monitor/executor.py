@@ -312,9 +312,7 @@ class Executor:
         effects = tuple(self.observer.effects(state, predicted, now))
         if not failure:
             self._setbacks.fruitless(instruction, self._in_vain(mismatches, now))
-        self._lost = (
-            frozenset() if failure else frozenset(m.atom for m in mismatches if m.expected and not self._aside(m.atom))
-        )
+        self._lost = self._still_lost(mismatches, now) if failure or mismatches or repair else frozenset()
         step = ExecutedStep(
             instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
@@ -322,6 +320,12 @@ class Executor:
         if self.watch is not None:
             self.watch(step)
         return step, now
+
+    def _still_lost(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
+        """What should be in something and is not, since the plan last went on."""
+        contents = {p for p, rule in self.observer.skills.inferred.items() if rule == "contents"}
+        missing = (m.atom for m in mismatches if m.expected and m.atom.predicate in contents)
+        return frozenset(atom for atom in (*self._lost, *missing) if atom not in now and not self._aside(atom))
 
     def _in_vain(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
         """Where things are that should have got something into them, and did not."""
@@ -344,6 +348,8 @@ class Executor:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
             way = _missing(self.planner, plain, waiting, wanted)
             found = way if isinstance(way, str) else _joined(way, waiting)
+            if isinstance(way, str):
+                found = self._regained(task, (), waiting, wanted) or way
         if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
             return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
         return found
@@ -371,9 +377,9 @@ class Executor:
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
-        first = self._what_was_lost(task, waiting, wanted)
-        if first is not None:
-            return first
+        regained = self._regained(task, self._setbacks.standing, waiting, wanted)
+        if regained is not None:
+            return regained
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
         freed = self._setbacks.with_free_hands(task.decode(task.init))
@@ -386,27 +392,34 @@ class Executor:
         self._hopeless.add(question)
         return None
 
-    def _what_was_lost(
-        self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
+    def _regained(
+        self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
-        """A way to what the last instruction should have brought about and did not, from which the rest goes on."""
+        """A way by three short plans: what was spilled is in again, knobs and doors are as they were, the rest goes on.
+
+        A search for all at once would be much longer than each of these.
+        """
         state = task.decode(task.init)
         lost = frozenset(atom for atom in self._lost if atom not in state)
-        if not lost or not waiting:
+        if not lost:
             return None
         plain = careful(task, self.observer.skills)
-        chances = without(plain, self._setbacks.standing)
-        way = _missing(IN_PROCESS, chances, (), (lost, frozenset()))
+        way = _missing(IN_PROCESS, without(plain, setbacks) if setbacks else plain, (), (lost, frozenset()))
         if isinstance(way, str):
             return None
-        after = plain.init
-        for instruction in way:
-            after = plain.by_instruction[instruction].apply(after)
-        rest = waiting[1:]
-        more = _missing(IN_PROCESS, replace(plain, init=after), rest, wanted)
-        if isinstance(more, str) or not _leads(plain, [*way, *more, *rest], wanted):
-            return None
-        return _joined([*way, *more], rest)
+        after = _end(plain, task.init, way)
+        worked = {p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting")}
+        changed = {atom for atom in state ^ plain.decode(after) if atom.predicate in worked}
+        again = frozenset(atom for atom in changed if atom in state), frozenset(changed - state)
+        back = _missing(IN_PROCESS, replace(plain, init=after), (), again)
+        if isinstance(back, str):
+            back = ()
+        after = _end(plain, after, back)
+        for rest in (waiting, waiting[1:]):
+            more = _missing(IN_PROCESS, replace(plain, init=after), rest, wanted)
+            if not isinstance(more, str) and _leads(plain, [*way, *back, *more, *rest], wanted):
+                return _joined([*way, *back, *more], rest)
+        return None
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
         """What the plan is for: the facts that it brings about, and those that it ends."""
@@ -456,6 +469,13 @@ def _missing(
     if isinstance(answer, Unreachable):
         return f"replanning proved that there is no way: {answer.reason}"
     return f"replanning gave up: {answer.limit}"
+
+
+def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
+    """The state after a plan."""
+    for instruction in plan:
+        state = task.by_instruction[instruction].apply(state)
+    return state
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:
