@@ -13,7 +13,7 @@ from tmd import __version__
 from tmd.language.clause import Clause, print_clause
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
-from tmd.records.run import RanStep
+from tmd.records.run import MARKS, RanStep
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
@@ -77,6 +77,7 @@ def render(subject: Subject) -> Page:
             doubts=subject.doubts,
             in_words=Wording(subject.problem).fact,
             ticks=_ticks(goals),
+            marks=MARKS,
             pddl=format_formula,
             steps=steps,
             folded=len(steps) > FEW,

@@ -29,6 +29,19 @@ class _File(click.Path):
         return path
 
 
+def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Width and height in pixels, even numbers: films need them so."""
+    if value is None:
+        return None
+    width, _, height = value.partition("x")
+    if not (width.isdigit() and height.isdigit()):
+        raise click.BadParameter(f"'{value}' is not WxH, as in 960x720", ctx, param)
+    found = int(width), int(height)
+    if any(pixels % 2 or not 80 <= pixels <= 4096 for pixels in found):
+        raise click.BadParameter(f"'{value}': width and height must be even numbers from 80 to 4096", ctx, param)
+    return found
+
+
 @click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
 @click.option(
     "--environment", required=True, metavar="FILE|NAME", help="An environment (YAML), or the name of a bundled one."
@@ -57,6 +70,9 @@ class _File(click.Path):
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
 @click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
+@click.option(
+    "--size", callback=_size, metavar="WxH", help="Pixels of the pictures of film and strip; 640x480 and 400x300."
+)
 @click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
@@ -91,6 +107,7 @@ def command(
     gui: bool,
     video: Path | None,
     strip: Path | None,
+    size: tuple[int, int] | None,
     log: Path | None,
     trajectory: Path | None,
     rate: float | None,
@@ -126,7 +143,7 @@ def command(
     from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
-    from tmd.robot.video.film import open_movie
+    from tmd.robot.video.film import TILE, open_movie
 
     spoken = None if plan_file is not None or goal is not None else short_enough(said(text, text_file))
     path = roots.environment(environment, domain_name)
@@ -144,7 +161,7 @@ def command(
     orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
         stack.enter_context(stoppable())
-        movie = stack.enter_context(open_movie(video)) if video else None
+        movie = stack.enter_context(open_movie(video, size)) if video else None
         if strip:
             pillow()
         if orders is None and goal is not None:
@@ -177,12 +194,13 @@ def command(
         journal = stack.enter_context(RunLog(log)) if log else None
         recording = stack.enter_context(open_trajectory(trajectory)) if trajectory else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)
+        filming = Filming(told.heading, spoken or "", movie, strip, size or TILE) if movie or strip else None
         run = run_plan(
             room, folder, world.task.problem, orders.orders,
             prepare=lambda session: (
                 *told.prepare(session), *recorders(session, recording, rate or DEFAULT_RATE),
             ),
-            filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
+            filming=filming,
             planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
             kinematic=kinematic, seed=seed, urdf=model, gui=gui,
         )  # fmt: skip

@@ -90,7 +90,7 @@ def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) ->
     model = UrdfModel(name, mass)
     model.mesh(seen, solids, low, high, colour)
     if hollow is not None:
-        contents(model, hollow.radius, hollow.floor, hollow.level)
+        contents(model, hollow.radius, hollow.floor, high[2])
     if shape.grasps:
         _said_grasps(model, shape.grasps)
     else:
@@ -224,11 +224,10 @@ def _bottom(mesh: trimesh.Trimesh) -> float:
 
 @dataclass(frozen=True, slots=True)
 class _Hollow:
-    """The hollow of a vessel: radius, floor and level of what fills it, and its rim; metres."""
+    """The hollow of a vessel: radius and floor of what fills it, and its rim; metres."""
 
     radius: float
     floor: float
-    level: float
     outer: float
     wall: float
 
@@ -245,7 +244,7 @@ def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
         raise ModelFault(("holds",), "it holds nothing: the middle of its underside is not in a hollow", None)
     rim = top - 0.004
     outer = float(np.abs(_cut(mesh, rim)[:, :, 1]).max())
-    return _Hollow(radius - 0.002, max(floor, 0.001), level, outer, outer - _radius(mesh, rim))
+    return _Hollow(radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim))
 
 
 def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:

@@ -13,7 +13,7 @@ from pathlib import Path
 from xml.sax.saxutils import escape
 
 from tmd.robot.assets.colours import rgba
-from tmd.robot.assets.features import Grasp, Grip, Lamp, Region
+from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
 
@@ -55,6 +55,10 @@ class UrdfModel:
     Args:
         name: The URDF's name.
         mass: Of the root link, in kilograms.
+
+    Attributes:
+        opening: The rim of what holds something; None for what holds nothing, or is closed.
+        spouts: Where a stream leaves a part, in the whole's frame, by part.
     """
 
     def __init__(self, name: str, mass: float) -> None:
@@ -66,6 +70,8 @@ class UrdfModel:
         self.grasps: list[Grasp] = []
         self.lamps: list[Lamp] = []
         self.contents: list[str] = []
+        self.opening: Opening | None = None
+        self.spouts: dict[str, Vector] = {}
         self.part_links: dict[str, str] = {ROOT: ROOT}
         self.link_parts: dict[str, str] = {ROOT: ROOT}
         self.low: list[float] = [math.inf] * 3

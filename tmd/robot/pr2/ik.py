@@ -133,6 +133,16 @@ class ArmKinematics:
                 return found
         return None
 
+    def with_roll(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
+        """A solution with the upper arm rolled as in ``seed``, wherever the other joints are; None if there is none."""
+        closed = self._closed_form
+        start = np.asarray(seed, dtype=float)
+        if closed is None:
+            arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
+        else:
+            arms = self._kept(self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1]), tool, torso, seed)
+        return _next_to(start, arms, np.inf)
+
     def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
         """Whether the closed form is right: always for the PR2 that it was made for, perhaps not for another one."""
         if self._fits is None:

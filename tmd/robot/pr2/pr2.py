@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -34,6 +34,8 @@ ARMS = ("right", "left")
 _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
 _TOUCHING = 0.002
+_SOLVE_WORK = 350
+"""Microseconds of the inverse kinematics of a pose, about."""
 _VIEW = (0.75, 0.6)
 """Half of the angle of view, radians: to the sides, up and down."""
 
@@ -58,6 +60,7 @@ class Pr2:
         movable: The numbers of all joints that move.
         arm_joints: The names of the seven joints of each arm.
         arm_groups: The drives of the arms.
+        keeps_level: See :class:`tmd.robot.pr2.arm_motion.ArmModel`; who knows what the hands hold sets it.
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
@@ -90,6 +93,7 @@ class Pr2:
         self.arm_kinematics = {side: ArmKinematics(self.tree, side) for side in ARMS}
         self.arm_joints = {side: self.arm_kinematics[side].joints for side in ARMS}
         self._held: dict[str, tuple[int, int, Pose]] = {}
+        self.keeps_level: Callable[[str], bool | None] = lambda side: None
         self._solid: dict[int, list[int]] = {}
         self._gaps: list[tuple[float, float]] = []
         self._make_groups()
@@ -384,6 +388,7 @@ class Pr2:
             Solutions within the joint limits, nearest to the seed first; collisions are not looked at.
         """
         kinematics = self.arm_kinematics[side]
+        self.sim.work += _SOLVE_WORK
         inside = self.base_link(base).inverse() * tool
         return kinematics.solve(inside, self.torso() if torso is None else torso, seed or self.arm(side))
 

@@ -216,6 +216,10 @@ class Scene(Inventory):
         """What a vessel is seen to contain."""
         return self._shown.get(name, ())
 
+    def filled(self) -> list[str]:
+        """The items that are seen to contain something, in file order."""
+        return [name for name in self.blueprints if self._shown.get(name) and self.is_item(name)]
+
     def sign(self, name: str, predicate: str, on: bool) -> None:
         """Let a state be seen: a burner glows, the tap runs, the microwave is lit; nothing where there is no sign."""
         whole, part = self.where(name)
