@@ -200,6 +200,31 @@ TEXT = ("--text", "Take the cup.")
 WRONG = {
     "no-text": (ExitCode.USAGE, [*KITCHEN], "", r"error: give one of --text"),
     "text-and-goal": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--goal", "(a)"], "", r"error: give one of --text, .*--goal\n"),
+    "rate-of-nothing": (ExitCode.USAGE, [*KITCHEN, *TEXT, "--rate", "5"], "", r"error: --rate is for --trajectory"),
+    "trajectory-suffix": (
+        ExitCode.USAGE,
+        [*KITCHEN, *TEXT, "--trajectory", "out.bag"],
+        "",
+        r"error: .*'out\.bag' does not end in \.jsonl or \.csv or \.mcap or \.yaml",
+    ),
+    "no-mcap": (
+        ExitCode.MISSING_TOOL,
+        [*KITCHEN, "--goal", "(near pr2 pot1)", "--trajectory", "out.mcap"],
+        "import sys; sys.modules['mcap_ros2'] = None",
+        r"error: MCAP files need the package mcap-ros2-support\nhint: pip install 'tmd\[ros\]'",
+    ),
+    "two-robots": (
+        ExitCode.USAGE,
+        [*KITCHEN, *TEXT, "--robot", "pr2", "--urdf", "a.urdf"],
+        "",
+        r"error: give one of --robot and --urdf",
+    ),
+    "no-such-robot": (
+        ExitCode.BAD_INPUT,
+        [*KITCHEN, *TEXT, "--robot", "tiagopro"],
+        "",
+        r"error: there is no robot 'tiagopro'\nhint: did you mean \"tiago_pro\"\?",
+    ),
     "wrong-goal": (
         ExitCode.BAD_INPUT,
         [*KITCHEN, "--goal", "(near pr2 pot9)"],

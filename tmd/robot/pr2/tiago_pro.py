@@ -21,8 +21,12 @@ CLOSED = 0.8028514559173916
 """Radians that the fingers turn from open to closed."""
 TIP_OFFSET = 0.023
 """Metres between the frames of the finger tips when their surfaces would meet: they come to 8 mm of each other."""
-TOOL_AHEAD = 0.152
-"""Metres from the palm's frame to the tool's: the finger tips then reach 9 mm (open) to 24 mm (closed) beyond it."""
+TOOL_AHEAD = 0.158
+"""Metres from the palm's frame to the tool's.
+
+The finger tips then reach 1 mm (open) to 18 mm (closed) beyond it, for they swing forward as they close: a hand comes
+as near to the table as the PR2's, which reaches 18 mm.
+"""
 EYE = (0.06, 0.0, 0.168)
 """The camera, in the frame of head_tilt_link."""
 TUCKED: dict[str, tuple[float, ...]] = {
