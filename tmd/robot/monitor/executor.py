@@ -25,7 +25,7 @@ TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
 Another try finds another path, and no other place to stand. What failed at other stages was within reach.
 """
 
-AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
+AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 3}
 """So often the same instruction is tried while nothing has moved, by the stage at which it fails; others twice.
 
 Paths are drawn at random: another try may find one.

@@ -30,7 +30,7 @@ class Basis(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Effect:
+class KnownEffect:
     """A fact that an instruction changed as PDDL predicts.
 
     Attributes:
@@ -80,7 +80,7 @@ _POURING = ("tip", "squeeze", "dip")
 
 
 @dataclass
-class Inferred:
+class InferredFacts:
     """What became of the facts that no sensor sees.
 
     Attributes:
@@ -94,7 +94,7 @@ class Inferred:
     against: dict[GroundAtom, str] = field(default_factory=dict)
 
 
-class Inference:
+class FactInference:
     """Applies the rules of ``inferred`` in ``skills.yaml``.
 
     Args:
@@ -115,7 +115,7 @@ class Inference:
         evidence: str,
         *,
         happened: bool,
-    ) -> Inferred:
+    ) -> InferredFacts:
         """The facts after an instruction.
 
         Args:
@@ -126,7 +126,7 @@ class Inference:
             evidence: What showed that the skill's event happened.
             happened: Whether it did; otherwise nothing came of it.
         """
-        found = Inferred(set(predicted if happened else before))
+        found = InferredFacts(set(predicted if happened else before))
         if happened:
             task = self._skills.task(instruction)
             for atom in sorted(predicted ^ before):
@@ -144,7 +144,7 @@ class Inference:
     def _judge(
         self,
         senses: ContentSenses,
-        found: Inferred,
+        found: InferredFacts,
         atom: GroundAtom,
         before: State,
         skill: str,
@@ -165,7 +165,9 @@ class Inference:
         elif not holds and skill != "wait":
             found.known[atom] = told
 
-    def _expose(self, senses: ContentSenses, found: Inferred, atom: GroundAtom, rule: Exposure, *, holds: bool) -> None:
+    def _expose(
+        self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, rule: Exposure, *, holds: bool
+    ) -> None:
         """What stood on what is lit, and for long enough, is hot."""
         if not holds:
             return
@@ -178,7 +180,7 @@ class Inference:
         found.state.discard(atom)
         found.against[atom] = f"{cause} was so for {passed:.1f} s only, and {rule.seconds:g} s are needed"
 
-    def _run_in(self, senses: ContentSenses, found: Inferred, atom: GroundAtom, before: State) -> None:
+    def _run_in(self, senses: ContentSenses, found: InferredFacts, atom: GroundAtom, before: State) -> None:
         """What an outlet gives is in a vessel that its stream runs into."""
         measured = senses.stream(atom.args[0])
         if measured is None:
@@ -194,7 +196,7 @@ class Inference:
         # what is in it already stays as it was
         found.state |= {a for a in before if a.predicate in self._skills.inferred and a.args[0] == atom.args[0]}
 
-    def _spill(self, senses: ContentSenses, found: Inferred) -> None:
+    def _spill(self, senses: ContentSenses, found: InferredFacts) -> None:
         """What leaned too far is empty."""
         for item in sorted({atom.args[0] for atom in found.state if atom.predicate in self._contents}):
             lean = senses.leant(item)

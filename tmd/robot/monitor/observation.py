@@ -16,7 +16,7 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import apply
 from tmd.pddl.task import Operator, Task
-from tmd.robot.monitor.inference import Basis, ContentSenses, Effect, Inference, Inferred
+from tmd.robot.monitor.inference import Basis, ContentSenses, FactInference, InferredFacts, KnownEffect
 from tmd.robot.skills.skill_file import Skills
 from tmd.world.compile import derive, derive_rules
 from tmd.world.folder import DomainFolder
@@ -108,8 +108,8 @@ class Observer:
         }
 
         self._task, self._rules = self._ground()
-        self._inference = Inference(skills)
-        self._inferred = Inferred(set())
+        self._inference = FactInference(skills)
+        self._inferred = InferredFacts(set())
 
     def _ground(self) -> tuple[Task, list[Operator]]:
         """The rules that derive what is asked for, on bit sets."""
@@ -140,10 +140,10 @@ class Observer:
 
     def now(self, kept: State) -> State:
         """The state now, with what cannot be seen as in ``kept``."""
-        self._inferred = Inferred(set(kept))
+        self._inferred = InferredFacts(set(kept))
         return self._now(self._inferred, kept, kept)
 
-    def _now(self, inferred: Inferred, before: State, jointless: State) -> State:
+    def _now(self, inferred: InferredFacts, before: State, jointless: State) -> State:
         """The state now; what a joint leaves open is as before, and as ``jointless`` where there is no joint."""
         kept = inferred.state
         told = {a for a in kept if a.predicate not in self.skills.seen and a.predicate not in self.skills.derived}
@@ -169,7 +169,7 @@ class Observer:
             followed = self._task.decode(bits)
         return found | {a for a in followed if a.predicate in self.skills.derived}
 
-    def effects(self, before: State, predicted: State, observed: State) -> list[Effect]:
+    def effects(self, before: State, predicted: State, observed: State) -> list[KnownEffect]:
         """What an instruction changed as predicted, sorted, each with what it is known by.
 
         What the robot is no longer near to is left out.
@@ -179,7 +179,7 @@ class Observer:
             holds = atom in predicted
             if holds is not (atom in observed) or (not holds and atom.predicate in self.skills.confirmed):
                 continue
-            found.append(Effect(atom, holds, *self._known_by(atom)))
+            found.append(KnownEffect(atom, holds, *self._known_by(atom)))
         return found
 
     def _known_by(self, atom: GroundAtom) -> tuple[Basis, str]:

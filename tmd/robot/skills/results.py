@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from tmd.pddl.model import Instruction, State
-from tmd.robot.monitor.inference import Effect
+from tmd.robot.monitor.inference import KnownEffect
 from tmd.robot.monitor.observation import Mismatch
 
 
@@ -63,7 +63,7 @@ class ExecutedStep:
     repair: bool
     failure: str
     evidence: str
-    effects: tuple[Effect, ...]
+    effects: tuple[KnownEffect, ...]
     mismatches: tuple[Mismatch, ...]
     begin: int
     end: int
