@@ -95,7 +95,7 @@ def test_it_takes_a_cup(tmp_path: Path) -> None:
     file = tmp_path / "run.csv"
     run = kit.run_plan(plan, "kitchen1", kinematic=True, robot="tiago_pro", trajectory=file)
     assert run.execution.status == "done", run.execution.reason
-    assert "(holding pr2 cup1)" in run.record.steps[-1].confirmed
+    assert "(holding pr2 cup1)" in map(str, run.execution.steps[-1].state)
     columns = file.read_text().splitlines()[0].split(",")
     assert {"arm_left_1_joint", "gripper_right_finger_joint", "head_2_joint"} <= set(columns), "its own names"
 
