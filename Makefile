@@ -47,6 +47,7 @@ $(STAMP): venv
 	@command -v g++ >/dev/null || { echo "error: there is no g++, which pr2-ikfast is compiled with; install it (apt-get install g++). 'make experiment' and 'make demo' do without" >&2; exit 1; }
 	@echo "installing everything, tests and tools too, into $(VENV)/: some 2.1 GB on disk; stop and go on as you like …"
 	@$(PIP) --editable '.[fast,dev]'
+	@$(BIN)/python -m compileall -q tmd  # each start of the program is quicker, wherever Python may not write
 	@$(BIN)/python -m tmd.planning || true
 	@cp pyproject.toml $@
 
@@ -56,6 +57,7 @@ job:
 $(JOB): venv
 	@echo "installing what the main job needs into $(VENV)/: some 1.7 GB on disk; stop and go on as you like …"
 	@$(PIP) --editable '.[fast,robot]'
+	@$(BIN)/python -m compileall -q tmd  # each start of the program is quicker, wherever Python may not write
 	@$(BIN)/python -m tmd.planning || true
 	@cp pyproject.toml $@
 

@@ -26,7 +26,7 @@ from tmd.pddl.plan_file import read_plan as read_plan_file
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_domain, format_problem
-from tmd.planning.backends import AUTO, solve
+from tmd.planning.backends import AUTO, TIME_LIMIT, solve
 from tmd.planning.result import Solved, Unreachable
 from tmd.veil.roots import Roots
 
@@ -227,14 +227,22 @@ def load_problem(problem: str | Path, domain: str | Path | None = None) -> Probl
     return Roots().problem(Path(problem), None if domain is None else str(domain))
 
 
-def find_plan(problem: Problem, *, planner: str = AUTO) -> tuple[Instruction, ...]:
+def find_plan(
+    problem: Problem, *, planner: str = AUTO, optimal: bool = False, time_limit: float = TIME_LIMIT
+) -> tuple[Instruction, ...]:
     """A plan for ``problem``, as ``tmd plan`` finds it.
+
+    Args:
+        problem: The problem.
+        planner: The planner, as ``tmd plan --planner`` takes it.
+        optimal: Whether only a plan counts that is proven to be optimal.
+        time_limit: Seconds after which the planner is stopped.
 
     Raises:
         NoPlanError: There is none, or none was found.
         TmdError: There is no such planner, or it refuses the problem.
     """
-    answer = solve(problem, planner)
+    answer = solve(problem, planner, optimal=optimal, seconds=time_limit)
     if isinstance(answer, Solved):
         return answer.plan
     if isinstance(answer, Unreachable):

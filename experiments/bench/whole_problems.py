@@ -65,6 +65,7 @@ def routes() -> list[Route]:
     found = [
         Route("tmd plan", tmd),
         Route("tmd plan --planner kairos", (*tmd, "--planner", "kairos")),
+        Route("tmd plan --planner fast-downward", (*tmd, "--planner", "fast-downward")),
         Route("tmd plan --planner in-process", (*tmd, "--planner", "in-process"), optimal=True),
         Route("tmd plan --optimal", (*tmd, "--optimal"), optimal=True),
         Route("tmd plan --optimal --planner kairos", (*tmd, "--optimal", "--planner", "kairos"), optimal=True),

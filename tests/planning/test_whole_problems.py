@@ -192,7 +192,7 @@ def fake(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[FakeDownwa
 def test_a_planner_that_fails_is_told_in_one_line(fake: FakeDownward, search: str, translator: str, told: str) -> None:
     fake.does(search, translator)
     with pytest.raises(PlannerError, match=f"^Fast Downward .*{told}") as caught:
-        solve(lamp("(lit)"))
+        solve(lamp("(lit)"), "fast-downward")
     assert "\n" not in caught.value.message and int(caught.value.exit_code) == 35
 
 
@@ -210,7 +210,7 @@ def test_a_planner_that_hangs_or_runs_out_of_memory_gave_up(
     fake: FakeDownward, search: str, translator: str, limit: str
 ) -> None:
     fake.does(search, translator)
-    answer = solve(lamp("(lit)"), seconds=1.2)
+    answer = solve(lamp("(lit)"), "fast-downward", seconds=1.2)
     assert answer == GaveUp(f"{limit} of Fast Downward")
 
 
@@ -222,12 +222,14 @@ def test_a_planner_that_never_reads_gave_up(fake: FakeDownward) -> None:
     things = " ".join(f"o{number}" for number in range(20_000))
     domain = parse_domain("(define (domain d) (:predicates (p ?x) (q)) (:action a :effect (q)))")
     text = f"(define (problem big) (:domain d) (:objects {things}) (:init {facts}) (:goal (q)))"
-    assert isinstance(solve(parse_problem(text, domain), seconds=1.0), GaveUp)
+    assert isinstance(solve(parse_problem(text, domain), "fast-downward", seconds=1.0), GaveUp)
 
 
 def test_an_unsolvable_problem_is_proven_beside_a_search_without_end(fake: FakeDownward) -> None:
     fake.does("sleep 60")
-    assert solve(lamp("(and (on) (off))"), seconds=50) == Unreachable("(off) and (on) exclude each other")
+    assert solve(lamp("(and (on) (off))"), "fast-downward", seconds=50) == Unreachable(
+        "(off) and (on) exclude each other"
+    )
 
 
 @pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM])
@@ -241,7 +243,7 @@ def test_no_planner_outlives_the_program(fake: FakeDownward, number: signal.Sign
         f"d.binaries = lambda: Path({str(fake.directory)!r})\n"
         "from tmd.cli import main; sys.argv[0] = 'tmd'; main()"
     )
-    command = [sys.executable, "-c", program, "plan", str(domain), str(problem)]
+    command = [sys.executable, "-c", program, "plan", str(domain), str(problem), "--planner", "fast-downward"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as running:
         while not any("sleep" in Path(f"/proc/{pid}/comm").read_text() for pid in fake.running()):
             time.sleep(0.05)
@@ -250,6 +252,33 @@ def test_no_planner_outlives_the_program(fake: FakeDownward, number: signal.Sign
     assert all_gone(str(fake.directory))
     if number == signal.SIGTERM:
         assert (running.returncode, told) == (130, "error: interrupted\n")
+
+
+@pytest.mark.parametrize(
+    "does",
+    [
+        "exec sleep 60",
+        "kill -SEGV $$",
+        "exit 10",
+        "exit 11",
+        "exit 12",
+        "exit 13",
+        "exit 14",
+        "echo '(light x)'",
+        "echo hello",
+    ],
+)
+def test_what_kairos_does_not_solve_fast_downward_is_asked(
+    does: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("kairos")
+    pytest.importorskip("up_fast_downward")
+    program = tmp_path / "kairos"
+    program.write_text(f"#!/bin/sh\n{does}\n")
+    program.chmod(0o755)
+    monkeypatch.setattr("tmd.planning.kairos.program", lambda: str(program))
+    answer = solve(lamp("(lit)"), seconds=4.0)
+    assert isinstance(answer, Solved) and answer.plan
 
 
 # ---------------------------------------------------------------------- the worker of unified-planning

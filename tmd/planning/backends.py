@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from importlib.util import find_spec
 from typing import TYPE_CHECKING
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import MissingToolError, PlannerError, TmdError
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import nearest
 from tmd.planning.downward_process import DownwardProcess
@@ -30,7 +31,7 @@ KAIROS = "kairos"
 """kairos, for whole problems, where it is installed."""
 
 AUTO = "auto"
-"""For whole problems: Fast Downward, and the search of this package where that is not installed."""
+"""For whole problems: kairos where any plan will do, then Fast Downward, or else the search of this package."""
 
 UP_PREFIX = "up:"
 """What stands before the name of any other engine of unified-planning."""
@@ -38,6 +39,11 @@ UP_PREFIX = "up:"
 
 SOON = 2_000
 """Generated states up to which the greedy search's plans are about as cheap as Fast Downward's first ones."""
+
+FIRST_SHARE = 0.5
+"""The share of the time that kairos gets at most before Fast Downward."""
+FIRST_SECONDS = 30.0
+"""Seconds that it gets at most: nearly all that it solves, it solves sooner."""
 
 TIME_LIMIT = 300.0
 """Seconds for a whole problem: an impossible goal can keep a planner busy for ever."""
@@ -146,6 +152,12 @@ def _solution(
 ) -> Solution:
     name = planner
     if planner == AUTO:
+        if not optimal and find_spec("kairos"):
+            first = deadline.at_most(min(FIRST_SECONDS, FIRST_SHARE * deadline.seconds))
+            with suppress(PlannerError, MissingToolError):
+                found = _solution(problem, KAIROS, optimal, first, None)
+                if isinstance(found, Solved):  # it was replayed; that there is no plan is for others to confirm
+                    return found
         name = FAST_DOWNWARD if find_spec("up_fast_downward") else IN_PROCESS
     if name == FAST_DOWNWARD:
         return FastDownward(problem, optimal=optimal, deadline=deadline).solve(started)

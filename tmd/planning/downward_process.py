@@ -134,6 +134,7 @@ class DownwardProcess:
 
 
 def early_start(planner: str | None, *, optimal: bool) -> AbstractContextManager[DownwardProcess | None]:
-    """Fast Downward for :func:`tmd.planning.backends.solve`, where ``planner`` will need it and it is there."""
-    needed = planner in (None, "auto", "fast-downward") and find_spec("up_fast_downward")
+    """Fast Downward for :func:`tmd.planning.backends.solve`, where ``planner`` asks it first and it is there."""
+    first = planner == "fast-downward" or (planner in (None, "auto") and (optimal or not find_spec("kairos")))
+    needed = first and find_spec("up_fast_downward")
     return DownwardProcess(OPTIMAL if optimal else FIRST) if needed else nullcontext()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import nullcontext
 from dataclasses import replace
 from typing import IO, TYPE_CHECKING
 
@@ -17,11 +18,11 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.planning.downward_process import FIRST, NAME, OPTIMAL, DownwardProcess, search_command
 from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
+from tmd.planning.prover import EXPLAINING, SOON, Prover
 from tmd.planning.result import Answer, Filled, GaveUp, Solution, Solved, Unreachable
 
 if TYPE_CHECKING:
     from tmd.pddl.task import Bits, Cube, Task
-    from tmd.planning.prover import Prover
 
 OPTIMAL_WITH_CONDITIONS = "astar(hmax())"
 """Optimal with conditional effects; under axioms (from universal preconditions) hmax may overestimate."""
@@ -37,11 +38,6 @@ FIRST_OF_A_GAP = (
 FF alone does not see that a full hand takes nothing more: of a goal that clears a table of four things it evaluates two
 million states in vain, with landmarks beside it 1,700. On the bundled problems the plans are as long.
 """
-
-SOON = 1.0
-"""Seconds of search after which proofs are looked for beside it."""
-EXPLAINING = 20.0
-"""Seconds in which the reason is looked for when it is known that there is no plan."""
 
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
@@ -67,9 +63,8 @@ class FastDownward:
     ) -> None:
         self.problem = problem
         self.deadline = deadline
-        self.prove = prove
         self.search = search or (OPTIMAL if optimal else FIRST)
-        self._prover: Prover | None = None  # imported when it is needed
+        self._prover = Prover(problem) if prove else None
 
     def solve(self, started: DownwardProcess | None = None) -> Solution:
         """A plan, or why there is none.
@@ -82,23 +77,19 @@ class FastDownward:
             PlannerError: It died, or what it gave is no plan.
             TmdError: It does not take the problem.
         """
-        try:
-            with started or DownwardProcess(self.search) as running:
-                running.give(texts_for_planners(self.problem), self.deadline)
-                from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
+        with self._prover or nullcontext(), started or DownwardProcess(self.search) as running:
+            running.give(texts_for_planners(self.problem), self.deadline)
+            from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
-                while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
-                    if not self.deadline.left():
-                        break
-                answer = self._answer(running.process, self.search, running.plan)
-                if answer is not None:
-                    return answer
-                axioms = _AXIOMS.search(running.process.said())
-                exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
-                return self._again(running.sas, exhaustive)
-        finally:
-            if self._prover is not None:
-                self._prover.process.__exit__(None, None, None)
+            while running.process.wait(self.deadline.at_most(SOON)) is None and not running.translated():
+                if not self.deadline.left():
+                    break
+            answer = self._answer(running.process, self.search, running.plan)
+            if answer is not None:
+                return answer
+            axioms = _AXIOMS.search(running.process.said())
+            exhaustive = OPTIMAL_WITH_CONDITIONS if axioms and axioms[1] == "0" else OPTIMAL_WITH_AXIOMS
+            return self._again(running.sas, exhaustive)
 
     def _again(self, sas: IO[bytes], search: str) -> Solution:
         """Another search on what is translated already."""
@@ -133,28 +124,14 @@ class FastDownward:
 
     def _awaited(self, search: PlannerProcess) -> str | None:
         """Wait for a search; a reason that there is no plan, where that is found first."""
-        if not self.prove:
-            search.wait(self.deadline)
-        elif search.wait(self.deadline.at_most(SOON)) is None:
-            prover = self._start_prover()
-            search.wait_with(prover.process, self.deadline)
-            if search.poll() is None:
-                reason = prover.reason(Deadline(0))
-                if reason is not None:
-                    return reason
-                search.wait(self.deadline)
+        if self._prover is not None:
+            return self._prover.awaited(search, self.deadline)
+        search.wait(self.deadline)
         return None
-
-    def _start_prover(self) -> Prover:
-        if self._prover is None:
-            from tmd.planning.prover import Prover
-
-            self._prover = Prover(self.problem)
-        return self._prover
 
     def _reason(self) -> str:
         """Why there is no plan, which is certain."""
-        found = self._start_prover().reason(self.deadline.at_most(EXPLAINING)) if self.prove else None
+        found = self._prover.reason(self.deadline.at_most(EXPLAINING)) if self._prover else None
         return found or f"{NAME} looked at every state that can be reached, and the goal holds in none"
 
 

@@ -12,6 +12,7 @@ from tmd.diagnostics import MissingToolError
 from tmd.pddl.model import Problem
 from tmd.planning.fast_downward import checked, texts_for_planners
 from tmd.planning.processes import Deadline, PlannerProcess, died, unnamed_file
+from tmd.planning.prover import EXPLAINING, Prover
 from tmd.planning.result import GaveUp, Solution, Unreachable
 
 NAME = "kairos"
@@ -32,32 +33,40 @@ def kairos(problem: Problem, *, optimal: bool, deadline: Deadline) -> Solution:
             file.flush()
         files = (domain_file.fileno(), problem_file.fileno())
         command = [
-            *(_program(), *(f"/dev/fd/{file}" for file in files), "--threads", "1", "-v"),  # one: the same plan again
+            *(program(), *(f"/dev/fd/{file}" for file in files), "--threads", "1", "-v"),  # one: the same plan again
             *("--timeout", f"{max(deadline.left(), 0.01):.3f}", "--anytime" if optimal else "--no-anytime"),
         ]
-        with PlannerProcess(NAME, command, passed=files, keep_output=True) as process:
-            code = process.wait(Deadline(deadline.left() + 1.0))  # it knows the limit itself, and has a plan by then
-            match code:
+        with PlannerProcess(NAME, command, passed=files, keep_output=True) as process, Prover(problem) as prover:
+            # it knows the limit itself, and has a plan by then
+            reason = prover.awaited(process, Deadline(deadline.left() + 1.0))
+            if reason is not None:
+                return Unreachable(reason)
+            match process.poll():
                 case 0:
                     last = _BETTER.split(process.output())[-1]
                     return checked(problem, last, process, _PROVEN in process.said())
                 case None | 11:
                     return GaveUp(f"{deadline.seconds:g} s of {NAME}")
                 case 10:
-                    return Unreachable(f"{NAME} proved it")
+                    return Unreachable(prover.reason(deadline.at_most(EXPLAINING)) or f"{NAME} proved it")
                 case 12:
                     return GaveUp(f"the memory of {NAME}")
                 case 14:
                     return GaveUp(f"the end of what {NAME} can search")
                 case 13:
                     raise process.failed("does not take this kind of problem")
-                case _:
+                case code:
                     raise process.failed(died(code))
 
 
-def _program() -> str:
+def program() -> str:
+    """The path of kairos.
+
+    Raises:
+        MissingToolError: It is not installed.
+    """
     beside = Path(sys.executable).parent / "kairos"
     found = str(beside) if os.access(beside, os.X_OK) else shutil.which("kairos")
     if found is None:
-        raise MissingToolError("kairos is not installed", hint="pip install 'tmd[kairos]'")
+        raise MissingToolError("kairos is not installed", hint="pip install kairos-planner (Linux)")
     return found

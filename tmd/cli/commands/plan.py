@@ -14,7 +14,7 @@ from tmd.veil.roots import Roots
 @click.command("plan", short_help="Find a plan for a PDDL problem.")
 @click.argument("domain")
 @click.argument("problem", type=click.Path(path_type=Path))
-@click.option("--planner", metavar="NAME", help="fast-downward (default), kairos, in-process or up:ENGINE.")
+@click.option("--planner", metavar="NAME", help="auto (default), kairos, fast-downward, in-process or up:ENGINE.")
 @click.option(
     "--optimal/--satisficing", default=False, help="Only a plan that is proven to be optimal, or any (the default)."
 )
