@@ -32,7 +32,7 @@ from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
 _FACTS = 2
 """Maximum number of facts of each kind on a line."""
-_SILENCE = 5.0
+_SILENCE = 10.0
 """Seconds after which it is told what a robot is looking for that does not move."""
 
 

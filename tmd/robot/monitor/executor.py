@@ -257,7 +257,7 @@ class Executor:
                 if not done.failure and self._did(tried, before, state):
                     waiting.pop(0)  # it did what it is for; something else is not as it should be
                     attempt = 0
-                    if waiting and self._goes_on(waiting, state):
+                    if waiting and self._goes_on(waiting, state, wanted):
                         continue
             else:
                 tried = waiting[0][0] if waiting else None
@@ -286,13 +286,13 @@ class Executor:
             and (self.observer.skills.inferred[atom.predicate] != "event")
         )
 
-    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
-        """Whether what is waiting can be executed from here as it is: then nothing is to be replanned."""
+    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
+        """Whether what is waiting leads to what is wanted from here as it is: then nothing is to be replanned."""
         for instruction, _ in waiting:
             if first_broken(instruction, state, self.problem) is not None:
                 return False
             state = apply(instruction, state, self.problem)
-        return True
+        return _satisfied(wanted, state)
 
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
@@ -343,13 +343,12 @@ class Executor:
         moved since it failed.
         """
         task = ground(replace(self.problem, init=state))
-        found: list[tuple[Instruction, bool]] | str | None = self._around(task, waiting, wanted)
+        found: list[tuple[Instruction, bool]] | str | None
+        found = self._regained(task, self._setbacks.standing, waiting, wanted) or self._around(task, waiting, wanted)
         if found is None:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
             way = _missing(self.planner, plain, waiting, wanted)
             found = way if isinstance(way, str) else _joined(way, waiting)
-            if isinstance(way, str):
-                found = self._regained(task, (), waiting, wanted) or way
         if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
             return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
         return found
@@ -377,9 +376,6 @@ class Executor:
         question = tuple(self._setbacks.standing), tuple(waiting)
         if not self._setbacks.standing or question in self._hopeless:
             return None
-        regained = self._regained(task, self._setbacks.standing, waiting, wanted)
-        if regained is not None:
-            return regained
         # setbacks are no part of the PDDL that other planners are given
         plain = careful(task, self.observer.skills)
         freed = self._setbacks.with_free_hands(task.decode(task.init))
@@ -400,7 +396,10 @@ class Executor:
         A search for all at once would be much longer than each of these.
         """
         state = task.decode(task.init)
+        rules = self.observer.skills.inferred
         lost = frozenset(atom for atom in self._lost if atom not in state)
+        if not waiting:
+            lost |= frozenset(a for a in wanted[0] if a not in state and rules.get(a.predicate) == "contents")
         if not lost:
             return None
         plain = careful(task, self.observer.skills)

@@ -17,6 +17,10 @@ from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
 
+_OPEN = 0.08
+"""Metres between the fingers of a hand that is about to take something."""
+_ALONG = 0.7
+"""Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar."""
 _ALIKE = (0.03, 0.5)
 """Metres and radians between grips that count as one."""
 
@@ -32,8 +36,9 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     body = cell.scene.bodies[item]
     start = cell.sim.pose(body)
+    lies_by_bar = cell.tilt(item) > CONTACT.upright and any(map(_of_bar, cell.scene.grasps(item)))
     for side in cell.free():
-        cell.robot.open_gripper(side)
+        cell.robot.open_gripper(side, GRASP.bar if lies_by_bar else _OPEN)
     chosen = reach(cell, item, options, cell.sim.pose(body), cell.front(item), attempt)
     side = chosen.side
     cell.robot.close_gripper(side)
@@ -288,10 +293,18 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
     return f"{item} is on the floor"
 
 
+def _gap_to_let_go(cell: Cell, side: str, item: str) -> float:
+    """How wide a hand opens that lets go: as wide as it can, or as little as it must where a finger is behind a bar."""
+    _, across, _ = cell.in_tool(side, item).inverse().rotate((0.0, 1.0, 0.0))
+    behind = abs(across) < _ALONG and any(map(_of_bar, cell.scene.grasps(item)))
+    return GRASP.bar if behind else MOTOR.gripper_gap
+
+
 def _release(cell: Cell, side: str, item: str) -> None:
+    wide = _gap_to_let_go(cell, side, item)
     cell.robot.let_go(side)
     cell.in_hand.pop(side, None)
-    cell.robot.open_gripper(side, MOTOR.gripper_gap)  # a finger that still touches it would drag it along
+    cell.robot.open_gripper(side, wide)  # a finger that still touches it would drag it along
     cell.settle()
 
 
