@@ -87,7 +87,7 @@ def _parser() -> argparse.ArgumentParser:
 def _execute(asked: argparse.Namespace) -> None:
     """Run the cases that are not done yet."""
     found = corpus(asked.domain)
-    blank = Case("", asked.domain, "", "", (), "", (), asked.physics, "", asked.seed, asked.repairs, asked.twice)
+    blank = Case("", asked.domain, "", "", (), (), asked.physics, "", asked.seed, asked.repairs, asked.twice)
     chosen = {"tasks": asked.tasks, "environments": asked.environments, "every": asked.every, "each": asked.each}
     if asked.goals is not None:
         cases = goals(asked.goals, blank)[:: asked.every]

@@ -27,13 +27,13 @@ class Case:
         task: Which task it serves.
         environment: Where: the name of a bundled environment, or a file.
         plan: The instructions, in functional notation; none where there is a goal.
-        goal: A PDDL condition that a plan is made for.
         end_state: Literals that hold when all is done.
         physics: Under physics; otherwise kinematically.
         fault: Which kind of fault is injected; empty for none.
         seed: Random seed. With 0 things stand exactly where they should; other seeds move them a little.
         repairs: Maximum number of times the executor replans.
         twice: Run it two times and compare the trajectories.
+        goal: A PDDL condition that a plan is made for.
     """
 
     name: str
@@ -41,13 +41,13 @@ class Case:
     task: str
     environment: str
     plan: tuple[str, ...]
-    goal: str
     end_state: tuple[str, ...]
     physics: bool
     fault: str
     seed: int
     repairs: int
     twice: bool
+    goal: str = ""
 
     @property
     def key(self) -> Key:

@@ -237,6 +237,7 @@ class Executor:
         self._lost: frozenset[GroundAtom] = frozenset()
         self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
         self._spent: set[tuple[Instruction, Hashable]] = set()
+        self._on_course: State = self.problem.init
         self._named = {name for instruction in plan for name in instruction.args}
         state = self.observer.now(self.problem.init)
         wanted = self._wanted(plan, state)
@@ -313,6 +314,8 @@ class Executor:
         if not failure:
             self._setbacks.fruitless(instruction, self._in_vain(mismatches, now))
         self._lost = self._still_lost(mismatches, now) if failure or mismatches or repair else frozenset()
+        if not (failure or mismatches or repair):
+            self._on_course = now
         step = ExecutedStep(
             instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
@@ -408,8 +411,8 @@ class Executor:
             return None
         after = _end(plain, task.init, way)
         worked = {p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting")}
-        changed = {atom for atom in state ^ plain.decode(after) if atom.predicate in worked}
-        again = frozenset(atom for atom in changed if atom in state), frozenset(changed - state)
+        changed = {atom for atom in self._on_course ^ plain.decode(after) if atom.predicate in worked}
+        again = frozenset(changed & self._on_course), frozenset(changed - self._on_course)
         back = _missing(IN_PROCESS, replace(plain, init=after), (), again)
         if isinstance(back, str):
             back = ()
