@@ -200,6 +200,9 @@ def test_a_plan_is_carried_out(tmp_path: Path) -> None:
     find = tmd.Instruction("find", ("mug1",))
     run = kitchen.run_plan([find], "kitchen1", kinematic=True)
     assert run.execution.status == "done"
+    assert isinstance(run, tmd.RecordedRun)
+    assert tmd.RunRecord.from_text(json.dumps(run.record.to_value()), "record") == run.record
+    assert (run.record.status, [step.instruction for step in run.record.steps]) == ("done", [find])
     assert [step.instruction for step in run.execution.steps] == [find]
     with pytest.raises(tmd.TmdError, match="the plan does not work: "):
         kitchen.run_plan([tmd.Instruction("grasp", ("mug1",))] * 2, "kitchen1")

@@ -33,7 +33,7 @@ LAYER = {package: number for number, layer in enumerate(LAYERS) for package in l
 HEAVY = {
     "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
     "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
-    "viser", "trimesh",
+    "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco",
 }  # fmt: skip
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

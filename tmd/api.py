@@ -36,7 +36,8 @@ if TYPE_CHECKING:
     from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
     from tmd.evaluation.sentence_tests import read_sentences as read_sentences
     from tmd.format.files import format_file as format_file
-    from tmd.robot.run_plan import PlanRun as PlanRun
+    from tmd.records.run import RecordedRun as RecordedRun
+    from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
     from tmd.robot_trials.experiment import run_experiment as run_experiment
     from tmd.world.scaffold import Scaffold
@@ -44,7 +45,8 @@ if TYPE_CHECKING:
 _LATER = {
     "CheckReport": "tmd.check.report",
     "ExperimentConfig": "tmd.evaluation.runs.config",
-    "PlanRun": "tmd.robot.run_plan",
+    "RecordedRun": "tmd.records.run",
+    "RunRecord": "tmd.records.run",
     "carry_out_predictions": "tmd.robot_trials.experiment",
     "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
@@ -60,8 +62,9 @@ __all__ = [
     "Grounded",
     "Instruction",
     "NoPlanError",
-    "PlanRun",
     "Problem",
+    "RecordedRun",
+    "RunRecord",
     "TmdError",
     "Verdict",
     "asked_problem",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
@@ -16,7 +16,7 @@ from tmd.inference.energy import Weights, named_weights, read_weights
 from tmd.inference.learned import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import ClauseParser, parse
-from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
@@ -25,9 +25,10 @@ from tmd.veil.world import World, make_world
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest
-    from tmd.robot.monitor.listeners import Order
-    from tmd.robot.run_plan import PlanRun
+    from tmd.records.run import RanStep, RecordedRun
+    from tmd.robot.monitor.listeners import Order, Title
     from tmd.robot.skills.reachability_report import SceneSurvey
+    from tmd.robot.skills.results import ExecutedStep
     from tmd.studio.server import Server
 
 LEARNED = "learned"
@@ -139,9 +140,12 @@ class DomainKit:
         fault: str | None = None,
         video: str | Path | None = None,
         strip: str | Path | None = None,
+        trajectory: str | Path | None = None,
+        rate: float = 10.0,
+        robot: str = "pr2",
         urdf: str | Path | None = None,
         gui: bool = False,
-    ) -> PlanRun:
+    ) -> RecordedRun:
         """Let a simulated PR2 carry out a plan, each effect checked, as ``tmd run`` does.
 
         Args:
@@ -154,11 +158,14 @@ class DomainKit:
             fault: Goes wrong once on the way: ``slip``, ``stuck``, ``moved`` or ``missed``.
             video: Where a film goes, an MP4 or GIF file.
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
-            urdf: Another PR2 than the packaged one.
+            trajectory: Where joints, base and things are recorded: a .jsonl, .csv, .mcap or .yaml (MoveIt) file.
+            rate: Samples of that a second of simulated time.
+            robot: ``pr2`` or ``tiago_pro``.
+            urdf: Another PR2 or TIAGo Pro than the packaged one.
             gui: Open a window, and go no faster than real time.
 
         Returns:
-            How it ended, with every step.
+            How it ended, with every step, and the record that ``tmd run --json`` prints.
 
         Raises:
             MissingToolError: What simulates or films is not installed.
@@ -167,14 +174,17 @@ class DomainKit:
         """
         from contextlib import nullcontext
 
+        from tmd.export.trajectory import SUFFIXES, open_trajectory, recorders
         from tmd.files import check_writable
         from tmd.robot.monitor.faults import InjectedFault
         from tmd.robot.monitor.listeners import Order
+        from tmd.robot.pr2.urdf import packaged_robot
         from tmd.robot.run_plan import Filming, run_plan
         from tmd.robot.video.film import open_movie
         from tmd.world.environment import load_room
 
-        room, problem = load_room(self._file(environment)), self.problem(environment)
+        file = self._file(environment)
+        room, problem = load_room(file), self.problem(environment)
         if isinstance(plan, Grounded):
             orders = orders_of(plan)
             said = plan.parsed.text
@@ -183,25 +193,50 @@ class DomainKit:
         verdict = validate(problem, [order.instruction for order in orders])
         if not verdict.valid:
             raise TmdError(f"the plan does not work: {verdict.reason}")
-        for output in (video, strip):
+        for output in (video, strip, trajectory):
             if output is not None:
                 check_writable(output)
-        with open_movie(Path(video)) if video else nullcontext() as movie:
+        if trajectory is not None and Path(trajectory).suffix not in SUFFIXES:
+            raise TmdError(f"{trajectory}: a trajectory ends in one of {', '.join(SUFFIXES)}")
+        steps = _Steps()
+        with (
+            open_movie(Path(video)) if video else nullcontext() as movie,
+            open_trajectory(Path(trajectory)) if trajectory else nullcontext() as recording,
+        ):
             filming = Filming(room.name, said, movie, Path(strip) if strip else None) if video or strip else None
-            return run_plan(
+            run = run_plan(
                 room,
                 self._corpus.folder,
                 problem,
                 orders,
+                prepare=lambda session: (steps, *recorders(session, recording, rate)),
                 filming=filming,
                 planner=planner,
                 repairs=repairs,
                 fault=InjectedFault(fault) if fault else None,
                 kinematic=kinematic,
                 seed=seed,
-                urdf=Path(urdf) if urdf else None,
+                urdf=Path(urdf) if urdf else packaged_robot(robot),
                 gui=gui,
             )
+        from tmd import __version__
+        from tmd.records.run import OrderRecord, RecordedRun, RunRecord, RunRequest
+
+        asked = RunRequest(
+            text=said or None,
+            domain=self.name,
+            environment=room.name,
+            mode="kinematic" if kinematic else "physics",
+            seed=seed,
+            fault=fault,
+            planner=planner,
+            plan=tuple(map(OrderRecord.of, orders)),
+            version=__version__,
+            environment_file=str(file) if Path(environment).suffix in _FILES else None,
+            strip=Path(strip).name if strip else None,
+            grounding=None,
+        )
+        return RecordedRun(run.execution, RunRecord.of(asked, steps.done, run.faults, run.execution, run.sim_steps))
 
     def survey_scene(
         self,
@@ -209,6 +244,7 @@ class DomainKit:
         *,
         reach: bool = False,
         seed: int = 0,
+        robot: str = "pr2",
         urdf: str | Path | None = None,
         picture: str | Path | None = None,
     ) -> SceneSurvey:
@@ -216,6 +252,7 @@ class DomainKit:
 
         See :func:`tmd.robot.skills.reachability_report.survey_scene` for arguments and errors.
         """
+        from tmd.robot.pr2.urdf import packaged_robot
         from tmd.robot.skills.reachability_report import survey_scene
         from tmd.world.environment import load_room
 
@@ -224,7 +261,7 @@ class DomainKit:
             self._corpus.folder,
             reach=reach,
             seed=seed,
-            urdf=Path(urdf) if urdf else None,
+            urdf=Path(urdf) if urdf else packaged_robot(robot),
             picture=Path(picture) if picture else None,
         )
 
@@ -323,6 +360,22 @@ class DomainKit:
             return self._corpus.world(str(environment))
         problem = self._corpus.read(Path(environment))
         return make_world(problem.name, problem, self._corpus.lexicon)
+
+
+class _Steps:
+    """Keeps each step of a run as its record."""
+
+    def __init__(self) -> None:
+        self.done: list[RanStep] = []
+
+    def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
+        """Nothing is over yet."""
+
+    def end(self, title: Title, step: ExecutedStep) -> None:
+        """A step is over."""
+        from tmd.records.run import RanStep
+
+        self.done.append(RanStep.of(title, step))
 
 
 def orders_of(grounded: Grounded) -> list[Order]:

@@ -18,10 +18,9 @@ from tmd.robot.parameters import ARM_MOTION
 from tmd.robot.pr2.arm_motion import STRIDES
 from tmd.robot.pr2.collision import CollisionChecker
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.posture import TUCKED
 from tmd.robot.pr2.pr2 import Pr2
 from tmd.robot.pr2.rrt import plan
-from tmd.robot.pr2.urdf import prepare
+from tmd.robot.pr2.urdf import TUCKED, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 

@@ -17,10 +17,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from experiments.execution.cases import ALL, ONE, demonstrations, plans, with_faults
+from experiments.execution.cases import ALL, ONE, demonstrations, goals, plans, with_faults
 from experiments.execution.record import FAILED, Case, Record, append, read
 from experiments.execution.report import report
-from experiments.execution.run import corpus, run, skills_of
+from experiments.execution.run import corpus, planned, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.files import make_directory, write_text
 from tmd.pddl.reading.syntax import read_text
@@ -66,6 +66,7 @@ def _parser() -> argparse.ArgumentParser:
     add("--every", type=_positive, default=1, metavar="N", help="only each Nth demonstration")
     add("--each", type=_positive, metavar="N", help="at most N demonstrations of one task in one environment")
     add("--plan", action="append", default=[], metavar="ENV=FILE", help="this plan; may be given more than once")
+    add("--goals", type=Path, metavar="FILE", help="these goals instead: JSON Lines with name, environment and goal")
     add("--physics", action="store_true", help="under physics, not kinematically")
     add("--faults", type=_names, default=(), metavar="KIND", help=f"inject faults: kinds, '{ALL}', or '{ONE}' a run")
     add("--seed", type=int, default=0, metavar="S", help="of everything random; 0, the default: exact places")
@@ -88,9 +89,12 @@ def _execute(asked: argparse.Namespace) -> None:
     found = corpus(asked.domain)
     blank = Case("", asked.domain, "", "", (), (), asked.physics, "", asked.seed, asked.repairs, asked.twice)
     chosen = {"tasks": asked.tasks, "environments": asked.environments, "every": asked.every, "each": asked.each}
-    cases = list(plans(found, blank, asked.plan)) or demonstrations(found, blank, **chosen)
+    if asked.goals is not None:
+        cases = goals(asked.goals, blank)[:: asked.every]
+    else:
+        cases = list(plans(found, blank, asked.plan)) or demonstrations(found, blank, **chosen)
     if asked.faults:
-        cases = with_faults(cases, asked.faults, skills_of(asked.domain))
+        cases = with_faults([planned(case) for case in cases], asked.faults, skills_of(asked.domain))
     directory = make_directory(asked.out)
     done = {record.key for record in read(directory)}
     waiting = [case for case in cases if case.key not in done]
@@ -117,7 +121,8 @@ def _put(page: Path, tables: str) -> None:
 
 def _line(record: Record) -> str:
     said = " ".join(filter(None, (record.mode, record.fault, record.status)))
-    return f"{record.name} {said}, {record.seconds:.1f} s{': ' * bool(record.reason)}{record.reason}"
+    false = f", {len(record.false)} false" if record.false else ""
+    return f"{record.name} {said}{false}, {record.cpu:.1f} s{': ' * bool(record.reason)}{record.reason}"
 
 
 def _names(text: str) -> tuple[str, ...]:

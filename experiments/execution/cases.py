@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import replace
@@ -12,6 +13,7 @@ import numpy as np
 from experiments.execution.record import Case
 from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction, read_plan
+from tmd.pddl.reading.syntax import read_text
 from tmd.robot.monitor.faults import InjectedFault, opportunities
 from tmd.robot.skills.skill_file import Skills
 from tmd.veil.corpus import Corpus
@@ -68,6 +70,21 @@ def plans(corpus: Corpus, blank: Case, given: Iterable[str]) -> Iterator[Case]:
             )
         plan = tuple(map(str, read_plan(Path(file)).instructions))
         yield replace(blank, name=Path(file).stem, task="plan", environment=environment, plan=plan)
+
+
+def goals(file: Path, blank: Case) -> list[Case]:
+    """A case for each line of a file with goals; its environments are bundled ones, or files beside it.
+
+    Raises:
+        TmdError: The file cannot be read.
+    """
+    found = []
+    for line in read_text(file).splitlines():
+        said = json.loads(line)
+        beside = file.parent / said["environment"]
+        where = str(beside) if beside.suffix == ".yaml" else said["environment"]
+        found.append(replace(blank, name=said["name"], task="goals", environment=where, goal=said["goal"]))
+    return found
 
 
 def with_faults(cases: Sequence[Case], kinds: Sequence[str], skills: Skills) -> list[Case]:

@@ -25,14 +25,15 @@ class Case:
         name: Of the demonstration or plan.
         domain: The domain's name.
         task: Which task it serves.
-        environment: Where.
-        plan: The instructions, in functional notation.
+        environment: Where: the name of a bundled environment, or a file.
+        plan: The instructions, in functional notation; none where there is a goal.
         end_state: Literals that hold when all is done.
         physics: Under physics; otherwise kinematically.
         fault: Which kind of fault is injected; empty for none.
         seed: Random seed. With 0 things stand exactly where they should; other seeds move them a little.
         repairs: Maximum number of times the executor replans.
         twice: Run it two times and compare the trajectories.
+        goal: A PDDL condition that a plan is made for.
     """
 
     name: str
@@ -46,6 +47,7 @@ class Case:
     seed: int
     repairs: int
     twice: bool
+    goal: str = ""
 
     @property
     def key(self) -> Key:
@@ -75,11 +77,19 @@ class Record(JsonRecord):
         repairs: How often the executor replanned.
         steps: The instructions.
         faults: The faults that came about.
+        fault_missing: Why the fault that was asked for did not come about; empty where it did.
+        lasting: What is otherwise in the end than the plan would have left it.
         goal: The literals of the end state that do not hold in what is observed at the end.
         setup: Seconds until the robot could begin.
         seconds: Of wall-clock time from then on.
+        cpu: Of processor time from then on, with the recorder's.
         simulated: Seconds of physics in that time.
         trajectory: The digest of the trajectory; empty where it was not asked for.
+        known: The number of effects that are measured, inferred and assumed.
+        judged: The number of claims that the judge found to be true.
+        unjudged: The number of those that it cannot tell about.
+        false: The claims that are not true, with the reasons.
+        worst: The farthest jump, the deepest contact, the farthest overrun of a joint.
         repeated: Whether the second run had the same; ``None`` where it was not asked for.
     """
 
@@ -97,11 +107,19 @@ class Record(JsonRecord):
     repairs: int
     steps: tuple[TimedStep, ...]
     faults: tuple[FaultRecord, ...]
+    fault_missing: str
+    lasting: tuple[str, ...]
     goal: tuple[str, ...]
     setup: float
     seconds: float
+    cpu: float
     simulated: float
     trajectory: str
+    known: dict[str, int]
+    judged: int
+    unjudged: int
+    false: tuple[str, ...]
+    worst: tuple[str, ...]
     repeated: bool | None
 
     @property

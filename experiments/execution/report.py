@@ -33,6 +33,7 @@ def report(records: Sequence[Record], *, markdown: bool, failures: int = 20) -> 
         for title, head, rows in (
             (f"Executed, {mode}", _EXECUTED, executed(plain)),
             (f"With faults injected, {mode}", _INJECTED, injected(hurt)),
+            (f"What was claimed, {mode}", _JUDGED, judged([*plain, *hurt])),
             (f"Failures, {mode}", _FAILURES, failed(plain)[:failures]),
             (f"Failures with faults injected, {mode}", _FAILURES, failed(hurt)[:failures]),
             (f"Slowest instructions, {mode}", _SLOW, slowest(plain)),
@@ -69,6 +70,22 @@ def _counts(records: Sequence[Record]) -> list[str]:
         f"{median(seconds):.1f}",
         f"{max(seconds):.1f}",
     ]
+
+
+_JUDGED = ["runs", "claims", "true", "not judged", "false", "measured", "inferred", "assumed", "simulated s / CPU s"]
+
+
+def judged(records: Sequence[Record]) -> Rows:
+    """How many claims the judge found to be true, and by what the effects are known; then each false claim."""
+    if not records:
+        return []
+    true, unjudged = sum(r.judged for r in records), sum(r.unjudged for r in records)
+    false = [f"{record.name}: {claim}" for record in records for claim in record.false]
+    known = [sum(record.known.get(basis, 0) for record in records) for basis in ("measured", "inferred", "assumed")]
+    rates = [record.simulated / record.cpu for record in records if record.cpu and record.status == "done"]
+    counts = [len(records), true + unjudged + len(false), true, unjudged, len(false), *known]
+    row = [*map(str, counts), f"{median(rates):.1f}" if rates else ""]
+    return [row, *([claim, *[""] * (len(row) - 1)] for claim in false)]
 
 
 _INJECTED = ["fault", "runs", "happened", "seen", "recovered", "stopped, seen", "unseen", "claimed falsely"]

@@ -5,23 +5,31 @@ from __future__ import annotations
 import re
 import time
 import traceback
+from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import cache
 
+from experiments.execution.judge import Judge, summary
 from experiments.execution.record import FAILED, Case, Record, TimedStep
+from experiments.execution.recorder import Recorder
 from experiments.execution.trace import Trace
-from tmd.pddl.model import GroundAtom, State
+from tmd.diagnostics import TmdError
+from tmd.pddl.model import And, GroundAtom, State
 from tmd.pddl.plan_file import parse_instruction
+from tmd.pddl.reading.reader import with_goal
+from tmd.pddl.writer import format_formula
+from tmd.planning.backends import solve
+from tmd.planning.result import Solved
 from tmd.records.run import FaultRecord, RanStep
 from tmd.robot.monitor.faults import InjectedFault
 from tmd.robot.monitor.listeners import Order, Title
-from tmd.robot.run_plan import run_plan
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.veil.corpus import Corpus
-from tmd.world.environment import load_environment
+from tmd.veil.roots import Roots
 from tmd.world.folder import find_domain, find_root
 
 
@@ -37,6 +45,23 @@ def run(case: Case) -> Record:
 def corpus(domain: str) -> Corpus:
     """The domain's problems; read once in a process."""
     return Corpus(find_domain(domain), find_root("problems") / domain)
+
+
+def planned(case: Case) -> Case:
+    """The case with a plan for its goal, if it has one.
+
+    Raises:
+        TmdError: There is no such environment, or no plan.
+    """
+    if not case.goal:
+        return case
+    _, world = Roots().world(case.environment)
+    problem = with_goal(world.task.problem, case.goal)
+    answer = solve(problem, "in-process")
+    if not isinstance(answer, Solved):
+        raise TmdError(f"{case.name}: no plan for {case.goal}")
+    literals = problem.goal.parts if isinstance(problem.goal, And) else (problem.goal,)
+    return replace(case, plan=tuple(map(str, answer.plan)), end_state=tuple(map(format_formula, literals)))
 
 
 @cache
@@ -57,40 +82,46 @@ def _guarded(case: Case) -> Record:
 
 def _run(case: Case) -> Record:
     begin = time.perf_counter()
-    found = corpus(case.domain)
-    problem = found.world(case.environment).task.problem
-    environment = load_environment(found.directory / "environments" / f"{case.environment}.yaml")
+    roots = Roots()
+    _, world = roots.world(case.environment)
+    environment, folder = roots.room(case.environment)
+    problem = world.task.problem
+    case = planned(case)
     orders = [Order(parse_instruction(text)) for text in case.plan]
     fault = InjectedFault(case.fault) if case.fault else None
     trace = Trace()
-    notes = _Notes(skills_of(case.domain))
-    started = (begin, 0)
-
-    def prepare(session: SimulationSession) -> tuple[_Notes]:
-        nonlocal started
+    notes = _Notes(load_skills(folder))
+    with SimulationSession(environment, folder, problem, kinematic=not case.physics, seed=case.seed) as session:
         if case.twice:
             session.sim.add_watcher(trace)
-        started = (time.perf_counter(), session.sim.steps)
+        recorder = Recorder(session)
+        ready, cpu, steps = time.perf_counter(), time.process_time(), session.sim.steps
         notes.restart()
-        return (notes,)
-
-    run = run_plan(
-        environment, found.folder, problem, orders, prepare=prepare, repairs=case.repairs, fault=fault,
-        kinematic=not case.physics, seed=case.seed,
-    )  # fmt: skip
-    ready, steps = started
+        execution = session.execute(orders, (notes, recorder), repairs=case.repairs, fault=fault)
+        seconds, used, after = time.perf_counter() - ready, time.process_time() - cpu, session.sim.steps
+        digest = trace.digest() if case.twice else ""
+        verdict = Judge(recorder).judge(execution)
+    effects = Counter(effect.basis.value for step in execution.steps for effect in step.effects)
     return _record(
         case,
-        status=run.execution.status.value,
-        reason=run.execution.reason,
-        repairs=run.execution.repairs,
+        status=execution.status.value,
+        reason=execution.reason,
+        repairs=execution.repairs,
         steps=tuple(notes.steps),
-        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in run.faults),
-        goal=tuple(literal for literal in case.end_state if not holds(literal, run.execution.state)),
+        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in session.happenings),
+        fault_missing=session.fault_missing,
+        lasting=tuple(map(str, execution.lasting)),
+        goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
         setup=round(ready - begin, 3),
-        seconds=round(time.perf_counter() - ready, 3),
-        simulated=round((run.sim_steps - steps) / STEPS_PER_SECOND, 3),
-        trajectory=trace.digest() if case.twice else "",
+        seconds=round(seconds, 3),
+        cpu=round(used, 3),
+        simulated=round((after - steps) / STEPS_PER_SECOND, 3),
+        trajectory=digest,
+        known=dict(sorted(effects.items())),
+        judged=verdict.true,
+        unjudged=verdict.unjudged,
+        false=tuple(verdict.false),
+        worst=summary(recorder),
     )
 
 
@@ -125,7 +156,10 @@ class _Notes:
 def _record(case: Case, **told: object) -> Record:
     """The record of a case; what is not told is as where nothing was done."""
     name, mode, fault, seed = case.key
-    nothing = {"repairs": 0, "steps": (), "faults": (), "goal": (), "setup": 0.0, "simulated": 0.0}
+    nothing = {
+        "repairs": 0, "steps": (), "faults": (), "fault_missing": "", "lasting": (), "goal": (), "setup": 0.0,
+        "cpu": 0.0, "simulated": 0.0, "known": {}, "judged": 0, "unjudged": 0, "false": (), "worst": (),
+    }  # fmt: skip
     asked = {"name": name, "task": case.task, "environment": case.environment, "mode": mode, "fault": fault}
     return Record.model_validate({**asked, "seed": seed, **nothing, "trajectory": "", "repeated": None, **told})
 

@@ -17,7 +17,9 @@ WHERE = ("--environment", "corner2")
 DEMONSTRATIONS = sorted((ROOT / "problems").glob("*/*/demonstrations.jsonl"))
 STEPS = [
     {"number": 1, "action": "moveto", "args": ["book1"], "repair": False, "outcome": "ok", "failure": None,
-     "evidence": "it is near", "confirmed": ["(near pr2 table2)"], "mismatches": [], "begin": 0, "end": 9},
+     "evidence": "it is near",
+     "effects": [{"fact": "(near pr2 table2)", "holds": True, "basis": "measured", "how": "0.4 m away"}],
+     "mismatches": [], "begin": 0, "end": 9},
 ]  # fmt: skip
 
 

@@ -27,7 +27,7 @@ PREDICTION = {
 }  # fmt: skip
 STEP = {
     "event": "step", "number": 1, "action": "wait", "args": [], "repair": False, "outcome": "mismatch", "failure": None,
-    "evidence": None, "confirmed": [], "begin": 1, "end": 2,
+    "evidence": None, "effects": [], "begin": 1, "end": 2,
     "mismatches": [{"fact": "(hot pot1)", "expected": True, "measured": "20 degrees"}],
 }  # fmt: skip
 END = {"event": "end", "status": "interrupted", "reason": None}

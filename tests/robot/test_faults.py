@@ -9,13 +9,21 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from experiments.execution.__main__ import CLOSING, OPENING, main
+from experiments.execution.judge import Judge
 from experiments.execution.record import FAILED, Case, Record, append, read
+from experiments.execution.recorder import Recorder
 from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.pddl.model import GroundAtom
+from tmd.pddl.model import GroundAtom, Instruction
 from tmd.records.run import FaultRecord
 from tmd.robot.monitor.faults import InjectedFault, opportunities
+from tmd.robot.monitor.inference import Basis, KnownEffect
+from tmd.robot.monitor.listeners import Title
+from tmd.robot.session import SimulationSession
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
+from tmd.world.environment import load_environment
 
 TAKE = ("find(ramen1)", "moveto(ramen1)", "grasp(ramen1)")
 
@@ -38,6 +46,31 @@ def test_what_slips_is_seen_and_taken_again() -> None:
     assert first.failure and "slipped out" in first.failure
     assert seen(record) and not claimed_falsely(record)
     assert record.status == "recovered" or "ramen1" in record.reason
+    assert record.judged > 3 and record.false == ()
+
+
+def test_the_judge_tells_what_is_not_so() -> None:
+    """It looks at the simulation itself, whatever the monitor says."""
+    found = corpus("kitchen")
+    problem = found.world("kitchen4").task.problem
+    environment = load_environment(found.directory / "environments" / "kitchen4.yaml")
+    instruction = Instruction("keep", ("mug1", "table1", "on"))
+    claims = [GroundAtom("at", instruction.args), GroundAtom("contains", ("mug1", "water"))]
+    effects = tuple(KnownEffect(claim, True, Basis.MEASURED, "") for claim in claims)
+    step = ExecutedStep(instruction, False, "", "", effects, (), 0, 1, frozenset({*problem.init, *claims}))
+    execution = Execution(SkillStatus.DONE, "", (step,), 0, step.state)
+    with SimulationSession(environment, found.folder, problem, kinematic=True) as session:
+        recorder, cell = Recorder(session), session.cell
+        recorder.end(Title(instruction, 1, 1, False, None), step)
+        upright = Judge(recorder).judge(execution)
+        assert all("nothing was tipped over it" in claim for claim in upright.false) and upright.true >= 1
+        body = cell.scene.bodies["mug1"]
+        x, y, z = cell.sim.pose(body).position
+        cell.sim.set_pose(body, Pose((x, y, z + 0.05)) * Pose.about((0.0, 1.0, 0.0), 1.5))
+        cell.settle()
+        recorder.end(Title(instruction, 1, 1, False, None), step)
+        lying = Judge(recorder).judge(execution)
+    assert any("(at mug1 table1 on)" in claim and "leans by" in claim for claim in lying.false)
 
 
 def test_what_is_stuck_is_seen_and_tried_again() -> None:
@@ -137,6 +170,7 @@ def test_literals_and_masks() -> None:
 def test_a_claim_is_false_when_the_end_is_not_there_or_nothing_was_noticed() -> None:
     record = run(case("find(ramen1)", fault="slip"))
     assert record.faults == () and record.status == "done", "nothing is taken, so nothing can slip"
+    assert record.fault_missing == "'slip' cannot come about in this plan: nothing is taken"
     assert not claimed_falsely(record)
     assert claimed_falsely(record.model_copy(update={"goal": ("(hot mug1)",)}))
     assert claimed_falsely(record.model_copy(update={"faults": (FaultRecord(what="the mug is gone", tick=1),)}))

@@ -239,7 +239,10 @@ def test_nothing_is_written_over_the_edge(width: int) -> None:
 
 
 def test_marks_differ() -> None:
-    marks = [words(Caption("a", facts=(("(b)", mark),))) for mark in ("expected", "confirmed", "missing")]
+    marks = [
+        words(Caption("a", facts=(("(b)", mark),)))
+        for mark in ("expected", "measured", "inferred", "assumed", "missing")
+    ]
     assert not np.array_equal(marks[0], marks[1])
     assert not np.array_equal(marks[1], marks[2])
 

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.robot.scene.furniture_layout import GAP, Footprint, apart, arrange, floor_spots, inside
+from tmd.robot.scene.furniture_layout import GAP, Footprint, apart, arrange, floor_spots, inside, room_of
 from tmd.robot.sim.pose import Pose
 
 SIZES = st.dictionaries(
@@ -87,3 +87,48 @@ def test_floor_spots_are_clear_of_the_robot_and_of_what_stands_there() -> None:
         assert apart(spot, SQUARE, *taken[0], 0.15)
         assert apart(spot, SQUARE, Pose.flat(0.0, 0.0), (-0.4, -0.4, 0.4, 0.4), 0.1)
         assert room.low[0] < spot.position[0] < room.high[0]
+
+
+L_SHAPE = [(-1.5, -2.2), (2.6, -2.2), (2.6, 1.2), (0.8, 1.2), (0.8, 3.2), (-1.5, 3.2)]
+
+
+@pytest.mark.parametrize("corners", [L_SHAPE, L_SHAPE[::-1]], ids=["anticlockwise", "clockwise"])
+@pytest.mark.parametrize(
+    ("x", "y", "yaw", "within"),
+    [
+        (0.0, 0.0, 0.0, True),
+        (0.0, 2.5, 1.0, True),
+        (1.5, 2.0, 0.0, False),  # beyond the inner corner
+        (0.72, 2.0, 0.0, False),  # in the wall
+        (0.8, 1.2, math.pi / 4, False),  # the inner corner is in it
+        (2.45, 0.0, 0.0, True),
+        (2.45, 0.0, math.pi / 4, True),
+        (2.49, 0.0, math.pi / 4, False),
+    ],
+)
+def test_what_is_within_the_walls_of_a_room(
+    corners: list[tuple[float, float]], x: float, y: float, yaw: float, within: bool
+) -> None:
+    room = room_of(corners)
+    assert (room.low, room.high) == ((-1.5, -2.2), (2.6, 3.2))
+    assert room.holds(Pose.flat(x, y, 0.0, yaw), SQUARE) is within
+
+
+@pytest.mark.parametrize(
+    ("corners", "told"),
+    [
+        ([(0.0, 0.0), (2.0, 0.0), (0.0, 2.0), (2.0, 2.0)], "cross"),
+        ([(0.0, 0.0), (0.5, 0.0), (0.5, 0.5)], "square metres"),
+        ([(0.0, 0.0), (3.0, 0.0), (3.0, 0.0), (0.0, 3.0)], "at one place"),
+    ],
+)
+def test_what_is_no_room_is_refused(corners: list[tuple[float, float]], told: str) -> None:
+    with pytest.raises(ValueError, match=told):
+        room_of(corners)
+
+
+def test_nothing_is_put_on_the_floor_outside_the_walls() -> None:
+    room = room_of(L_SHAPE)
+    spots = floor_spots(room, [], SQUARE)
+    assert spots
+    assert all(room.holds(spot, SQUARE) for spot in spots)

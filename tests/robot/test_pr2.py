@@ -11,8 +11,8 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 pytest.importorskip("cmeel", reason="needs the extra robot")
 
-from tmd.robot.pr2.posture import TUCKED
 from tmd.robot.pr2.pr2 import Pr2, finger_angle, finger_gap
+from tmd.robot.pr2.urdf import TUCKED
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 

@@ -25,7 +25,7 @@ def source() -> Path:
 def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "cache"
     folder.mkdir()
-    monkeypatch.setattr(pr2_urdf, "_cache", lambda: folder)
+    monkeypatch.setattr(pr2_urdf, "cache_directory", lambda name: folder)
     return folder
 
 

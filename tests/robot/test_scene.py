@@ -295,6 +295,9 @@ def environment(tmp_path: Path, objects: str) -> Environment:
     return load_environment(path)
 
 
+ROOM_BELOW = "room: [[-1.5, -1.5], [1.5, -1.5], [1.5, 1.5], [-1.5, 1.5]]\n"
+
+
 @pytest.mark.parametrize(
     ("objects", "said", "line"),
     [
@@ -304,6 +307,12 @@ def environment(tmp_path: Path, objects: str) -> Environment:
          "finds no room on 't'", None),
         ("  t: {class: table}\n  e1: {class: egg, at: in t}\n", "nothing can be in 't'", 5),
         ("  e1: {class: egg, at: on nowhere}\n", "there is no 'nowhere'", 4),
+        ("  t: {class: table, yaw: 30}\n", "'t' has a yaw and no position", 4),
+        (f"  t: {{class: table}}\n{ROOM_BELOW}", "'t' is not within the walls of the room", 4),
+        (f"  t: {{class: table, position: [0.9, 0, 0]}}\n  e1: {{class: egg, position: [1.49, 0, 0.74]}}\n{ROOM_BELOW}",
+         "'e1' is not within the walls of the room", 5),
+        ("  t: {class: table}\nroom: [[0, 0], [9, 0], [9, 9]]\n", "the robot does not fit into the room", 5),
+        ("  t: {class: table}\nroom: [[0, 0], [9, 0], [0, 9], [9, 9]]\n", "not a room: its walls cross", 5),
     ],
 )  # fmt: skip
 def test_what_cannot_stand_is_refused_with_its_line(tmp_path: Path, objects: str, said: str, line: int | None) -> None:
@@ -322,3 +331,30 @@ def test_given_positions_are_kept(tmp_path: Path) -> None:
         scene = Scene(sim, environment(tmp_path, text), DomainFolder(ROOT / "domains/kitchen"))
         assert scene.supported("e1") == ("t", "on")
         assert sim.pose(scene.bodies["t"]).rotate((1.0, 0.0, 0.0))[1] == pytest.approx(1.0)
+
+
+def test_yaw_turns_what_stands_and_what_stands_on_it(tmp_path: Path) -> None:
+    text = (
+        "  t: {class: table, position: [0.0, -2.0, 0.0], yaw: 120}\n  e1: {class: mug, at: on t, yaw: 30}\n"
+        "  m1: {class: mug, at: on t, position: [0.1, -1.9, 0.74], yaw: -90}\n"
+    )
+    with Simulator() as sim:
+        scene = Scene(sim, environment(tmp_path, text), DomainFolder(ROOT / "domains/kitchen"))
+        for name, yaw in (("t", 120), ("e1", 30), ("m1", -90)):
+            assert np.degrees(scene.pose_of(name).yaw()) == pytest.approx(yaw, abs=0.5), name
+        assert scene.supported("e1") == scene.supported("m1") == ("t", "on")
+
+
+def test_walls_stand_where_the_room_has_its_corners(tmp_path: Path) -> None:
+    text = "  t: {class: table, position: [-0.2, 2.5, 0], yaw: -60}\n"
+    text += "room: [[-1.5, -2.2], [2.6, -2.2], [2.6, 1.2], [0.8, 1.2], [0.8, 3.2], [-1.5, 3.2]]\n"
+    with Simulator() as sim:
+        scene = Scene(sim, environment(tmp_path, text), DomainFolder(ROOT / "domains/kitchen"))
+        for way, far in (((1.0, 0.0), 2.6), ((-1.0, 0.0), 1.5), ((0.0, -1.0), 2.2)):
+            hit = sim.ray((0.0, 0.0, 1.2), (9 * way[0], 9 * way[1], 1.2))
+            assert hit is not None
+            assert scene.owner(hit.body) == "floor"
+            assert np.hypot(*hit.position[:2]) == pytest.approx(far, abs=0.01)
+        beyond = sim.ray((1.5, 0.0, 1.2), (1.5, 9.0, 1.2))
+        assert beyond is not None
+        assert beyond.position[1] == pytest.approx(1.2, abs=0.01), "the inner corner"

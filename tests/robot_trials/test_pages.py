@@ -47,7 +47,7 @@ def step(number: int, action: str, seen: str, **changes: object) -> dict[str, ob
     failed = changes.get("outcome") == "failed"
     said = {"failure": seen if failed else None, "evidence": None if failed else seen}
     done = {"number": number, "action": action, "args": ["mug1"], "repair": False, "outcome": "ok", **said}
-    return done | {"confirmed": [], "mismatches": [], "begin": 0, "end": 1} | changes
+    return done | {"effects": [], "mismatches": [], "begin": 0, "end": 1} | changes
 
 
 def links(report: Path) -> list[str]:
@@ -92,7 +92,12 @@ def test_what_a_robot_did_stands_on_the_page(tmp_path: Path) -> None:
     config = finished(tmp_path, [line(1), line(2)])
     asked = {"environment": "kitchen1", "model": "full", "id": "ramen-kitchen1-1", "text": "x", "plan": GOOD}
     steps = [
-        step(1, "find", "in view", confirmed=["(found pr2 mug1)"]),
+        step(
+            1,
+            "find",
+            "in view",
+            effects=[{"fact": "(found pr2 mug1)", "holds": True, "basis": "inferred", "how": "a ray"}],
+        ),
         step(2, "moveto", "no way", outcome="failed"),
         step(2, "find", "again", repair=True),
         step(2, "moveto", "near"),
@@ -104,7 +109,7 @@ def test_what_a_robot_did_stands_on_the_page(tmp_path: Path) -> None:
     assert write_pages(config, carried_out=True) == 1 and len(linked_pages(tmp_path)) == 2
     html = (tmp_path / "pages" / "full-ramen-kitchen1-1.html").read_text()
     places = [html.index(f'id="step-{n}"') for n in (1, 2)]
-    assert places[0] < html.index(": in view<") < html.index("confirmed</span> (found pr2 mug1)") < places[1]
+    assert places[0] < html.index(": in view<") < html.index("inferred: (found pr2 mug1)") < places[1]
     assert places[1] < html.index("no way") < html.index("again") < html.index(": near<")
     assert "recovered" in html and len(links(write_report(tmp_path))) == 3
 

@@ -108,7 +108,7 @@ def test_a_goal_that_is_not_reached_is_told() -> None:
 
 def ran_step(**told: object) -> RanStep:
     """A step of a run, with what is not told as it mostly is."""
-    usual = {"number": 1, "repair": False, "failure": None, "evidence": None, "confirmed": [], "mismatches": []}
+    usual = {"number": 1, "repair": False, "failure": None, "evidence": None, "effects": [], "mismatches": []}
     return RanStep.model_validate({**usual, "begin": 0, "end": 1, **told})
 
 
@@ -121,7 +121,13 @@ def test_names_and_texts_are_only_text() -> None:
     problem = Problem("p", Domain("d"), (TypedName(name, (HOSTILE,)),), frozenset({GroundAtom(HOSTILE, (name,))}))
     step = PlanStep(Instruction(HOSTILE, (name,)), 0, True)
     plan = RankedPlan((Choice(HOSTILE, (step,), {HOSTILE: 1.0}, {}),), 0, HOSTILE)
-    done = ran_step(action=HOSTILE, args=[name], outcome="failed", failure=HOSTILE, confirmed=[HOSTILE])
+    done = ran_step(
+        action=HOSTILE,
+        args=[name],
+        outcome="failed",
+        failure=HOSTILE,
+        effects=[{"fact": HOSTILE, "holds": True, "basis": "assumed", "how": HOSTILE}],
+    )
     page = render(
         Subject(
             HOSTILE,
@@ -225,7 +231,8 @@ def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:
     steps = tuple(
         ran_step(**step)
         for step in (
-            {"number": 1, "action": "find", "args": ["cup1"], "outcome": "ok", "confirmed": ["(found pr2 cup1)"]},
+            {"number": 1, "action": "find", "args": ["cup1"], "outcome": "ok", "effects": [
+                {"fact": "(found pr2 cup1)", "holds": True, "basis": "inferred", "how": "a ray"}]},
             {"number": 2, "action": "moveto", "args": ["cup1"], "outcome": "failed", "failure": "the way is barred"},
             {"number": 2, "action": "open", "args": ["x"], "repair": True, "outcome": "mismatch", "mismatches": [
                 {"fact": "(opened x)", "expected": True, "measured": "12 degrees"}]},
@@ -235,7 +242,7 @@ def test_what_the_robot_did_stands_at_its_step(subject: Subject) -> None:
     html = render(replace(subject, ran=Ran("stopped", "it gave up", 1, 2.0, steps))).html
     first, second = html.index('id="step-1"'), html.index('id="step-2"')
     third, last = html.index('id="step-3"'), html.index('id="candidates"')
-    assert first < html.index("confirmed</span> (found pr2 cup1)") < second
+    assert first < html.index("inferred: (found pr2 cup1)") < second
     assert second < html.index("the way is barred") < html.index("12 degrees") < third
     assert html.count("robot: ✓ ok") == 2 and html.rindex("robot: ✓ ok") < last
     assert "it gave up" in html and "repairs of the plan: 1" in html

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.world.classes import Classes, Shape
+from tmd.world.classes import Classes
 from tmd.world.compile import compile_domain
 from tmd.world.folder import DomainFolder
+from tmd.world.shape import Shape
 from tmd.world.yaml_positions import YamlSource
 
 KITCHEN = Path(__file__).parents[2] / "domains" / "kitchen"
@@ -60,7 +61,7 @@ def test_a_part_has_the_shape_of_its_class_unless_it_says_more(tmp_path: Path) -
         ("{kind: cup, colour: 7}", "shape.colour"),
         ("{kind: cup, colour: '#12'}", "should be a colour"),
         ("{kind: cup, wheels: 4}", "unknown key"),
-        ("{size: [0.1, 0.1, 0.1]}", "shape.kind"),
+        ("{size: [0.1, 0.1, 0.1]}", "a shape says one of kind, mesh and urdf"),
     ],
 )
 def test_a_wrong_shape_is_refused_with_its_line(tmp_path: Path, shape: str, said: str) -> None:

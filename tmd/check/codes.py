@@ -60,6 +60,8 @@ _ERRORS = {
     "bad-demonstration": "a line that is not a demonstration",
     "unknown-environment": "an environment that is not there",
     "not-executable": "a demonstration that cannot be executed",
+    "no-room": "something that does not fit where it is said to stand",
+    "overlap": "things that stand in each other",
     "goal-not-reached": "a goal that does not hold at the end of its demonstration",
     # meaning of PDDL
     "duplicate-name": "a name that is declared twice, up to case",

@@ -12,7 +12,7 @@ from typing import Protocol
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic, Findings
 from tmd.check.lint.problem import lint_cases
-from tmd.diagnostics import Location, TmdError
+from tmd.diagnostics import Location, MissingToolError, TmdError
 from tmd.files import real
 from tmd.language import parse, print_clause
 from tmd.language.lexicon.file import read_lexicon
@@ -24,7 +24,7 @@ from tmd.veil.corpus import CHANGED, replay
 from tmd.veil.demonstration import Demonstration, check_goal, read_demonstration
 from tmd.world.classes import SELF, Classes, ObjectsFile
 from tmd.world.compile import compile_domain, compile_problem, derive_rules
-from tmd.world.environment import EnvironmentFile, load_environment
+from tmd.world.environment import Environment, EnvironmentFile, load_environment
 from tmd.world.folder import DomainFolder, find_domain, find_problems
 from tmd.world.yaml_positions import YamlSource
 
@@ -172,6 +172,44 @@ def check_environment(path: Path, folder: DomainFolder, report: Report) -> Probl
     return compile_problem(load_environment(path, report), folder)
 
 
+def check_shapes(folder: DomainFolder) -> None:
+    """The shapes of ``objects.yaml`` and the files that they name.
+
+    Raises:
+        TmdError: A shape makes no sense, or a file is not what it should be.
+    """
+    from tmd.robot.assets.shapes import Shapes
+
+    shapes, source = Shapes(folder), folder.classes.source
+    for name in folder.classes.entries.classes:
+        if shapes.sort(name) != "part":
+            source.recover(None, shapes.blueprint, name)
+
+
+def check_scene(environment: Environment, folder: DomainFolder) -> None:
+    """Where things stand: each finds room, and none is in another.
+
+    Only given positions can put things into each other, which the simulator tells to the millimetre; without
+    ``tmd[robot]`` that is left out.
+
+    Raises:
+        TmdError: Something does not fit, or things overlap; with the place in the environment's file.
+    """
+    from importlib.util import find_spec
+
+    from tmd.robot.scene.catalogue import Catalogue, built
+    from tmd.robot.scene.placement import Placing
+
+    things = Catalogue(environment, *built(environment, folder))
+    Placing(environment, things.blueprints, things.names(), None)
+    if any(entry.position for entry in environment.objects.values()) and find_spec("pybullet"):
+        from tmd.robot.scene.scene import Scene
+        from tmd.robot.sim.simulator import Simulator
+
+        with Simulator() as sim:
+            Scene(sim, environment, folder, settle=0)
+
+
 def _instructions(folder: DomainFolder) -> Domain | None:
     """The hand-written domain that classes are compiled into; ``None`` where it has faults, which are told anyway."""
     try:
@@ -291,6 +329,9 @@ class DataFiles:
         if len(self.checker.findings) == before and "classes" in folder.__dict__:
             self._try(lambda _: check_compiled(folder), folder.path / "domain.pddl")
 
+        if "classes" in folder.__dict__ and any(entry.shape for entry in folder.classes.entries.classes.values()):
+            check_shapes(folder)
+
     def _lexicon(self, file: Path) -> None:
         from tmd.check.lexicon import check_goal_verbs, check_goals, check_lexicon, segments_of, texts_of
         from tmd.language.lexicon.file import read_lexicon
@@ -370,8 +411,9 @@ class DataFiles:
             said = YamlSource(file).load(EnvironmentFile)
             folder = self._domain_of(file, said.domain)
             problem = check_environment(file, folder, faults.append)
+            scene = faults if faults or problem is None else _scene_faults(file, folder)
             told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
-            for fault in faults:
+            for fault in scene:
                 if (fault.code, fault.message) not in told:  # what a class says wrongly is told of the class
                     self.checker.report(fault, file)
             for fault in lint_cases(problem) if problem is not None and not faults else ():
@@ -406,6 +448,19 @@ class DataFiles:
             return self._worlds.get(real(path))
 
         check_demonstrations(file, world, sorted(environments), self._report(file))
+
+
+def _scene_faults(file: Path, folder: DomainFolder) -> list[TmdError]:
+    """What is wrong with an environment as a scene, where a robot acts in the domain."""
+    if not (folder.path / "skills.yaml").is_file():
+        return []
+    try:
+        check_scene(load_environment(file), folder)
+    except MissingToolError:
+        return []  # without what reads meshes there is no scene to be looked at
+    except TmdError as error:
+        return [error]
+    return []
 
 
 def _names(folder: DomainFolder) -> frozenset[str]:

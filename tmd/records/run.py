@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from pydantic import Field
 
@@ -10,15 +11,20 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
 from tmd.records.json_record import JsonRecord, json_value
+from tmd.robot.sim.engine import STEPS_PER_SECOND
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from tmd.robot.monitor.faults import Happening
     from tmd.robot.monitor.listeners import Order, Title
-    from tmd.robot.skills.results import ExecutedStep
+    from tmd.robot.monitor.observation import Mismatch
+    from tmd.robot.skills.results import ExecutedStep, Execution
 
 StepOutcome: TypeAlias = Literal["ok", "failed", "mismatch"]
+Basis: TypeAlias = Literal["measured", "inferred", "assumed"]
 SIGNS: dict[StepOutcome, str] = {"ok": "✓", "failed": "✗", "mismatch": "≠"}
+MARKS: dict[Basis, str] = {"measured": "✓", "inferred": "∴", "assumed": "?"}
 
 
 class OrderRecord(InstructionRecord):
@@ -41,8 +47,28 @@ class MismatchRecord(JsonRecord):
     expected: bool
     measured: str
 
+    @classmethod
+    def of(cls, mismatch: Mismatch) -> MismatchRecord:
+        """The mismatch as a record."""
+        return cls(fact=str(mismatch.atom), expected=mismatch.expected, measured=mismatch.measured)
+
     def __str__(self) -> str:
         return f"{'' if self.expected else 'not '}{self.fact} was expected, but {self.measured}"
+
+
+class EffectRecord(JsonRecord):
+    """A fact that changed as predicted."""
+
+    fact: str
+    holds: bool = Field(description="Whether it came to hold; else it ended.")
+    basis: Basis = Field(
+        description="measured: a sensor of the simulation shows it; inferred: it follows from what was measured, by a "
+        "rule; assumed: PDDL says so."
+    )
+    how: str = Field(description="The numbers, or the rule.")
+
+    def __str__(self) -> str:
+        return f"{'' if self.holds else 'not '}{self.fact}"
 
 
 class RanStep(JsonRecord):
@@ -55,7 +81,7 @@ class RanStep(JsonRecord):
     outcome: StepOutcome
     failure: str | None = Field(description="Why the skill failed.")
     evidence: str | None = Field(description="What showed that its event happened.")
-    confirmed: tuple[str, ...] = Field(description="The effects that are observed.")
+    effects: tuple[EffectRecord, ...] = Field(description="What changed as predicted.")
     mismatches: tuple[MismatchRecord, ...]
     begin: int = Field(description="Tick of the simulation.")
     end: int
@@ -72,10 +98,10 @@ class RanStep(JsonRecord):
             outcome="failed" if step.failure else "mismatch" if step.mismatches else "ok",
             failure=step.failure or None,
             evidence=step.evidence or None,
-            confirmed=tuple(map(str, step.confirmed)),
-            mismatches=tuple(
-                MismatchRecord(fact=str(m.atom), expected=m.expected, measured=m.measured) for m in step.mismatches
+            effects=tuple(
+                EffectRecord(fact=str(e.atom), holds=e.holds, basis=e.basis.value, how=e.how) for e in step.effects
             ),
+            mismatches=tuple(map(MismatchRecord.of, step.mismatches)),
             begin=step.begin,
             end=step.end,
         )
@@ -122,7 +148,8 @@ class RunRequest(JsonRecord):
     version: str
     environment_file: str | None
     strip: str | None = Field(description="The name of the filmstrip's file.")
-    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file.")
+    grounding: GroundingRecord | None = Field(description="Of the text; null for a plan file or a goal.")
+    goal: str | None = Field(default=None, description="What a plan was found for, where that was a PDDL condition.")
 
 
 class RunRecord(RunRequest):
@@ -133,10 +160,69 @@ class RunRecord(RunRequest):
 
     steps: tuple[RanStep, ...]
     faults: tuple[FaultRecord, ...]
-    status: Literal["done", "recovered", "stopped", "not_grounded", "invalid_plan"]
+    lasting: tuple[MismatchRecord, ...] = Field(
+        default=(), description="What is otherwise in the end than the plan would have left it."
+    )
+    fault_missing: str | None = Field(default=None, description="Why the fault that was asked for did not come about.")
+    status: Literal["done", "recovered", "stopped", "not_grounded", "unreachable", "gave_up", "invalid_plan"]
     reason: str | None
     repairs: int
     seconds: float = Field(description="Simulated time.")
+
+    @classmethod
+    def of(
+        cls,
+        asked: RunRequest,
+        steps: Sequence[RanStep],
+        faults: Sequence[Happening],
+        execution: Execution,
+        ticks: int,
+        missing: str = "",
+    ) -> RunRecord:
+        """A run that is over.
+
+        Args:
+            asked: What was to be done.
+            steps: What was done, in order.
+            faults: The faults that came about.
+            execution: How it ended.
+            ticks: Steps of the physics.
+            missing: Why the fault that was asked for did not come about.
+        """
+        happened = tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in faults)
+        ended = how_it_ended(execution, ticks, missing)
+        return cls.model_validate({**asked.given(), "steps": tuple(steps), "faults": happened, **ended})
+
+
+@dataclass(frozen=True, slots=True)
+class RecordedRun:
+    """What came of a run.
+
+    Attributes:
+        execution: How it ended: ``.status``, ``.reason``, and ``.steps`` with the state after each.
+        record: The same as JSON has it: ``.to_value()``.
+    """
+
+    execution: Execution
+    record: RunRecord
+
+
+def how_it_ended(execution: Execution, ticks: int, missing: str) -> dict[str, Any]:
+    """The keys of a record, or of the last line of a log, that say how a run of ``ticks`` steps of physics ended.
+
+    ``missing`` is why the fault that was asked for did not come about.
+    """
+    ended: dict[str, Any] = {
+        "status": execution.status.value,
+        "reason": execution.reason or None,
+        "repairs": execution.repairs,
+        "seconds": round(ticks / STEPS_PER_SECOND, 2),
+    }
+    if execution.lasting:
+        ended["lasting"] = tuple(map(MismatchRecord.of, execution.lasting))
+    if missing:
+        ended["fault_missing"] = missing
+    return ended
 
 
 class _Event(JsonRecord):
@@ -182,6 +268,8 @@ class EndEvent(_Event):
     reason: str | None
     repairs: int = 0
     seconds: float = 0.0
+    lasting: tuple[MismatchRecord, ...] = ()
+    fault_missing: str | None = None
 
 
 RunEvent: TypeAlias = PlanEvent | BeginEvent | FaultEvent | StepEvent | EndEvent

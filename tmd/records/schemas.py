@@ -18,6 +18,7 @@ from tmd.records.plan import PlanRecord
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import RunEvent, RunRecord
 from tmd.records.sentence_test import SentenceReport
+from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
 FORMATS: dict[str, Any] = {
@@ -32,8 +33,9 @@ FORMATS: dict[str, Any] = {
     "metrics": Metrics,
     "fit": Fit,
     "trial": Trial,
+    "trajectory": TrajectoryLine,
 }
-"""The formats by name. Of ``run-log`` and ``prediction``, JSON Lines, it is the format of a line."""
+"""The formats by name. Of ``run-log``, ``prediction`` and ``trajectory``, JSON Lines, it is the format of a line."""
 
 
 def schema_text(name: str) -> str:

@@ -14,6 +14,10 @@ class StanceParameters:
 
     distances: tuple[float, ...] = (0.62, 0.54, 0.70, 0.80, 0.48, 0.90, 1.0)
     """Metres from the base to what is to be reached, best first."""
+    low: float = 0.35
+    """Metres from the floor below which what is to be reached is near the base."""
+    low_distances: tuple[float, ...] = (0.5, 0.56, 0.45, 0.62, 0.7)
+    """Metres from the base to that, best first."""
     bearings: tuple[float, ...] = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
     """Radians off the front of what is to be reached, best first."""
     turns: tuple[float, ...] = (0.0, 0.35, -0.35)
@@ -59,6 +63,18 @@ class GraspParameters:
     """Metres that a thing is lifted, or drawn out, before the arm moves freely."""
     release_heights: tuple[float, ...] = (0.006, 0.03)
     """Metres above a surface at which a thing is let go of, best first: fingers do not fit into every slot."""
+    upright_heights: tuple[float, ...] = (0.003, 0.006, 0.012)
+    """The same for what must stand: from higher up it lands on an edge and topples."""
+    unfit: float = 0.1
+    """Metres round a spot where something could not be done, in which things are not put down again."""
+    widest: float = 0.078
+    """Metres that the fingers get round."""
+    above_ground: float = 0.006
+    """Metres that the finger tips keep from what a thing lies on."""
+    bar: float = 0.05
+    """Metres that the fingers stand open for a handle, at most."""
+    most_lying: int = 64
+    """Grasps of a lying thing that are looked at."""
     tall: float = 0.12
     """Metres from which a thing is not a small one."""
     headings: int = 8
@@ -75,8 +91,8 @@ class ArticulationParameters:
 
     approach: float = 0.09
     """Metres from which a hand goes straight to a handle or a button."""
-    button_overtravel: float = 0.012
-    """Metres that a finger goes on beyond the surface of a button."""
+    button_overtravel: float = 0.0095
+    """Metres that a finger goes on beyond the surface of a button: less than that goes down."""
     lid_gap: float = 0.02
     """Metres from the fingers to the lid between them."""
     pressed_share: float = 0.5
@@ -101,6 +117,8 @@ class ArticulationParameters:
     """Radians off its front from which a door is opened: it comes towards the robot."""
     open_from: float = 0.6
     """A joint is open from this share of its way on."""
+    shut_to: float = 0.05
+    """And shut up to this one; between the two it is neither, and counts as what it was."""
     setting_share: float = 0.25
     """A knob is at a setting when it is not farther from it than this share of the way to the next one."""
     retreats: tuple[float, ...] = (0.1, 0.05, 0.025)
@@ -115,7 +133,7 @@ class ArticulationParameters:
 class PouringParameters:
     """Pouring, and dipping a spoon."""
 
-    heights: tuple[tuple[float, float], ...] = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.02), (0.03, 0.03), (0.01, 0.03))
+    heights: tuple[tuple[float, float], ...] = ((0.06, 0.0), (0.03, 0.0), (0.06, 0.015), (0.03, 0.02), (0.01, 0.02))
     """Metres between a rim and the mouth that is tipped over it, and from the middle of the rim to below the mouth
     on the hand's side, best first: under a spout there is little room."""
     tilts: tuple[float, ...] = (1.8, 1.3)
@@ -132,6 +150,8 @@ class PouringParameters:
     """Metres from where a spoon pours to the middle of its head."""
     dip_leans: tuple[float, ...] = (0.9, 0.6, 0.3, 1.2, 0.0)
     """Radians by which a spoon is dipped with its end down, best first."""
+    level_shares: tuple[float, ...] = (0.0, 0.33, 0.67, 1.0)
+    """How it is leaned above the rim: parts of the whole lean, so that its end stays over the rim meanwhile."""
     rim_penetration: float = 0.003
     """Metres that a spoon may be in the rim."""
     outside_shares: tuple[float, ...] = (0.6, 0.8, 1.0)
@@ -139,12 +159,18 @@ class PouringParameters:
     it."""
     runs_out_from: float = 1.2
     """Radians from which contents run out."""
-    rim_height_share: float = 0.85
-    """The height of a rim, as a part of the height of the vessel with its handle."""
+    outside_margin: float = 0.85
+    """How far it may be tipped there, as a part of the angle from which it spills."""
+    wall: float = 0.005
+    """Metres from the inside of a wall to the edge that contents leave over."""
+    basin_depth: float = 0.08
+    """Metres from the floor of a basin to its rim."""
+    basin_places: int = 3
+    """Places over a basin that are tried."""
     approach_in_niche: float = 0.18
     """Metres in front of a niche."""
-    mouth_offset: float = 0.04
-    """Metres that the mouth may be beside the rim of what it is held over."""
+    mouth_offset: float = 0.004
+    """Metres that the mouth may be beside the opening of what it is held over: contents fall straight down."""
     max_ways: int = 6
     """Ways of pouring that are thought through for one stance."""
     headings: int = 8
@@ -217,6 +243,18 @@ class ArmMotionParameters:
     """Poses of a straight motion that are solved at once."""
     rrt_edge: float = 10.0
     """The longest edge of the tree, in strides."""
+    level_edge: float = 4.0
+    """The same for what is carried upright."""
+    level_detours: tuple[tuple[float, float], ...] = (
+        (0.0, 0.0), (0.0, 0.12), (0.08, 0.0), (0.08, 0.15), (0.0, 0.25), (0.2, 0.0), (0.2, 0.2), (0.35, 0.2),
+    )  # fmt: skip
+    """Metres up and towards the robot by which what is carried upright goes out of the way, best first."""
+    level_clearance: float = 0.004
+    """Metres that it keeps from things there."""
+    level_planned: int = 3
+    """Places to bring it to for which a way is searched at random, where none is straight."""
+    level: float = 0.17
+    """Radians that what can hold something may lean on its way (10 degrees), or a little more than at its ends."""
     rrt_shortcuts: int = 60
     """Attempts to shorten a path."""
     there: float = 0.03
@@ -272,6 +310,18 @@ class ContactParameters:
     """Metres that what touched at an end of a way is apart once it has got away from there."""
     slack: float = 0.005
     """Metres: what rounding could refuse wrongly."""
+    upright: float = 0.26
+    """Radians: what leans more than this (15 degrees) does not stand."""
+    repose: float = 0.35
+    """Radians from which anything open spills: powder slides from about 35 degrees on, so this is careful."""
+    stream: float = 0.007
+    """Metres: the radius of what runs from a spout."""
+    still: tuple[float, float] = (2e-4, 2e-3)
+    """Metres and radians within which a thing lies still for a 20th of a second."""
+    settled_after: int = 5
+    """Looks, a 20th of a second apart, after which what lay still is at rest."""
+    settle_checks: int = 80
+    """Maximum number of looks."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -296,6 +346,15 @@ class MotorParameters:
     """Radians that a finger may lag behind before it holds something."""
 
 
+@dataclass(frozen=True, slots=True)
+class TimeParameters:
+    """How long things may take."""
+
+    instruction: float = 40.0
+    """Seconds of computing after which an instruction is given up, by the simulation's count of work: counted, so that
+    a slow machine gets the same result."""
+
+
 STANCE = StanceParameters()
 GRASP = GraspParameters()
 ARTICULATION = ArticulationParameters()
@@ -305,3 +364,4 @@ ARM_MOTION = ArmMotionParameters()
 IK = InverseKinematicsParameters()
 CONTACT = ContactParameters()
 MOTOR = MotorParameters()
+TIME = TimeParameters()

@@ -14,7 +14,7 @@ from tmd.robot.monitor.faults import Happening, InjectedFault
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import Execution
-from tmd.robot.video.film import Film
+from tmd.robot.video.film import TILE, Film
 from tmd.robot.video.movie_file import MovieFile
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
@@ -32,12 +32,14 @@ class Filming:
         text: What was said, if anything was.
         movie: The film's file, open; none without it.
         strip: Where the sheet with one picture for each instruction goes; none without it.
+        tile: Width and height of the pictures of that sheet.
     """
 
     heading: str
     text: str = ""
     movie: MovieFile | None = None
     strip: Path | None = None
+    tile: tuple[int, int] = TILE
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +107,9 @@ def run_plan(
         listeners = list(prepare(session)) if prepare is not None else []
         film = None
         if filming is not None:
-            film = Film(session.cell, session.skills, movie=filming.movie, strip=filming.strip is not None)
+            film = Film(
+                session.cell, session.skills, movie=filming.movie, strip=filming.strip is not None, tile=filming.tile
+            )
             if filming.strip is not None:
                 stack.callback(film.write_strip, filming.strip)
             film.open(filming.heading, filming.text)

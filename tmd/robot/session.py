@@ -28,8 +28,9 @@ from tmd.robot.skills.skill_file import load_skills
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
-TICK = 1 / 15
-"""Seconds that a kinematic tick is shown for: it is a stride of a few centimetres."""
+TICK = 1 / 30
+"""Seconds that a kinematic tick is shown for: it is a stride of a few centimetres. Drawing takes most of the time of a
+film, and with these there are as many pictures as under physics."""
 
 
 class SimulationSession:
@@ -51,6 +52,7 @@ class SimulationSession:
         cell: Robot and scene.
         skills: The domain's.
         happenings: The faults that came about.
+        fault_missing: After a run, why the fault that was asked for did not come about, if so.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -73,6 +75,7 @@ class SimulationSession:
         self._seed = seed
         self.skills = load_skills(folder)
         self.happenings: list[Happening] = []
+        self.fault_missing = ""
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
@@ -118,6 +121,7 @@ class SimulationSession:
         plan = [order.instruction for order in orders]
         robot = RobotPerformer(self.cell, self.skills)
         performer: Performer = robot
+        faulty: FaultyPerformer | None = None
         if fault is not None:
             performer = faulty = FaultyPerformer(robot, fault, np.random.default_rng([self._seed, 1]), plan)
             self.happenings = faulty.log
@@ -125,7 +129,9 @@ class SimulationSession:
         executor = Executor(
             self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
         )
-        return executor.execute(plan)
+        execution = executor.execute(plan)
+        self.fault_missing = faulty.missing() if faulty is not None else ""
+        return execution
 
 
 class _Signs:

@@ -12,9 +12,10 @@ import yaml
 
 from tmd.diagnostics import TmdError
 from tmd.files import make_directory, write_text
-from tmd.world.classes import NAME, ROOT, StateValue, Vertex
+from tmd.world.classes import ROOT, StateValue, Vertex
 from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
+from tmd.world.shape import NAME
 
 _LONGEST = 60
 """Characters that the name of an environment may have."""
@@ -88,6 +89,7 @@ class EditedEnvironment:
         entry = self._entry(name)
         entry["at"] = f"{relation} {place}"
         entry.pop("position", None)
+        entry.pop("yaw", None)
 
     def add(self, kind: str, relation: str, place: str) -> str:
         """Add a thing of a class, and return its name."""
@@ -123,6 +125,8 @@ class EditedEnvironment:
             "name": name, "domain": self._read.domain, "about": self._read.about, "objects": self._objects,
             "facts": list(self._read.facts),
         }  # fmt: skip
+        if self._read.room:
+            said = {**said, "room": [list(corner) for corner in self._read.room]}
         path = directory / f"{name}.yaml"
         make_directory(directory)
         write_text(path, yaml.safe_dump(dict(said), sort_keys=False, allow_unicode=True, width=120))

@@ -13,7 +13,7 @@ from tmd import __version__
 from tmd.language.clause import Clause, print_clause
 from tmd.pddl.validator import Verdict, validate
 from tmd.pddl.writer import format_formula
-from tmd.records.run import RanStep
+from tmd.records.run import MARKS, RanStep
 from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_sentence
 from tmd.view.goals import ShownGoal, followed, outcome
@@ -79,6 +79,7 @@ def render(subject: Subject) -> Page:
             in_words=wording.fact,
             done=wording.instruction,
             ticks=_ticks(goals),
+            marks=MARKS,
             pddl=format_formula,
             steps=steps,
             folded=len(steps) > FEW,

@@ -9,53 +9,24 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, TypeAlias
+from typing import TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.model import OBJECT
 from tmd.pddl.reading.syntax import nearest
+from tmd.world.shape import NAME, Shape
 from tmd.world.yaml_positions import YamlSource
 
-NAME = r"^[a-z][a-z0-9_]*$"
 ROOT = "root"
 """The vertex that stands for the whole object."""
 SELF = "self"
 """In a fact of a class: the vertex itself."""
-COLOUR = r"^([a-z][a-z_]*|#[0-9a-f]{6})$"
 MAX_DEPTH = 32
-Length: TypeAlias = Annotated[float, Field(gt=0.0, le=10.0)]
-"""Metres."""
 
 StateValue: TypeAlias = bool | str | list[str]
 """``true``/``false`` for ``(p x)``; a name or names for ``(p x name)``."""
-
-
-class Shape(BaseModel):
-    """What a thing looks like, for the robot's scene; PDDL knows nothing of it (``docs/scenes.md``).
-
-    Attributes:
-        kind: Which of the kinds of :mod:`tmd.robot.assets.shapes` builds it.
-        size: Depth (to the front), width and height in metres; the kind's own where it is not said.
-        colour: A colour's name or ``#rrggbb``; also the second colour, ``accent``.
-        mass: Of an item, in kilograms.
-        settings: Of a knob: the names of its settings, in the order of its angle.
-    """
-
-    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
-    kind: str = Field(pattern=NAME)
-    size: tuple[Length, Length, Length] | None = None
-    colour: str | None = Field(default=None, pattern=COLOUR)
-    accent: str | None = Field(default=None, pattern=COLOUR)
-    mass: float | None = Field(default=None, gt=0.0, le=100.0)
-    settings: tuple[str, ...] = ()
-
-    def over(self, inherited: Shape | None) -> Shape:
-        """This shape, with what it leaves open from ``inherited`` if that is of the same kind."""
-        if inherited is None or inherited.kind != self.kind:
-            return self
-        return inherited.model_copy(update={name: getattr(self, name) for name in self.model_fields_set})
 
 
 class PartEntry(BaseModel):

@@ -6,15 +6,17 @@ An environment is a YAML file::
     domain: kitchen
     about: One line for people.
     objects:
-      counter1: {class: counter, position: [0.0, 1.0, 0.9]}
+      counter1: {class: counter, position: [0.0, 1.9, 0.0], yaw: -90}
       mug1: {class: mug, at: on counter1, states: {contains: [water]}}
       stove1:
         class: stove
         parts:
           knob2: {set_to: high}
+    room: [[-2.4, -2.4], [2.4, -2.4], [2.4, 2.4], [-2.4, 2.4]]   # where its walls meet; without it, around the fixtures
     facts: []   # any further atoms, e.g. `found pr2 mug1`
 
-Positions are metres in the room's frame (x forward, y left, z up). The parts of an object are objects as well,
+Positions are metres in the room's frame (x forward, y left, z up), yaw is degrees about z: with 0 the front looks along
+x. The parts of an object are objects as well,
 named ``stove1_knob2``.
 """
 
@@ -24,15 +26,19 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Annotated, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.reading.syntax import Report
-from tmd.world.classes import NAME, StateValue
+from tmd.world.classes import StateValue
+from tmd.world.shape import NAME
 from tmd.world.yaml_positions import YamlSource
 
 Position = tuple[float, float, float]
+Metres: TypeAlias = Annotated[float, Field(ge=-100.0, le=100.0)]
+Corner: TypeAlias = tuple[Metres, Metres]
 
 
 class ObjectEntry(BaseModel):
@@ -44,6 +50,7 @@ class ObjectEntry(BaseModel):
     states: dict[str, StateValue] = {}
     parts: dict[str, dict[str, StateValue]] = {}
     position: Position | None = None
+    yaw: float | None = Field(default=None, ge=-360.0, le=360.0)
 
 
 class EnvironmentFile(BaseModel):
@@ -55,13 +62,15 @@ class EnvironmentFile(BaseModel):
     about: str = ""
     objects: dict[str, ObjectEntry]
     facts: list[str] = []
+    room: list[Corner] | None = Field(default=None, min_length=3, max_length=100)
 
 
 @dataclass(frozen=True, slots=True)
 class Environment:
     """An environment as it was read; :func:`tmd.world.compile.compile_problem` gives it its meaning.
 
-    ``called`` has the PDDL names of parts that are not named after their whole, each with its name here.
+    ``called`` has the PDDL names of parts that are not named after their whole, each with its name here; ``room`` has
+    the corners of the walls, in order.
     """
 
     name: str
@@ -71,6 +80,7 @@ class Environment:
     facts: tuple[str, ...]
     source: YamlSource
     called: Mapping[str, str] = field(default_factory=dict)
+    room: tuple[Corner, ...] = ()
 
 
 def load_room(path: Path) -> Environment:
@@ -99,4 +109,6 @@ def load_environment(path: Path, report: Report | None = None) -> Environment:
         if not re.match(NAME, name):
             hint = "use lower-case letters, digits and _"
             source.fault(source.error(("objects", name), f"'{name}' cannot name an object", hint, "bad-name"))
-    return Environment(said.name, said.domain, said.about, said.objects, tuple(said.facts), source)
+    return Environment(
+        said.name, said.domain, said.about, said.objects, tuple(said.facts), source, room=tuple(said.room or ())
+    )

@@ -15,8 +15,8 @@ from pathlib import Path
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import make_directory, write_text
 from tmd.pddl.reading.syntax import nearest, read_text
-from tmd.world.classes import NAME
 from tmd.world.folder import find_domain, find_problems
+from tmd.world.shape import NAME
 
 STARTS: Mapping[str, str] = {"plain": "01_blocks", "graph": "03_drawer"}
 """What a new domain can be begun from: plain PDDL, or classes with parts."""

@@ -1,4 +1,4 @@
-"""``tmd run``: a text, or a plan, that a simulated PR2 carries out, with every step checked."""
+"""``tmd run``: a text, a goal or a plan that a simulated PR2 carries out, with every step checked."""
 
 from __future__ import annotations
 
@@ -29,6 +29,19 @@ class _File(click.Path):
         return path
 
 
+def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tuple[int, int] | None:
+    """Width and height in pixels, even numbers: films need them so."""
+    if value is None:
+        return None
+    width, _, height = value.partition("x")
+    if not (width.isdigit() and height.isdigit()):
+        raise click.BadParameter(f"'{value}' is not WxH, as in 960x720", ctx, param)
+    found = int(width), int(height)
+    if any(pixels % 2 or not 80 <= pixels <= 4096 for pixels in found):
+        raise click.BadParameter(f"'{value}': width and height must be even numbers from 80 to 4096", ctx, param)
+    return found
+
+
 @click.command("run", short_help="Let a simulated PR2 carry out what was said, and check every step.")
 @click.option(
     "--environment", required=True, metavar="FILE|NAME", help="An environment (YAML), or the name of a bundled one."
@@ -38,6 +51,7 @@ class _File(click.Path):
 @click.option(
     "--plan", "plan_file", type=click.Path(path_type=Path), metavar="FILE", help="Carry out this plan, not a text."
 )
+@click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @learned_option
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
@@ -49,11 +63,29 @@ class _File(click.Path):
     type=click.Choice(["slip", "stuck", "moved", "missed"]),
     help="Inject one fault of this kind.",
 )
-@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
+@click.option(
+    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
+)
 @click.option("--gui", is_flag=True, help="Show the run in a window.")
 @click.option("--video", type=_File(".mp4", ".gif"), metavar="FILE", help="Film the run: out.mp4 or out.gif.")
 @click.option("--strip", type=_File(".png"), metavar="FILE", help="One picture for each instruction: out.png.")
+@click.option(
+    "--size", callback=_size, metavar="WxH", help="Pixels of the pictures of film and strip; 640x480 and 400x300."
+)
 @click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
+@click.option(
+    "--trajectory",
+    type=_File(".jsonl", ".csv", ".mcap", ".yaml"),
+    metavar="FILE",
+    help="Record joints, base and things: out.jsonl, .csv, .mcap (ROS 2) or .yaml (MoveIt).",
+)
+@click.option(
+    "--rate",
+    type=click.FloatRange(0.1, 240.0),
+    metavar="HZ",
+    help="Samples a second of simulated time; 10 by default.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print the whole record as JSON.")
 @click.pass_obj
 def command(
@@ -62,6 +94,7 @@ def command(
     text: str | None,
     text_file: str | None,
     plan_file: Path | None,
+    goal: str | None,
     domain_name: str | None,
     learned: Path | None,
     planner: str | None,
@@ -69,37 +102,49 @@ def command(
     kinematic: bool,
     seed: int,
     fault: str | None,
+    robot: str | None,
     urdf: Path | None,
     gui: bool,
     video: Path | None,
     strip: Path | None,
+    size: tuple[int, int] | None,
     log: Path | None,
+    trajectory: Path | None,
+    rate: float | None,
     as_json: bool,
 ) -> ExitCode:
     """Carry out what was said, in simulation.
 
-    A text is grounded as by "tmd ground". A PR2 does one instruction after the other; after each, the state is read
-    back from the simulation and compared with what PDDL predicts. Where the two differ, the executor replans.
+    A text is grounded as by "tmd ground", a goal is planned for as by "tmd plan". A PR2 does one instruction after the
+    other; after each, the state is read back from the simulation and compared with what PDDL predicts. Where the two
+    differ, the executor replans.
 
-    Ends with 12 where no plan was found, and with 14 where the robot stopped before everything was done.
+    Ends with 12 where a text gives no plan, with 10 where it is proven that no plan reaches the goal, and with 14
+    where the robot stopped before everything was done.
     """
-    if plan_file is not None and (text, text_file) != (None, None):
-        raise click.UsageError("give one of --text, --text-file and --plan")
+    if sum(given is not None for given in (text, text_file, plan_file, goal)) != 1:
+        raise click.UsageError("give one of --text, --text-file, --plan and --goal")
+    if robot is not None and urdf is not None:
+        raise click.UsageError("give one of --robot and --urdf")
+    if rate is not None and trajectory is None:
+        raise click.UsageError("--rate is for --trajectory")
 
-    from tmd.cli.inputs.plan import orders_of_file, orders_of_text
+    from tmd.cli.inputs.plan import orders_of_file, orders_of_goal, orders_of_text
     from tmd.cli.inputs.text import said
     from tmd.cli.show.run import RunLog, Telling
+    from tmd.export.trajectory import DEFAULT_RATE, open_trajectory, recorders
     from tmd.files import check_writable
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.records.run import OrderRecord, RunRecord, RunRequest
     from tmd.robot.monitor.faults import InjectedFault
+    from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
     from tmd.robot.video.captions import pillow
-    from tmd.robot.video.film import open_movie
+    from tmd.robot.video.film import TILE, open_movie
 
-    spoken = None if plan_file is not None else short_enough(said(text, text_file))
+    spoken = None if plan_file is not None or goal is not None else short_enough(said(text, text_file))
     path = roots.environment(environment, domain_name)
     if path.suffix == ".xml":
         raise TmdError(
@@ -107,16 +152,19 @@ def command(
             hint="tmd scene shows the room",
         )
     room, folder = roots.room(environment, domain_name)
-    for output in filter(None, (video, strip, log)):
+    for output in filter(None, (video, strip, log, trajectory)):
         check_writable(output)
     corpus, world = roots.world(environment, domain_name)
     chosen = planner or IN_PROCESS
+    model = urdf if robot is None else packaged_robot(robot)
     orders = orders_of_file(plan_file, world) if plan_file is not None else None
     with ExitStack() as stack:
-        movie = stack.enter_context(open_movie(video)) if video else None
+        movie = stack.enter_context(open_movie(video, size)) if video else None
         if strip:
             pillow()
-        if orders is None:
+        if orders is None and goal is not None:
+            orders = orders_of_goal(goal, world, planner)
+        elif orders is None:
             orders = orders_of_text(spoken or "", corpus, world, environment, chosen, learned)
         for line in orders.remarks:
             emit(line, error=True)
@@ -133,6 +181,7 @@ def command(
             environment_file=environment_file(environment),
             strip=strip.name if strip else None,
             grounding=orders.grounding,
+            **({"goal": goal} if goal is not None else {}),
         )
         if orders.status:
             if as_json:
@@ -141,12 +190,17 @@ def command(
                 emit_json(RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value())
             return orders.code
         journal = stack.enter_context(RunLog(log)) if log else None
+        recording = stack.enter_context(open_trajectory(trajectory)) if trajectory else None
         told = Telling(asked, orders.orders, journal, as_json=as_json)
+        filming = Filming(told.heading, spoken or "", movie, strip, size or TILE) if movie or strip else None
         run = run_plan(
             room, folder, world.task.problem, orders.orders,
-            prepare=told.prepare, filming=Filming(told.heading, spoken or "", movie, strip) if movie or strip else None,
+            prepare=lambda session: (
+                *told.prepare(session), *recorders(session, recording, rate or DEFAULT_RATE),
+            ),
+            filming=filming,
             planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
-            kinematic=kinematic, seed=seed, urdf=urdf, gui=gui,
+            kinematic=kinematic, seed=seed, urdf=model, gui=gui,
         )  # fmt: skip
         told.log_ending(run.execution, run.sim_steps)
     told.print_ending(run.execution, run.sim_steps)

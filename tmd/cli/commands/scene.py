@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ from tmd.cli.output import emit, emit_json
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Mapping
 
     from tmd.robot.skills.reachability_report import ReachabilityEntry, Stance
     from tmd.world.environment import Environment
@@ -30,8 +31,14 @@ if TYPE_CHECKING:
 @click.option(
     "--seed", type=click.IntRange(0), default=0, show_default=True, help="Seed for placement jitter; 0 disables it."
 )
-@click.option("--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 than the packaged one.")
+@click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
+@click.option(
+    "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
+)
 @click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")
+@click.option("--export", type=click.Path(path_type=Path), metavar="DIR", help="Write the room for other simulators.")
+@click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), sdf, mjcf.")
+@click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
 def command(
@@ -40,25 +47,54 @@ def command(
     domain_name: str | None,
     reach: bool,
     seed: int,
+    robot: str | None,
     urdf: Path | None,
     picture: Path | None,
+    export: Path | None,
+    formats: Sequence[str],
+    overwrite: bool,
     as_json: bool,
 ) -> None:
-    """Build the room of an environment, put a PR2 into it, and say what stands where."""
+    """Build the room of an environment, put a PR2 into it, and say what stands where.
+
+    With --export the room is written as URDF, SDF or MJCF, its meshes beside it, without the robot.
+    """
+    if export is None and (formats or overwrite):
+        raise click.UsageError("--format and --overwrite are for --export")
+    if robot is not None and urdf is not None:
+        raise click.UsageError("give one of --robot and --urdf")
     if picture is not None and picture.suffix != ".png":
         raise click.UsageError(f"--picture: '{picture}' does not end in .png")
 
+    from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.skills.reachability_report import survey_scene
 
+    model = urdf if robot is None else packaged_robot(robot)
     room, folder, remarks = _read(roots, environment, domain_name)
     for remark in remarks:
         emit(f"note: {remark}\n", error=True)
-    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=urdf, picture=picture)
+    found = survey_scene(room, folder, reach=reach, seed=seed, urdf=model, picture=picture)
     stances = found.stances if reach else None
+    written = _exported(room, folder, export, formats, overwrite) if export is not None else []
     if as_json:
         emit_json({"environment": found.name, "objects": [_json(entry, stances) for entry in found.entries]})
     else:
         emit(_text(found.name, found.entries, stances))
+        emit("".join(f"{path}\n" for path in written))
+
+
+def _exported(
+    room: Environment, folder: DomainFolder, directory: Path, formats: Sequence[str], overwrite: bool
+) -> list[Path]:
+    """Write the files of a scene; their paths, but for the meshes."""
+    from tmd.export.directory import check_directory, write_directory
+    from tmd.export.scene_files import FORMATS, scene_files
+
+    check_directory(directory, overwrite=overwrite)
+    names = tuple(dict.fromkeys(name.strip() for text in formats or FORMATS[:1] for name in text.split(",")))
+    files = scene_files(room, folder, FORMATS if names == ("all",) else names)
+    write_directory(directory, files, overwrite=overwrite)
+    return [directory / path for path in files if "/" not in path]
 
 
 def _read(roots: Roots, name: str, domain: str | None) -> tuple[Environment, DomainFolder, tuple[str, ...]]:

@@ -1,4 +1,4 @@
-"""What the robot is to do: the best plan of a text, or the plan of a file."""
+"""What the robot is to do: the best plan of a text, a plan for a goal, or the plan of a file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Orders:
     Attributes:
         orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        status: ``not_grounded`` or ``invalid_plan``; empty for a plan.
+        status: ``not_grounded``, ``unreachable``, ``gave_up`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
         grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
     """
@@ -52,6 +52,25 @@ def orders_of_text(
     if grounded.reason:
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
     return Orders(tuple(orders_of(grounded)), remarks=told, grounding=record)
+
+
+def orders_of_goal(goal: str, world: World, planner: str | None) -> Orders:
+    """Find a plan for a goal, as ``tmd export --goal`` does; an empty one where the goal holds already.
+
+    Raises:
+        TmdError: The goal is wrong, or the planner is unknown, not installed or refuses the problem.
+    """
+    from tmd.cli.show.answer import answer_json, exit_code, why_none
+    from tmd.pddl.reading.reader import with_goal
+    from tmd.planning.backends import AUTO, solve
+    from tmd.planning.result import Solved
+
+    name = planner or AUTO
+    answer = solve(with_goal(world.task.problem, goal, "--goal"), name)
+    if isinstance(answer, Solved):
+        return Orders(tuple(map(Order, answer.plan)))
+    status = str(answer_json(answer, name)["status"])
+    return Orders((), exit_code(answer), status, (f"no plan: {why_none(answer)}\n",))
 
 
 def orders_of_file(path: Path, world: World) -> Orders:

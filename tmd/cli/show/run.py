@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import IO, Any, Literal, Self
+from typing import IO, Literal, Self
 
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
@@ -15,21 +16,24 @@ from tmd.records.run import (
     BeginEvent,
     EndEvent,
     FaultEvent,
-    FaultRecord,
     PlanEvent,
     RanStep,
     RunRecord,
     RunRequest,
     StepEvent,
+    how_it_ended,
 )
 from tmd.robot.monitor.faults import Happening
+from tmd.robot.monitor.inference import Basis
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
 
 _FACTS = 2
-"""Maximum number of confirmed facts on a line."""
+"""Maximum number of facts of each kind on a line."""
+_SILENCE = 10.0
+"""Seconds after which it is told what a robot is looking for that does not move."""
 
 
 class Telling:
@@ -57,6 +61,8 @@ class Telling:
         self._journal = journal
         self._session: SimulationSession | None = None
         self._told = 0
+        self._begun = self._last_told = 0.0
+        self._title: Title | None = None
         self._as_json = as_json
         self._steps: list[RanStep] = []
         self._width = max((len(str(order.instruction)) for order in orders), default=0)
@@ -67,6 +73,7 @@ class Telling:
     def prepare(self, session: SimulationSession) -> tuple[Self]:
         """The run begins in this simulation, which knows of its faults; see :data:`tmd.robot.run_plan.Prepare`."""
         self._session = session
+        session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
@@ -77,7 +84,17 @@ class Telling:
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins: the log of a run that was killed says what it was doing."""
+        self._title, self._begun = title, time.monotonic()
+        self._last_told = self._begun
         self._log(BeginEvent(event="begin", number=title.number, instruction=str(title.instruction)))
+
+    def _looks_for(self, doing: str) -> None:
+        """A sign of life on standard error, where an instruction takes long."""
+        now = time.monotonic()
+        if self._as_json or self._title is None or now - self._last_told < _SILENCE:
+            return
+        self._last_told = now
+        emit(f"       {self._title.instruction}: {now - self._begun:.0f} s, looking for {doing}\n", error=True)
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
@@ -94,17 +111,23 @@ class Telling:
 
     def log_ending(self, execution: Execution, steps: int) -> None:
         """The last line of the log: how it ended, after so many steps of physics."""
-        self._log(EndEvent(event="end", **_how_it_ended(execution, steps)))
+        self._log(EndEvent(event="end", **how_it_ended(execution, steps, self._missing())))
 
     def print_ending(self, execution: Execution, steps: int) -> None:
         """What is printed last, when all files are written: how it ended, or the whole record."""
         if self._as_json:
-            faults = [FaultRecord(what=happening.text, tick=happening.tick) for happening in self._happenings()]
-            done = _how_it_ended(execution, steps)
-            seen = {"steps": tuple(self._steps), "faults": tuple(faults)}
-            emit_json(RunRecord.model_validate({**self._asked.given(), **seen, **done}).to_value())
+            record = RunRecord.of(self._asked, self._steps, self._happenings(), execution, steps, self._missing())
+            emit_json(record.to_value())
         else:
             emit(_ending(execution, steps))
+            for left in execution.lasting:
+                emit(f"  left otherwise than planned: {left}\n")
+            if missing := self._missing():
+                emit(f"  no fault: {missing}\n")
+
+    def _missing(self) -> str:
+        """Why the fault that was asked for did not come about."""
+        return self._session.fault_missing if self._session is not None else ""
 
     def _print(self, text: str) -> None:
         if not self._as_json:
@@ -115,16 +138,6 @@ class Telling:
             self._journal.write(entry)
 
 
-def _how_it_ended(execution: Execution, steps: int) -> dict[str, Any]:
-    """The keys of a record, or of the last line of a log, that say how a run ended."""
-    return {
-        "status": execution.status.value,
-        "reason": execution.reason or None,
-        "repairs": execution.repairs,
-        "seconds": round(steps / STEPS_PER_SECOND, 2),
-    }
-
-
 def _found(step: ExecutedStep) -> str:
     """What was seen, in one line; all of it is in the JSON record."""
     if step.failure:
@@ -132,8 +145,13 @@ def _found(step: ExecutedStep) -> str:
     if step.mismatches:
         first = min(step.mismatches, key=lambda m: not m.expected)
         return f"not as predicted: {_first([str(first), *step.mismatches[1:]], 1)}"
-    facts = f"; confirmed {_first(step.confirmed, _FACTS)}" if step.confirmed else ""
-    return f"ok: {step.evidence}{facts}"
+    told = [f"ok: {step.evidence}"]
+    for basis in Basis:
+        facts = [effect for effect in step.effects if effect.basis is basis]
+        facts.sort(key=lambda effect: not effect.holds)
+        if facts:
+            told.append(f"{basis} {_first(facts, _FACTS)}")
+    return "; ".join(told)
 
 
 def _first(things: Sequence[object], most: int) -> str:
@@ -150,15 +168,23 @@ def _origin(order: Order) -> str:
 
 def _ending(execution: Execution, steps: int) -> str:
     how = f"after {_count(execution.repairs, 'repair')}" if execution.repairs else "but not all went as predicted"
+    known = _known_by(execution)
     told = {
-        SkillStatus.DONE: "every effect of every instruction is confirmed"
-        if execution.steps
-        else "there was nothing to do",
-        SkillStatus.RECOVERED: f"everything that the plan is for is confirmed, {how}",
+        SkillStatus.DONE: f"every effect is as predicted{known}" if execution.steps else "there was nothing to do",
+        SkillStatus.RECOVERED: f"everything that the plan is for holds, {how}{known}",
         SkillStatus.STOPPED: execution.reason,
     }[execution.status]
     count = _count(len(execution.steps), "instruction")
     return f"{execution.status}: {told}; {count}, {steps / STEPS_PER_SECOND:.1f} s simulated\n"
+
+
+def _known_by(execution: Execution) -> str:
+    """How many effects are measured, inferred and assumed, and which are assumed."""
+    effects = [effect for step in execution.steps for effect in step.effects]
+    counts = [(basis, sum(effect.basis is basis for effect in effects)) for basis in Basis]
+    told = ", ".join(f"{count} {basis}" for basis, count in counts if count)
+    assumed = list(dict.fromkeys(str(e) for e in effects if e.basis is Basis.ASSUMED))
+    return f" ({told}{': ' if assumed else ''}{_first(assumed, _FACTS + 1)})" if told else ""
 
 
 def _count(number: int, what: str) -> str:

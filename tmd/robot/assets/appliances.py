@@ -100,17 +100,17 @@ def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         model.slab((low[0], low[1], floor - 0.01), (high[0], high[1], height), look.accent)
     model.cylinder((back + 0.2, (left + end) / 2, floor + 0.001), 0.025, 0.002, "dark_grey", solid=False)
     spots = rows(x, end - left - 0.24, (0.23, 0.26), 0.07, middle=(left + end) / 2)
-    spots.sort(key=lambda spot: -abs(spot[1] - (left + end) / 2))  # the middle last: the tap hangs over it
+    spots.sort(key=lambda spot: -abs(spot[1] - (left + end) / 2))  # the middle last: what is to be filled goes there
     turned = [(a, b, c + 0.8) for a, b, c in spots]
     model.region("in", (back, left, floor), (front, end, height + 0.4), DOWN, [*spots, *turned])
-    middle, spout = (left + end) / 2, height + 0.32
+    middle, spout = (left + end) / 2, height + 0.40
     for part, said in parts.of("tap"):
         model.link(part, part=part)
         foot = back - 0.04
         model.cylinder((foot, middle, (height + spout) / 2), 0.014, spout - height, said.colour, link=part)
-        model.cylinder((foot + 0.09, middle, spout), 0.012, 0.2, said.colour, axis="x", link=part)
-        model.cylinder((foot + 0.18, middle, spout - 0.025), 0.014, 0.05, said.colour, link=part)
-        _stream(model, part, (foot + 0.18, middle), floor, spout - 0.05)
+        model.cylinder((foot + 0.12, middle, spout), 0.012, 0.26, said.colour, axis="x", link=part)
+        model.cylinder((foot + 0.24, middle, spout - 0.025), 0.014, 0.05, said.colour, link=part)
+        _stream(model, part, (foot + 0.24, middle), floor, spout - 0.05)
     for part, said in parts.of("tap_handle", "knob"):
         tap_lever(model, part, said, (x - 0.16, y1 - 0.065, height))
     side_board(model, x, -x, y1, right, height, "oak")
@@ -119,7 +119,8 @@ def sink(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 def _stream(
     model: UrdfModel, part: str, at: tuple[float, float], low: float, high: float, colour: str = "water"
 ) -> None:
-    """A stream of liquid, seen while the part is active."""
+    """A stream of liquid, seen while the part is active: straight down from where the spout ends."""
+    model.spouts[part] = (*at, high)
     name = f"{part}_stream"
     model.link(name, part=part)
     model.cylinder((*at, (low + high) / 2), 0.007, high - low, colour, link=name, solid=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -70,6 +71,26 @@ class Grasp:
 
     tool: Frame
     opening: float
+
+
+@dataclass(frozen=True, slots=True)
+class Opening:
+    """The rim of a vessel, round and level while it stands.
+
+    Attributes:
+        centre: The middle of the rim, in the item's frame.
+        radius: Inside of the wall.
+        level: The height up to which it is filled.
+    """
+
+    centre: Vector
+    radius: float
+    level: float
+
+    @property
+    def spills_from(self) -> float:
+        """Radians that it may lean before the surface of what is in it reaches the rim."""
+        return math.atan((self.centre[2] - self.level) / self.radius)
 
 
 @dataclass(frozen=True, slots=True)

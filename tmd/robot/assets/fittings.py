@@ -22,6 +22,8 @@ DOOR = 0.02
 TIP = 0.018
 """How far the finger tips reach beyond the tool's frame."""
 WIDE_OPEN = 1.57
+BUTTON = 0.012
+"""How far buttons go down."""
 _FAST = {"knob": 0.12, "door": 1.2}
 
 
@@ -91,10 +93,10 @@ def button(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:
     depth, width, height = look.size
     model.link(
         part, part=part, kind="prismatic", origin=(face[0] + depth, face[1], face[2]), axis=INTO,
-        limits=(0.0, 0.012), spring=6.0, mass=0.03,
+        limits=(0.0, BUTTON), spring=6.0, mass=0.03,
     )  # fmt: skip
     model.box((-depth / 2, 0.0, 0.0), (depth, width, height), look.colour, link=part)
-    model.grips.append(Grip(part, "button", part, Frame((TIP, 0.0, 0.0), INTO, LEFT), 0.0, 0.0, 0.01))
+    model.grips.append(Grip(part, "button", part, Frame((TIP, 0.0, 0.0), INTO, LEFT), 0.0, 0.0, BUTTON))
 
 
 def knob(model: UrdfModel, part: str, look: Appearance, face: Vector) -> None:

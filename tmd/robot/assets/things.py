@@ -8,7 +8,7 @@ from tmd.robot.assets.appearance import Appearance, Parts
 from tmd.robot.assets.features import Frame, Grip
 from tmd.robot.assets.fittings import TIP
 from tmd.robot.assets.urdf_builder import UrdfModel
-from tmd.robot.assets.vessels import bar_grasps, grasp, post_grasps
+from tmd.robot.assets.vessels import WIDE, bar_grasps, grasp, post_grasps
 
 _LOW = TIP + 0.004
 
@@ -117,7 +117,7 @@ def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         column, row = index % 2, index // 2
         place = (depth * 0.36 - 0.035 * row, 0.013 * (2 * column - 1), height + 0.006)
         model.link(
-            part, part=part, kind="prismatic", origin=place, axis=(0.0, 0.0, -1.0), limits=(0.0, 0.004), spring=3.0,
+            part, part=part, kind="prismatic", origin=place, axis=(0.0, 0.0, -1.0), limits=(0.0, 0.003), spring=3.0,
             mass=0.003,
         )  # fmt: skip
         model.box((0.0, 0.0, -0.003), (0.014, 0.014, 0.006), said.colour, link=part)
@@ -141,10 +141,10 @@ def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
                  [(-0.055, 0.0, 0.0), (0.055, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.57)],
                  overhang=math.inf, heap=True)  # fmt: skip
     model.link(
-        "lid", kind="revolute", origin=(-x, 0.0, rim + 0.001), axis=(0.0, -1.0, 0.0), limits=(0.0, 2.0),
+        "lid", kind="revolute", origin=(-x, 0.0, rim + 0.001), axis=(0.0, -1.0, 0.0), limits=(0.0, WIDE),
         friction=0.06, mass=0.02,
     )  # fmt: skip
     model.slab((0.0, -y, 0.0), (2 * x, y, 0.01), look.colour, link="lid")
     model.box((2 * x + 0.008, 0.0, 0.005), (0.016, 0.02, 0.01), look.accent, link="lid")
     tool = Frame((2 * x + 0.008, 0.0, 0.005), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
-    model.grips.append(Grip("", "lid", "lid", tool, 0.04, 0.0, 1.75))
+    model.grips.append(Grip("", "lid", "lid", tool, 0.04, 0.0, WIDE))

@@ -9,11 +9,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
+from xml.sax.saxutils import escape
 
 from tmd.robot.assets.colours import rgba
-from tmd.robot.assets.features import Grasp, Grip, Lamp, Region
+from tmd.robot.assets.features import Grasp, Grip, Lamp, Opening, Region
 from tmd.robot.sim.box_mesh import CUBE
-from tmd.robot.sim.pose import Vector
+from tmd.robot.sim.pose import Pose, Vector
 
 ROOT = ""
 """The name of the whole object among its parts and links."""
@@ -23,7 +25,7 @@ _TURNED = {"x": (0.0, math.pi / 2, 0.0), "y": (math.pi / 2, 0.0, 0.0), "z": (0.0
 
 @dataclass(slots=True)
 class UrdfLink:
-    """One link and the joint it hangs on."""
+    """One link and the joint it hangs on; ``turn`` is roll, pitch, yaw of the joint's frame."""
 
     name: str
     parent: str
@@ -35,9 +37,16 @@ class UrdfLink:
     friction: float
     spring: float
     mass: float
+    turn: Vector = (0.0, 0.0, 0.0)
     visuals: list[str] = field(default_factory=list)
     collisions: list[str] = field(default_factory=list)
     boxes: list[tuple[Vector, Vector]] = field(default_factory=list)
+
+    def at_zero(self) -> Pose:
+        """The link's frame in its parent's with the joint at 0."""
+        if self.turn == (0.0, 0.0, 0.0):
+            return Pose(self.origin)
+        return Pose(self.origin) * Pose.turned(*self.turn)
 
 
 class UrdfModel:
@@ -46,6 +55,10 @@ class UrdfModel:
     Args:
         name: The URDF's name.
         mass: Of the root link, in kilograms.
+
+    Attributes:
+        opening: The rim of what holds something; None for what holds nothing, or is closed.
+        spouts: Where a stream leaves a part, in the whole's frame, by part.
     """
 
     def __init__(self, name: str, mass: float) -> None:
@@ -57,6 +70,8 @@ class UrdfModel:
         self.grasps: list[Grasp] = []
         self.lamps: list[Lamp] = []
         self.contents: list[str] = []
+        self.opening: Opening | None = None
+        self.spouts: dict[str, Vector] = {}
         self.part_links: dict[str, str] = {ROOT: ROOT}
         self.link_parts: dict[str, str] = {ROOT: ROOT}
         self.low: list[float] = [math.inf] * 3
@@ -100,14 +115,13 @@ class UrdfModel:
     def _add(self, link: UrdfLink) -> None:
         self.links[link.name] = link
 
-    def offset(self, link: str) -> Vector:
+    def frame(self, link: str) -> Pose:
         """The link's frame in the root's with every joint at 0."""
-        x = y = z = 0.0
+        pose = Pose((0.0, 0.0, 0.0))
         while link != ROOT:
-            step = self.links[link]
-            x, y, z = x + step.origin[0], y + step.origin[1], z + step.origin[2]
-            link = step.parent
-        return (x, y, z)
+            pose = self.links[link].at_zero() * pose
+            link = self.links[link].parent
+        return pose
 
     def box(
         self, centre: Vector, size: Vector, colour: str, *, link: str = ROOT, solid: bool = True, seen: bool = True,
@@ -154,6 +168,15 @@ class UrdfModel:
             place = (centre[0] + at * math.cos(angle), centre[1] + at * math.sin(angle), middle)
             self.box(place, (wall, length, height), colour, turn=(0.0, 0.0, angle))
 
+    def mesh(self, seen: Path, solids: Sequence[Path], low: Vector, high: Vector, colour: str) -> None:
+        """A mesh of the root, in its frame: one file to be seen, convex ones to be touched, and its box."""
+        named = [f'<mesh filename="{escape(str(path))}"/>' for path in (seen, *solids)]
+        self._shape(named[0], (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), colour, ROOT, solid=False, seen=True)
+        for solid in named[1:]:
+            self._shape(solid, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0), colour, ROOT, solid=True, seen=False)
+        centre = ((low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2)
+        self._extend(ROOT, centre, (high[0] - low[0], high[1] - low[1], high[2] - low[2]), 0.0)
+
     def lamp(self, part: str, predicate: str, link: str, on: str, off: str | None) -> None:
         """Let ``link`` show whether ``predicate`` holds of ``part``; off is invisible where it is None."""
         self.lamps.append(Lamp(part, predicate, link, rgba(on), rgba(off) if off else _INVISIBLE))
@@ -170,13 +193,14 @@ class UrdfModel:
         """The URDF."""
         lines = ['<?xml version="1.0"?>', f'<robot name="{self.name}">']
         for link in self.links.values():
-            lines += [f'<link name="{link.name or "root"}">', *self._physics(link), *link.visuals, *link.collisions]
+            lines += [f'<link name="{link.name or "root"}">', *self.physics(link), *link.visuals, *link.collisions]
             lines.append("</link>")
             if link.name != ROOT:
                 lines += _joint(link)
         return "\n".join([*lines, "</robot>", ""])
 
-    def _physics(self, link: UrdfLink) -> list[str]:
+    def physics(self, link: UrdfLink) -> list[str]:
+        """How it rubs and what it weighs, spread over its box, as elements of a ``<link>``."""
         low, high = _bounds(link.boxes)
         size = [max(b - a, 0.005) for a, b in zip(low, high, strict=True)]
         centre = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
@@ -209,7 +233,7 @@ class UrdfModel:
         low = (centre[0] - half[0], centre[1] - half[1], centre[2] - half[2])
         high = (centre[0] + half[0], centre[1] + half[1], centre[2] + half[2])
         self.links[link].boxes.append((low, high))
-        for axis, shift in enumerate(self.offset(link)):
+        for axis, shift in enumerate(self.frame(link).position):
             self.low[axis] = min(self.low[axis], low[axis] + shift)
             self.high[axis] = max(self.high[axis], high[axis] + shift)
 

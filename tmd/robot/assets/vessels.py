@@ -11,7 +11,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from tmd.robot.assets.appearance import Appearance, Parts
-from tmd.robot.assets.features import Frame, Grasp, Grip
+from tmd.robot.assets.features import Frame, Grasp, Grip, Opening
 from tmd.robot.assets.fittings import DOWN, INTO, LEFT, TIP
 from tmd.robot.assets.urdf_builder import ROOT, UrdfModel
 from tmd.robot.sim.pose import Vector
@@ -19,6 +19,8 @@ from tmd.robot.sim.pose import Vector
 CLEARANCE = 0.02
 """How much wider than what they take the fingers stand open."""
 WIDEST = 0.085
+WIDE = 1.75
+"""Radians that a lid opens."""
 _AXES: tuple[Vector, ...] = ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0))
 
 
@@ -65,8 +67,10 @@ def rim_grasps(model: UrdfModel, radius: float, top: float, wall: float, angles:
         grasp(model, place, DOWN, across, wall + 0.015)
 
 
-def contents(model: UrdfModel, radius: float, floor: float, level: float) -> None:
-    """What the vessel contains, not seen yet: a filling, and something on top of it."""
+def contents(model: UrdfModel, radius: float, floor: float, rim: float) -> None:
+    """What the vessel contains, not seen yet: a filling up to half its depth, and something on top of it."""
+    level = (floor + rim) / 2
+    model.opening = Opening((0.0, 0.0, rim), radius, level)
     model.link("content")
     model.cylinder((0.0, 0.0, (floor + level) / 2), radius, level - floor, "water", link="content", solid=False)
     model.link("topping")
@@ -95,7 +99,7 @@ def cup(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         for level in (height * 0.3, height * 0.75):
             model.slab((end, -0.006, level - 0.006), (-radius + 0.006, 0.006, level + 0.006), look.colour)
         model.slab((end, -0.006, height * 0.3), (end + 0.01, 0.006, height * 0.75), look.colour)
-    contents(model, radius - 0.007, 0.006, height * 0.8)
+    contents(model, radius - 0.007, 0.006, height)
     post_grasps(model, (height * 0.5, height * 0.7), (width, width), height)
     if handle:  # no finger on the handle's side, no palm over it
         model.grasps = [g for g in model.grasps if g.tool.approach[0] < 0.1 and abs(g.tool.across[0]) < 0.1]
@@ -112,7 +116,7 @@ def bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     model.tube(radius + 0.0006, 0.0015, height - 0.012, height - 0.004, look.accent)
     end = radius + depth - width
     model.slab((radius - 0.008, -0.011, ear - 0.007), (end, 0.011, ear + 0.007), look.accent)
-    contents(model, radius - 0.01, foot, height * 0.75)
+    contents(model, radius - 0.01, foot, height)
     bar_grasps(model, [(end - 0.016, 0.0, ear)], 0.022)
     rim_grasps(model, radius, height, 0.007, (math.pi / 2, -math.pi / 2, math.pi))
 
@@ -124,7 +128,7 @@ def pot(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     round_body(model, look, radius, height, 0.005, 0.008)
     model.slab((radius - 0.008, -0.011, level - 0.008), (end, 0.011, level + 0.008), look.accent)
     model.box((-radius - 0.008, 0.0, level), (0.02, 0.05, 0.012), look.accent)
-    contents(model, radius - 0.008, 0.008, height * 0.7)
+    contents(model, radius - 0.008, 0.008, height)
     bar_grasps(model, [(end - 0.03, 0.0, level), (end - 0.055, 0.0, level)], 0.022)
     rim_grasps(model, radius, height, 0.005, (math.pi / 2, -math.pi / 2))
 
@@ -138,7 +142,7 @@ def kettle(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         model.box((side * (radius - 0.012), 0.0, (body + height) / 2), (0.014, 0.02, height - body), look.accent)
     model.box((0.0, 0.0, height - 0.009), (2 * radius - 0.01, 0.022, 0.018), look.accent)
     model.box((radius + 0.022, 0.0, body - 0.022), (0.06, 0.024, 0.024), look.colour)
-    contents(model, radius - 0.009, 0.008, body * 0.75)
+    contents(model, radius - 0.009, 0.008, body)
     bar_grasps(model, [(0.0, 0.0, height - 0.009), (0.03, 0.0, height - 0.009)], 0.022)
 
 
@@ -151,7 +155,7 @@ def carafe(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         model.slab((radius - 0.008, -0.01, level - 0.008), (bar, 0.01, level + 0.008), look.accent)
     model.slab((bar - 0.01, -0.01, height * 0.25 - 0.008), (bar + 0.01, 0.01, height * 0.9 + 0.008), look.accent)
     model.box((-radius - 0.004, 0.0, height - 0.012), (0.03, 0.03, 0.016), look.colour)
-    contents(model, radius - 0.008, 0.008, height * 0.75)
+    contents(model, radius - 0.008, 0.008, height)
     slant = math.sqrt(0.5)
     for level in (height * 0.6, height * 0.75):
         grasp(model, (bar, 0.0, level), INTO, LEFT, 0.02)
@@ -165,7 +169,7 @@ def jar(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     radius = width / 2
     round_body(model, look, radius, height - 0.012, 0.004, 0.006)
     model.tube(radius + 0.0006, 0.001, height * 0.3, height * 0.6, look.accent)
-    contents(model, radius - 0.006, 0.006, height * 0.75)
+    contents(model, radius - 0.006, 0.006, height - 0.012)
     lid(model, look, radius, height)
     post_grasps(model, (height * 0.5, height * 0.35), (width, width), height)
 
@@ -181,6 +185,7 @@ def carton(model: UrdfModel, look: Appearance, parts: Parts) -> None:
                   solid=False)  # fmt: skip
     model.box((x + 0.0005, 0.0, height * 0.4), (0.001, width * 0.7, height * 0.35), look.accent, solid=False)
     lid(model, look, min(x, y) * 0.9, height, aside=True)
+    model.opening = Opening((0.0, 0.0, top), min(x, y) - 0.004, top / 2)
     post_grasps(model, (height * 0.5, height * 0.35), (depth, width), height)
 
 
@@ -197,14 +202,14 @@ def lid(model: UrdfModel, look: Appearance, radius: float, height: float, *, asi
         return (across, out, up) if aside else (out, across, up)
 
     model.link(
-        "lid", kind="revolute", origin=at(-radius, 0.0, height - 0.012), axis=at(0.0, -1.0, 0.0), limits=(0.0, 2.0),
+        "lid", kind="revolute", origin=at(-radius, 0.0, height - 0.012), axis=at(0.0, -1.0, 0.0), limits=(0.0, WIDE),
         friction=0.03, mass=0.01,
     )  # fmt: skip
     model.cylinder(at(radius, 0.0, 0.0065), radius, 0.011, look.accent, link="lid")
     model.box(at(2 * radius + 0.010, 0.0, 0.0065), size(0.026, 0.02, 0.009), look.accent, link="lid")
     # far enough out for a hand from the side
     tool = Frame(at(2 * radius + 0.016, 0.0, 0.0065), at(-1.0, 0.0, 0.0), at(0.0, 1.0, 0.0))
-    model.grips.append(Grip(ROOT, "lid", "lid", tool, 0.04, 0.0, 1.75))
+    model.grips.append(Grip(ROOT, "lid", "lid", tool, 0.04, 0.0, WIDE))
 
 
 def sugar_bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
@@ -212,7 +217,7 @@ def sugar_bowl(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     _, width, height = look.size
     round_body(model, look, width / 2, height, 0.005, 0.008)
     model.tube(width / 2 + 0.0006, 0.001, height * 0.6, height * 0.7, look.accent)
-    contents(model, width / 2 - 0.007, 0.008, height * 0.8)
+    contents(model, width / 2 - 0.007, 0.008, height)
     post_grasps(model, (height * 0.55,), (width, width), height)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Protocol
@@ -23,6 +23,12 @@ TRIES = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 2}
 """So often something is tried before a way round it is looked for, by the stage at which it fails.
 
 Another try finds another path, and no other place to stand. What failed at other stages was within reach.
+"""
+
+AGAIN = {SkillPhase.PRECONDITION: 1, SkillPhase.STANCE: 1, SkillPhase.PATH: 3}
+"""So often the same instruction is tried while nothing has moved, by the stage at which it fails; others twice.
+
+Paths are drawn at random: another try may find one.
 """
 
 DROP = 6
@@ -76,6 +82,12 @@ class Setbacks:
                 self._known.add(setback)
                 self.standing.append(setback)
                 return
+
+    def fruitless(self, instruction: Instruction, facts: frozenset[GroundAtom]) -> None:
+        """Take note that an instruction did not bring about what it should, as things stand."""
+        setback = Setback(instruction, facts)
+        if facts and setback not in self.standing:
+            self.standing.append(setback)
 
     def observed(self, state: State) -> None:
         """Forget what may be tried again, as things are now."""
@@ -162,6 +174,14 @@ class Performer(Protocol):
         """The simulation's step."""
         ...
 
+    def situation(self) -> Hashable:
+        """Where everything is but the robot: as long as it is the same, what failed fails again."""
+        ...
+
+    def idle(self, instruction: Instruction) -> bool:
+        """Whether an instruction moves nothing but the robot itself."""
+        ...
+
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Do it, and give the evidence that its event happened.
 
@@ -214,6 +234,11 @@ class Executor:
         self._repairs = 0
         self._setbacks = Setbacks(self.observer.skills.seen)
         self._hopeless: set[tuple[tuple[Setback, ...], tuple[Instruction, ...]]] = set()
+        self._lost: frozenset[GroundAtom] = frozenset()
+        self._tried: Counter[tuple[Instruction, Hashable]] = Counter()
+        self._spent: set[tuple[Instruction, Hashable]] = set()
+        self._on_course: State = self.problem.init
+        self._named = {name for instruction in plan for name in instruction.args}
         state = self.observer.now(self.problem.init)
         wanted = self._wanted(plan, state)
         waiting = [(instruction, False) for instruction in plan]
@@ -233,7 +258,7 @@ class Executor:
                 if not done.failure and self._did(tried, before, state):
                     waiting.pop(0)  # it did what it is for; something else is not as it should be
                     attempt = 0
-                    if waiting and self._goes_on(waiting, state):
+                    if waiting and self._goes_on(waiting, state, wanted):
                         continue
             else:
                 tried = waiting[0][0] if waiting else None
@@ -246,55 +271,102 @@ class Executor:
                 return self._stopped(repaired if tried is None else f"after {self._last()}, {repaired}", state)
             waiting = repaired
         status = SkillStatus.DONE if smooth and not self._repairs else SkillStatus.RECOVERED
-        return Execution(status, "", tuple(self._steps), self._repairs, state)
+        return Execution(status, "", tuple(self._steps), self._repairs, state, self._lasting(plan, state))
 
     def _did(self, instruction: Instruction, before: State, after: State) -> bool:
         """Whether what an instruction changes is as it should be."""
         predicted = apply(instruction, before, self.problem)
-        return predicted - before <= after and not (before - predicted) & after
+        changed = {atom for atom in predicted ^ before if not self._aside(atom)}
+        return all((atom in predicted) is (atom in after) for atom in changed)
 
-    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State) -> bool:
-        """Whether what is waiting can be executed from here as it is: then nothing is to be replanned."""
+    def _aside(self, atom: GroundAtom) -> bool:
+        """Whether a fact is about what is in something that the plan has nothing to do with: it stands there."""
+        return (
+            atom.predicate in self.observer.skills.inferred
+            and atom.args[0] not in self._named
+            and (self.observer.skills.inferred[atom.predicate] != "event")
+        )
+
+    def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
+        """Whether what is waiting leads to what is wanted from here as it is: then nothing is to be replanned."""
         for instruction, _ in waiting:
             if first_broken(instruction, state, self.problem) is not None:
                 return False
             state = apply(instruction, state, self.problem)
-        return True
+        return _satisfied(wanted, state)
 
     def _do(self, instruction: Instruction, repair: bool, state: State, attempt: int) -> tuple[ExecutedStep, State]:
         predicted = apply(instruction, state, self.problem)
         begin, failure, evidence = self.performer.clock, "", ""
+        key = instruction, self.performer.situation()
         try:
             evidence = self.performer.perform(instruction, predicted - state, attempt)
         except SkillError as error:
             failure = str(error)
             self._setbacks.failed(instruction, state, error.stage)
-        now = self.observer.after(state, instruction, happened=not failure)
+            self._tried[key] += 1
+            if self._tried[key] >= AGAIN.get(error.stage, 2):
+                self._spent.add(key)
+        now = self.observer.after(state, instruction, happened=not failure, evidence=evidence)
         self._setbacks.observed(now)
         mismatches = self.observer.mismatches(predicted, now)
-        confirmed = tuple(sorted((predicted - state) & now))
+        effects = tuple(self.observer.effects(state, predicted, now))
+        if not failure:
+            self._setbacks.fruitless(instruction, self._in_vain(mismatches, now))
+        self._lost = self._still_lost(mismatches, now) if failure or mismatches or repair else frozenset()
+        if not (failure or mismatches or repair):
+            self._on_course = now
         step = ExecutedStep(
-            instruction, repair, failure, evidence, confirmed, tuple(mismatches), begin, self.performer.clock, now
+            instruction, repair, failure, evidence, effects, tuple(mismatches), begin, self.performer.clock, now
         )
         self._steps.append(step)
         if self.watch is not None:
             self.watch(step)
         return step, now
 
+    def _still_lost(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
+        """What should be in something and is not, since the plan last went on."""
+        contents = {p for p, rule in self.observer.skills.inferred.items() if rule == "contents"}
+        missing = (m.atom for m in mismatches if m.expected and m.atom.predicate in contents)
+        return frozenset(atom for atom in (*self._lost, *missing) if atom not in now and not self._aside(atom))
+
+    def _in_vain(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
+        """Where things are that should have got something into them, and did not."""
+        skills = self.observer.skills
+        missing = [m.atom for m in mismatches if m.expected and not self._aside(m.atom)]
+        dry = {atom.args[0] for atom in missing if skills.inferred.get(atom.predicate) == "contents"}
+        return frozenset(a for a in now if skills.seen.get(a.predicate) == "support" and a.args[0] in dry)
+
     def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | str:
         """What is to be done now, each with whether it is a repair; or why there is no way.
 
-        What could not be done is avoided where that is possible. Where it is not, it is tried again.
+        What could not be done is avoided where that is possible. Where it is not, it is tried again, unless nothing has
+        moved since it failed.
         """
         task = ground(replace(self.problem, init=state))
-        around = self._around(task, waiting, wanted)
-        if around is not None:
-            return around
-        plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
-        way = _missing(self.planner, plain, waiting, wanted)
-        return way if isinstance(way, str) else _joined(way, waiting)
+        found: list[tuple[Instruction, bool]] | str | None
+        found = self._regained(task, self._setbacks.standing, waiting, wanted) or self._around(task, waiting, wanted)
+        if found is None:
+            plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
+            way = _missing(self.planner, plain, waiting, wanted)
+            found = way if isinstance(way, str) else _joined(way, waiting)
+        if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
+            return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
+        return found
+
+    def _the_same_again(self, way: Sequence[Instruction]) -> Instruction | None:
+        """The first instruction that moves something, if it has failed as everything stands now."""
+        first = next((instruction for instruction in way if not self.performer.idle(instruction)), None)
+        return first if first is not None and (first, self.performer.situation()) in self._spent else None
+
+    def _lasting(self, plan: Sequence[Instruction], state: State) -> tuple[Mismatch, ...]:
+        """What is not as the plan would have left it, whatever it is for."""
+        end = self.problem.init
+        for instruction in plan:
+            end = apply(instruction, end, self.problem)
+        return tuple(self.observer.lasting(end, state))
 
     def _around(
         self, task: Task, waiting: Sequence[Instruction], wanted: _Wanted
@@ -319,17 +391,50 @@ class Executor:
         self._hopeless.add(question)
         return None
 
+    def _regained(
+        self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
+    ) -> list[tuple[Instruction, bool]] | None:
+        """A way by three short plans: what was spilled is in again, knobs and doors are as they were, the rest goes on.
+
+        A search for all at once would be much longer than each of these.
+        """
+        state = task.decode(task.init)
+        rules = self.observer.skills.inferred
+        lost = frozenset(atom for atom in self._lost if atom not in state)
+        if not waiting:
+            lost |= frozenset(a for a in wanted[0] if a not in state and rules.get(a.predicate) == "contents")
+        if not lost:
+            return None
+        plain = careful(task, self.observer.skills)
+        way = _missing(IN_PROCESS, without(plain, setbacks) if setbacks else plain, (), (lost, frozenset()))
+        if isinstance(way, str):
+            return None
+        after = _end(plain, task.init, way)
+        worked = {p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting")}
+        changed = {atom for atom in self._on_course ^ plain.decode(after) if atom.predicate in worked}
+        again = frozenset(changed & self._on_course), frozenset(changed - self._on_course)
+        back = _missing(IN_PROCESS, replace(plain, init=after), (), again)
+        if isinstance(back, str):
+            back = ()
+        after = _end(plain, after, back)
+        for rest in (waiting, waiting[1:]):
+            more = _missing(IN_PROCESS, replace(plain, init=after), rest, wanted)
+            if not isinstance(more, str) and _leads(plain, [*way, *back, *more, *rest], wanted):
+                return _joined([*way, *back, *more], rest)
+        return None
+
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
         """What the plan is for: the facts that it brings about, and those that it ends."""
         end = state
         for instruction in plan:
             end = apply(instruction, end, self.problem)
         aside = self.observer.skills.confirmed
-        gained = frozenset(a for a in end - state if a.predicate not in aside)
-        return gained, frozenset(a for a in state - end if a.predicate not in aside)
+        gained = frozenset(a for a in end - state if a.predicate not in aside and not self._aside(a))
+        return gained, frozenset(a for a in state - end if a.predicate not in aside and not self._aside(a))
 
     def _stopped(self, reason: str, state: State) -> Execution:
-        return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state)
+        lasting = tuple(self.observer.lasting(self.problem.init, state, odd=True))
+        return Execution(SkillStatus.STOPPED, reason, tuple(self._steps), self._repairs, state, lasting)
 
     def _last(self) -> str:
         """What went wrong last."""
@@ -366,6 +471,13 @@ def _missing(
     if isinstance(answer, Unreachable):
         return f"replanning proved that there is no way: {answer.reason}"
     return f"replanning gave up: {answer.limit}"
+
+
+def _end(task: Task, state: Bits, plan: Sequence[Instruction]) -> Bits:
+    """The state after a plan."""
+    for instruction in plan:
+        state = task.by_instruction[instruction].apply(state)
+    return state
 
 
 def _leads(task: Task, plan: Sequence[Instruction], wanted: _Wanted) -> bool:

@@ -6,7 +6,7 @@ comes about is drawn from the places where it can.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Hashable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
@@ -14,7 +14,7 @@ from enum import StrEnum
 from numpy.random import Generator
 
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.robot.pr2.pr2 import ARMS, finger_angle
+from tmd.robot.pr2.pr2 import ARMS
 from tmd.robot.pr2.trajectory_following import hold
 from tmd.robot.scene.scene import Handle, Spot
 from tmd.robot.sim.pose import Pose
@@ -38,6 +38,18 @@ class InjectedFault(StrEnum):
 
 
 _SKILLS = {InjectedFault.SLIP: ("pick",), InjectedFault.STUCK: ("open", "close"), InjectedFault.MISSED: ("push",)}
+_NEEDED = {
+    InjectedFault.SLIP: "nothing is taken",
+    InjectedFault.STUCK: "no door, drawer or lid is moved",
+    InjectedFault.MOVED: "nothing is taken for the first time after an instruction that it has no part in",
+    InjectedFault.MISSED: "no button is pressed",
+}
+_TRIED = {
+    InjectedFault.SLIP: "what was to be taken was not held",
+    InjectedFault.STUCK: "what was to be moved has no joint",
+    InjectedFault.MOVED: "nothing that is taken later stood open, or there was no other surface with room",
+    InjectedFault.MISSED: "there was no room to shift what carries the button, or no finger came near",
+}
 _HELD_FOR = (0.03, 0.25)
 """Metres that a thing is carried before it slips."""
 _SHIFT = (0.04, 0.06)
@@ -107,6 +119,27 @@ class FaultyPerformer:
     def clock(self) -> int:
         """The robot's."""
         return self._performer.clock
+
+    def missing(self) -> str:
+        """Why nothing went wrong; empty where something did."""
+        if self.log:
+            return ""
+        if not self._possible:
+            return f"'{self._fault}' cannot come about in this plan: {_NEEDED[self._fault]}"
+        drawn = self._plan[self._from]
+        if self._next <= self._from:
+            return f"'{self._fault}' was drawn for instruction {self._from + 1}, {drawn}, which was not reached"
+        return (
+            f"'{self._fault}' did not come about from instruction {self._from + 1}, {drawn}, on: {_TRIED[self._fault]}"
+        )
+
+    def situation(self) -> Hashable:
+        """The robot's."""
+        return self._performer.situation()
+
+    def idle(self, instruction: Instruction) -> bool:
+        """The robot's."""
+        return self._performer.idle(instruction)
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Do it, and perhaps let something go wrong; see :class:`tmd.robot.monitor.executor.Performer`."""
@@ -178,7 +211,7 @@ class _Slip:
         if not self.log and self._side() is not None:
             self._fall()
         if self.log:
-            self.cell.settle(self.item)
+            self.cell.settle()
 
     def _side(self) -> str | None:
         return next((side for side in ARMS if self.cell.robot.held(side) == self.body), None)
@@ -188,7 +221,7 @@ class _Slip:
         assert side is not None
         robot.let_go(side)
         fingers = robot.finger_groups[side]
-        wide = [finger_angle(0.08)] * len(fingers.joints)
+        wide = robot.fingers(0.08)
         hold(sim, robot.body, fingers, wide)
         if robot.kinematic:
             sim.set_joints(robot.body, fingers.joints, wide)
@@ -344,7 +377,7 @@ def _move(cell: Cell, item: str, rng: Generator) -> str:
             if any(c.distance < -_FALL for other in others for c in cell.sim.closest(body, other, 0.0)):
                 continue
             cell.sim.wake()
-            cell.settle(item)
+            cell.settle()
             return f"{item} was moved from {here[0]} to {target}"
     cell.sim.set_pose(body, before)
     return ""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -81,6 +81,14 @@ class Recorder:
     def clock(self) -> int:
         """The performer's."""
         return self._performer.clock
+
+    def situation(self) -> Hashable:
+        """The performer's."""
+        return self._performer.situation()
+
+    def idle(self, instruction: Instruction) -> bool:
+        """The performer's."""
+        return self._performer.idle(instruction)
 
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Tell that it begins, and let it be done."""

@@ -1,9 +1,9 @@
 """The symbolic state, read back from the simulation.
 
-A fact is *seen* (a sensor measures it), *derived* (the rules of ``objects.yaml`` follow it from what is seen) or
-*kept*: contents, heat and the like have no physics here. A kept fact changes as PDDL says, and only when the
-skill's own event was seen in the simulation; what PDDL says is asked of the state that was observed before, not of
-the one that was predicted.
+A fact is *seen* (a sensor measures it), *derived* (the rules of ``objects.yaml`` follow it from what is seen),
+*inferred* (see :mod:`tmd.robot.monitor.inference`) or *assumed*: it changes as PDDL says, and only when the skill's own
+event was seen in the simulation. What PDDL says is asked of the state that was observed before, not of the one that
+was predicted. What should stand and has fallen over is not at its place.
 """
 
 from __future__ import annotations
@@ -16,12 +16,13 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State, universe
 from tmd.pddl.semantics import apply
 from tmd.pddl.task import Operator, Task
+from tmd.robot.monitor.inference import Basis, ContentSenses, FactInference, InferredFacts, KnownEffect
 from tmd.robot.skills.skill_file import Skills
 from tmd.world.compile import derive, derive_rules
 from tmd.world.folder import DomainFolder
 
 
-class Senses(Protocol):
+class Senses(ContentSenses, Protocol):
     """What can be measured in a simulation."""
 
     def held(self) -> Sequence[str]:
@@ -32,8 +33,20 @@ class Senses(Protocol):
         """What an item is at, and how: (thing, relation)."""
         ...
 
+    def fallen(self, item: str) -> bool:
+        """Whether an item that should stand upright does not, as far as no shut door is before it."""
+        ...
+
     def is_open(self, name: str) -> bool | None:
-        """Whether a door, drawer or lid is open; ``None`` for what has no joint."""
+        """Whether a door, drawer or lid is open; ``None`` for what has no joint, or is neither open nor shut."""
+        ...
+
+    def ajar(self, name: str) -> bool:
+        """Whether a door, drawer or lid is neither open nor shut."""
+        ...
+
+    def has_joint(self, name: str) -> bool:
+        """Whether there is a joint that :meth:`is_open` and :meth:`setting` are about."""
         ...
 
     def setting(self, name: str) -> str | None:
@@ -95,6 +108,8 @@ class Observer:
         }
 
         self._task, self._rules = self._ground()
+        self._inference = FactInference(skills)
+        self._inferred = InferredFacts(set())
 
     def _ground(self) -> tuple[Task, list[Operator]]:
         """The rules that derive what is asked for, on bit sets."""
@@ -108,21 +123,41 @@ class Observer:
         known = [task.by_instruction.get(Instruction(rule.name)) for rule in rules]
         return task, [operator for operator in known if operator is not None]
 
-    def after(self, before: State, instruction: Instruction, *, happened: bool) -> State:
+    def after(self, before: State, instruction: Instruction, *, happened: bool, evidence: str = "") -> State:
         """The state now.
 
         Args:
             before: The state that was observed before ``instruction``.
             instruction: What was done.
-            happened: Whether the skill's own event was seen; otherwise kept facts stay as they were.
+            happened: Whether the skill's own event was seen; otherwise facts that no sensor sees stay as they were.
+            evidence: What showed it.
         """
-        kept = apply(instruction, before, self.problem) if happened else before
-        return self.now(kept)
+        predicted = apply(instruction, before, self.problem)
+        inferred = self._inference.after(self.senses, before, predicted, instruction, evidence, happened=happened)
+        found = self._now(inferred, before, predicted if happened else before)
+        self._inferred = inferred
+        return found
 
     def now(self, kept: State) -> State:
         """The state now, with what cannot be seen as in ``kept``."""
+        self._inferred = InferredFacts(set(kept))
+        return self._now(self._inferred, kept, kept)
+
+    def _now(self, inferred: InferredFacts, before: State, jointless: State) -> State:
+        """The state now; what a joint leaves open is as before, and as ``jointless`` where there is no joint."""
+        kept = inferred.state
         told = {a for a in kept if a.predicate not in self.skills.seen and a.predicate not in self.skills.derived}
-        found = frozenset(told | self._seen(kept))
+        state = self._with_derived(frozenset(told | self._seen(before, jointless)))
+        state -= self._toppled(state)
+        self._inference.observed(self.senses, state)
+        return state
+
+    def _toppled(self, state: State) -> set[GroundAtom]:
+        """Places of things that have fallen over."""
+        places = [a for a in state if self.skills.seen.get(a.predicate) == "support"]
+        return {a for a in places if self.senses.fallen(a.args[0])}
+
+    def _with_derived(self, found: State) -> State:
         if not self.skills.derived:
             return found
         bits = self._task.encode(found)
@@ -133,6 +168,29 @@ class Observer:
                 bits = operator.apply(bits)
             followed = self._task.decode(bits)
         return found | {a for a in followed if a.predicate in self.skills.derived}
+
+    def effects(self, before: State, predicted: State, observed: State) -> list[KnownEffect]:
+        """What an instruction changed as predicted, sorted, each with what it is known by.
+
+        What the robot is no longer near to is left out.
+        """
+        found = []
+        for atom in sorted(predicted ^ before):
+            holds = atom in predicted
+            if holds is not (atom in observed) or (not holds and atom.predicate in self.skills.confirmed):
+                continue
+            found.append(KnownEffect(atom, holds, *self._known_by(atom)))
+        return found
+
+    def _known_by(self, atom: GroundAtom) -> tuple[Basis, str]:
+        sensor = self.skills.seen.get(atom.predicate) or self.skills.confirmed.get(atom.predicate)
+        if sensor == "setting" and not self.senses.has_joint(atom.args[0]):
+            sensor = None  # a channel: there is no joint
+        if sensor is not None:
+            return Basis.MEASURED, self.senses.measured(atom, sensor)
+        if atom.predicate in self.skills.derived:
+            return Basis.INFERRED, "by the rules of objects.yaml from what was measured"
+        return self._inferred.known.get(atom, (Basis.ASSUMED, "PDDL says so"))
 
     def mismatches(self, predicted: State, observed: State) -> list[Mismatch]:
         """Where the two differ, and where what should be confirmed is not; sorted."""
@@ -146,14 +204,50 @@ class Observer:
                 found.append(Mismatch(atom, True, self.senses.measured(atom, "reach")))
         return found
 
+    def lasting(self, end: State, observed: State, *, odd: bool = False) -> list[Mismatch]:
+        """Where things, joints and contents are not as in ``end``, and what is neither open nor shut; sorted.
+
+        Args:
+            end: What was expected.
+            observed: What is.
+            odd: Only what is neither open nor shut, has fallen over or is nowhere.
+        """
+        seen = {p for p, sensor in self.skills.seen.items() if sensor in ("support", "joint", "setting")}
+        told = seen | {p for p, rule in self.skills.inferred.items() if rule == "contents"}
+        found: list[Mismatch] = []
+        if not odd:
+            differing = sorted(a for a in end ^ observed if a.predicate in told)
+            for atom in differing:
+                measured = self._measured(atom, self.skills.seen.get(atom.predicate, ""), atom in observed)
+                found.append(Mismatch(atom, atom in end, measured))
+        known = {each.atom for each in found}
+        for predicate, sensor in sorted(self.skills.seen.items()):
+            for name in self._names(self._declared(predicate)) if sensor in ("joint", "support") else ():
+                if sensor == "joint":
+                    wrong = self.senses.ajar(name)
+                    atom = GroundAtom(predicate, (name,))
+                else:
+                    wrong = self.senses.fallen(name)
+                    atom = GroundAtom(predicate, (name, *(self.senses.support(name) or ("", ""))))
+                if wrong and atom not in known:
+                    found.append(Mismatch(atom, atom in end, self.senses.measured(atom, sensor)))
+        return found
+
+    def _declared(self, predicate: str) -> tuple[str, ...]:
+        """The types of a predicate's first argument."""
+        declared = next(p for p in self.problem.domain.predicates if p.name == predicate)
+        return tuple(declared.parameters[0].types)
+
     def _measured(self, atom: GroundAtom, sensor: str, holds: bool) -> str:
         if sensor:
             return self.senses.measured(atom, sensor)
+        if atom in self._inferred.against:
+            return self._inferred.against[atom]
         if atom.predicate in self.skills.derived:
             return f"what is seen gives {'' if holds else 'not '}{atom}"
         return f"nothing was seen that would {'end' if holds else 'bring about'} it"
 
-    def _seen(self, kept: State) -> set[GroundAtom]:
+    def _seen(self, before: State, jointless: State) -> set[GroundAtom]:
         found: set[GroundAtom] = set()
         held = self.senses.held()
         for predicate, sensor in self.skills.seen.items():
@@ -164,23 +258,25 @@ class Observer:
                     if len(held) == (1 if sensor == "one_hand" else 2):
                         found.update(GroundAtom(predicate, (r,)) for r in self._robots[predicate])
                 case _:
-                    found |= self._of_things(predicate, sensor, kept, held)
+                    found |= self._of_things(predicate, sensor, before, jointless, held)
         return found
 
-    def _of_things(self, predicate: str, sensor: str, kept: State, held: Sequence[str]) -> set[GroundAtom]:
+    def _of_things(
+        self, predicate: str, sensor: str, before: State, jointless: State, held: Sequence[str]
+    ) -> set[GroundAtom]:
         found: set[GroundAtom] = set()
-        declared = next(p for p in self.problem.domain.predicates if p.name == predicate)
-        for name in self._names(declared.parameters[0].types):
-            before = {a for a in kept if a.predicate == predicate and a.args[0] == name}
+        for name in self._names(self._declared(predicate)):
+            has_joint = sensor == "support" or self.senses.has_joint(name)
+            usual = {a for a in (before if has_joint else jointless) if a.predicate == predicate and a.args[0] == name}
             if sensor == "support":
                 place = None if name in held else self.senses.support(name)
                 found |= {GroundAtom(predicate, (name, *place))} if place else set()
             elif sensor == "joint":
                 is_open = self.senses.is_open(name)
-                found |= before if is_open is None else {GroundAtom(predicate, (name,))} if is_open else set()
+                found |= usual if is_open is None else {GroundAtom(predicate, (name,))} if is_open else set()
             else:
                 setting = self.senses.setting(name)
-                found |= before if setting is None else {GroundAtom(predicate, (name, setting))}
+                found |= usual if setting is None else {GroundAtom(predicate, (name, setting))}
         return found
 
     def _names(self, types: Iterable[str]) -> tuple[str, ...]:

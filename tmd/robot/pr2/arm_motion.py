@@ -7,7 +7,8 @@ elsewhere, so that a skill can see whether all its motions exist before it makes
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from math import pi, sin
+from itertools import pairwise
+from math import hypot, pi, sin
 from typing import Protocol
 
 import numpy as np
@@ -27,6 +28,8 @@ Base = tuple[float, float, float]
 STRIDES = np.array([0.04, 0.04, 0.06, 0.06, 0.12, 0.12, 0.25])
 """How far each joint may move between two checks: 2 to 4 cm at the hand."""
 _ENDLESS = (4, 6)
+_TRACK_WORK = 80
+"""Microseconds of following a pose, about."""
 
 
 class ArmModel(CollisionModel, Protocol):
@@ -59,6 +62,9 @@ class ArmModel(CollisionModel, Protocol):
     ) -> list[tuple[float, ...]]:
         """Arm positions that bring a tool frame to a pose of the world."""
 
+    def keeps_level(self, side: str) -> bool | None:
+        """Whether what a hand holds must stay upright on its way (True), should if it can (False), or need not."""
+
     def tool_at(self, side: str, arm: Sequence[float], *, base: Base | None = None, torso: float | None = None) -> Pose:
         """Where the tool frame would be in the world."""
 
@@ -74,7 +80,8 @@ def plan_arm(
 ) -> list[Arm] | None:
     """A collision-free path of one arm from where it is to joint positions.
 
-    It keeps :data:`CLEARANCE` away; what is nearer at the start or at the goal may stay as near as it is there.
+    It keeps :data:`CLEARANCE` away; what is nearer at the start or at the goal may stay as near as it is there. What
+    can hold something stays upright.
 
     Args:
         robot: The robot; nothing moves.
@@ -88,37 +95,108 @@ def plan_arm(
         Joint positions after the start, the last is the goal, to go through in straight lines; None: the goal touches
         something, or no path was found.
     """
+    must = robot.keeps_level(side)
+    for level in (None,) if must is None else (True,) if must else (True, None):
+        path = _plan_arm(robot, side, goal, ignore, rng, budget, level=bool(level))
+        if path is not None:
+            return path
+    return None
+
+
+def _plan_arm(
+    robot: ArmModel,
+    side: str,
+    goal: Sequence[float],
+    ignore: Ignored,
+    rng: np.random.Generator,
+    budget: int,
+    *,
+    level: bool,
+) -> list[Arm] | None:
     kinematics = robot.arm_kinematics[side]
     first = np.array(robot.arm(side), dtype=float)
     last = kinematics.near(np.array([goal], dtype=float), first.tolist())[0]
     lower = np.where(np.isinf(kinematics.lower), np.minimum(first, last) - pi, kinematics.lower)
     upper = np.where(np.isinf(kinematics.upper), np.maximum(first, last) + pi, kinematics.upper)
 
-    def sample() -> Array:
+    upright = _Upright(robot, side, first, last) if level else None
+
+    def sample() -> Array | None:
         if rng.random() < 0.5:
-            anywhere: Array = rng.uniform(lower, upper)
-            return anywhere
-        middle = first + (last - first) * rng.random()
-        near: Array = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
-        return near
+            drawn: Array = rng.uniform(lower, upper)
+        else:
+            middle = first + (last - first) * rng.random()
+            drawn = np.clip(middle + rng.normal(0.0, 0.6, len(ARM)), lower, upper)
+        return drawn if upright is None else upright.stood_up(drawn, anywhere=True)
 
     with CollisionChecker(
         robot, robot.arm_joints[side], arm=side, ignore=ignore, margin=ARM_MOTION.clearance
     ) as checker:
+
+        def free(rows: Array, closer: float = 0.0) -> bool:
+            return (upright is None or upright.kept(rows)) and checker.free(rows, closer)
+
         # what touches at an end should come off soon; where that is not possible, it may touch all the way
         for near in (ARM_MOTION.near * STRIDES, None):
             if not checker.allow(((first, ARM_MOTION.start_penetration), (last, 1e-3)), near):
                 return None
-            path = plan(first, last, checker.free, sample, STRIDES, budget=budget)
+            path = plan(
+                first, last, free, sample, STRIDES, budget=budget, project=None if upright is None else upright.stood_up
+            )
             if path is not None or not checker.touching():
                 break
         if path is None:
             return None
-        path = shorten(path, checker.free, STRIDES, rng)
+        path = shorten(path, free, STRIDES, rng)
         path = exact(
-            path, robot.arm_groups[side], lambda track: checker.free(track, ARM_MOTION.rounding * ARM_MOTION.clearance)
+            path, robot.arm_groups[side], lambda track: free(track, ARM_MOTION.rounding * ARM_MOTION.clearance)
         )
     return [tuple(float(value) for value in row) for row in path[1:]]
+
+
+class _Upright:
+    """Keeps what a hand holds upright: it may lean a little, or as much as it does at the ends of its way.
+
+    Args:
+        robot: The robot.
+        side: The hand.
+        first: Where the arm is.
+        last: Where it goes.
+    """
+
+    def __init__(self, robot: ArmModel, side: str, first: Array, last: Array) -> None:
+        self._kinematics = robot.arm_kinematics[side]
+        self._torso = robot.torso()
+        held = next(held for held in robot.helds() if held.side == side)
+        self._axis = np.array(held.grip.rotate((0.0, 0.0, 1.0)))
+        self._most = max(ARM_MOTION.level, float(self._leaning(np.array([first, last])).max()) + 0.02)
+
+    def _leaning(self, rows: Array) -> Array:
+        """Radians between the axis of what is held and the vertical, for (n, 7)."""
+        frames = self._kinematics.tool(self._torso, rows)
+        angles: Array = np.arccos(np.clip((frames[:, :3, :3] @ self._axis)[:, 2], -1.0, 1.0))
+        return angles
+
+    def kept(self, rows: Array) -> bool:
+        """Whether it is upright in all of (n, 7)."""
+        return bool(np.all(self._leaning(rows) <= self._most))
+
+    def stood_up(self, row: Array, *, anywhere: bool = False) -> Array | None:
+        """A posture like ``row`` in which it is upright; None if there is none nearby, or with ``anywhere`` at all."""
+        frame = self._kinematics.tool(self._torso, row[None])[0]
+        pose = Pose.from_matrix(frame)
+        up = np.array(pose.rotate((float(self._axis[0]), float(self._axis[1]), float(self._axis[2]))))
+        turn = np.cross(up, (0.0, 0.0, 1.0))
+        sine = float(np.linalg.norm(turn))
+        if sine > 1e-9:
+            x, y, z = (float(value) for value in turn / sine)
+            turned = Pose.about((x, y, z), float(np.arctan2(sine, up[2]))) * Pose((0.0, 0.0, 0.0), pose.orientation)
+            pose = Pose(pose.position, turned.orientation)
+        if anywhere:
+            found = self._kinematics.with_roll(pose, self._torso, row.tolist())
+        else:
+            found = self._kinematics.track(pose, self._torso, row.tolist())
+        return None if found is None else np.array(found, dtype=float)
 
 
 def plan_line(
@@ -149,6 +227,50 @@ def plan_line(
     return plan_poses(robot, side, poses, ignore=ignore, arm=arm)
 
 
+def plan_level(robot: ArmModel, side: str, goal: Pose, *, ignore: Ignored = ()) -> list[Arm] | None:
+    """A way of a hand in straight lines, on which what it holds leans no more than at its ends.
+
+    Straight there; or back towards the robot, or up, or both, before and after that.
+
+    Args:
+        robot: The robot; nothing moves.
+        side: The arm.
+        goal: Where the tool goes, in the world.
+        ignore: As for :func:`plan_arm`.
+
+    Returns:
+        As :func:`plan_arm`.
+    """
+    start = robot.tool_at(side, robot.arm(side))
+    shoulder = robot.base_link()
+    for up, back in ARM_MOTION.level_detours:
+        corners = [_aside(shoulder, pose, up, back) for pose in (start, goal)] if up or back else []
+        poses = [start, *corners, goal]
+        whole = [start]
+        for one, other in pairwise(poses):
+            pieces = max(1, int(np.ceil(max(one.distance(other) / 0.02, one.angle(other) / 0.1) - 1e-9)))
+            whole += [between(one, other, index / pieces) for index in range(1, pieces + 1)]
+        rows = plan_poses(robot, side, whole, ignore=ignore, margin=ARM_MOTION.level_clearance)
+        if rows is not None:
+            return rows[1:]
+    return None
+
+
+def _aside(base: Pose, pose: Pose, up: float, back: float) -> Pose:
+    """The pose higher up and nearer to the robot."""
+    x, y, z = pose.position
+    away = max(hypot(base.position[0] - x, base.position[1] - y), 1e-6)
+    nearer = min(back, away)
+    return Pose(
+        (
+            x + nearer * (base.position[0] - x) / away,
+            y + nearer * (base.position[1] - y) / away,
+            z + up,
+        ),
+        pose.orientation,
+    )
+
+
 def plan_poses(
     robot: ArmModel,
     side: str,
@@ -159,6 +281,7 @@ def plan_poses(
     base: Base | None = None,
     torso: float | None = None,
     held: Sequence[Held] | None = None,
+    margin: float = 0.0,
 ) -> list[Arm] | None:
     """Joint positions along tool poses, without leaps between them.
 
@@ -172,6 +295,7 @@ def plan_poses(
         base: Where the base would be; None: where it is.
         torso: How high the torso would be; None: as it is.
         held: What would be in the hands; None: what is.
+        margin: Metres that count as touching, but for what is as near at the start.
 
     Returns:
         One row for each pose, the first included; None: a pose is out of reach, or the way to it is blocked.
@@ -187,6 +311,7 @@ def plan_poses(
         arm=side,
         helds=held,
         ignore=ignore,
+        margin=margin,
     ) as checker:
         for seed in seeds:
             for collision in checker.collisions(seed):
@@ -206,6 +331,7 @@ def _along(
     rows, looked_at = [seed], 0
     for number, pose in enumerate(poses[1:], 1):
         row = track(pose, rows[-1])
+        checker.sim.work += _TRACK_WORK
         if row is None:
             return None
         rows.append(row)

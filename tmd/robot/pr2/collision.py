@@ -53,6 +53,10 @@ class LinkBox:
     half: Array
 
 
+_BATCH_WORK = (130, 8)
+"""Microseconds of comparing boxes, about: for a batch, and for each configuration in it."""
+
+
 class CollisionModel(Protocol):
     """What collision checking asks of a robot; attributes as those of :class:`~tmd.robot.pr2.pr2.Pr2`."""
 
@@ -132,6 +136,11 @@ class CollisionChecker:
         self._lower = np.array([lower for _, _, lower, _ in self._obstacles]).reshape(-1, 3)
         self._upper = np.array([upper for _, _, _, upper in self._obstacles]).reshape(-1, 3)
         self._pairs = self._self_pairs(frames)
+
+    @property
+    def sim(self) -> Simulator:
+        """The simulation."""
+        return self._sim
 
     def __enter__(self) -> CollisionChecker:
         sim, body, joints = self._sim, self._robot.body, self._robot.movable
@@ -293,6 +302,7 @@ class CollisionChecker:
 
     def _candidates(self, frames: Array) -> list[list[tuple[int, int, int]]]:
         """For each configuration, what may touch: (mover, body, link)."""
+        self._sim.work += _BATCH_WORK[0] + _BATCH_WORK[1] * len(frames)
         centres = (frames[..., :3, :3] @ self._centres[:, :, None])[..., 0] + frames[..., :3, 3]
         halves = (np.abs(frames[..., :3, :3]) @ self._halves[:, :, None])[..., 0] + self._margin
         lower, upper = centres - halves, centres + halves

@@ -71,6 +71,24 @@ class HandChecker:
             if self._held and held is not None:
                 sim.set_motion(self._held.body, held)
 
+    def touched(self, tool: Pose) -> list[tuple[int, int]]:
+        """What the hand would be in at a tool pose: (body, link), in order."""
+        extents = [self._robot.sim.extents(*each) for each in self._obstacles]
+        found = []
+        for obstacle, extent in zip(self._obstacles, extents, strict=True):
+            only = HandChecker(self._robot, self._side, only=obstacle)
+            least, most = (np.array([extent[end]]) for end in (0, 1))
+            if self._meets(tool, least, most) and only.depth([tool])[0]:
+                found.append(obstacle)
+        return found
+
+    def _meets(self, tool: Pose, least: Array, most: Array) -> bool:
+        """Whether boxes overlap."""
+        frames = tool.homogeneous() @ np.array(self._relative)
+        spans = [moved(box, frame[None]) for box, frame in zip(self._boxes, frames, strict=True)]
+        low, high = (np.concatenate([span[end] for span in spans]) for end in (0, 1))
+        return bool(np.all((low[:, None] <= most) & (high[:, None] >= least), axis=2).any())
+
     def _depth(self, tool: Pose, least: Array, most: Array) -> float:
         frames = tool.homogeneous() @ np.array(self._relative)
         spans = [moved(box, frame[None]) for box, frame in zip(self._boxes, frames, strict=True)]

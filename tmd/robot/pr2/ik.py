@@ -23,7 +23,8 @@ from tmd.robot.sim.pose import Pose
 
 _ROLL = 2
 _DETOURS = np.array([0.0, 0.02, -0.02, 0.05, -0.05, 0.1, -0.1, 0.2, -0.2])
-_ENDLESS = (4, 6)
+_EXACT = 1e-7
+"""Metres and radians: a descent from all of whose starts the pose is reached so well has ended."""
 _PRIMES = (2, 3, 5, 7, 11, 13, 17)
 
 
@@ -36,8 +37,9 @@ class ArmKinematics:
 
     Attributes:
         joints: The names of the seven joints.
-        lower: (7,), −inf for the two endless joints.
+        lower: (7,), −inf for endless joints.
         upper: (7,).
+        endless: Which of the joints turn without end.
     """
 
     def __init__(self, tree: Tree, side: str) -> None:
@@ -47,6 +49,9 @@ class ArmKinematics:
         arm = {link.joint: link for link in self._chain if link.joint in self.joints}
         self.lower = np.array([arm[joint].lower for joint in self.joints])
         self.upper = np.array([arm[joint].upper for joint in self.joints])
+        self.endless = tuple(int(joint) for joint in np.flatnonzero(np.isinf(self.lower)))
+        # the closed form is that of the PR2, whose forearm and wrist roll without end
+        self._closed_form = _closed_form(side) if self.endless == (4, 6) else None
         self._fits: bool | None = None
         self._pitch = float(self.upper[_ROLL] - self.lower[_ROLL] - 2 * IK.margin) / (IK.rolls - 1)
 
@@ -73,7 +78,7 @@ class ArmKinematics:
     def near(self, arms: Array, seed: Sequence[float]) -> Array:
         """The same configurations with the endless joints turned to within half a turn of ``seed``."""
         result = arms.copy()
-        for joint in _ENDLESS:
+        for joint in self.endless:
             result[:, joint] -= tau * np.round((result[:, joint] - seed[joint]) / tau)
         return result
 
@@ -96,7 +101,7 @@ class ArmKinematics:
         Returns:
             Nearest to ``seed`` first (largest joint motion counts); empty if the pose is out of reach.
         """
-        closed = None if numeric else _closed_form(self.side)
+        closed = None if numeric else self._closed_form
         if numeric is False and closed is None:
             raise ValueError("pr2-ikfast is not installed")
         if closed is None:
@@ -116,7 +121,7 @@ class ArmKinematics:
 
         The arguments are those of :meth:`solve`.
         """
-        closed = None if numeric else _closed_form(self.side)
+        closed = None if numeric else self._closed_form
         start = np.asarray(seed, dtype=float)
         if closed is None:
             return _next_to(start, self._kept(self._descend(start[None], tool, torso), tool, torso, seed), IK.leap)
@@ -127,6 +132,16 @@ class ArmKinematics:
             if found is not None and self._reaches(found, tool, torso):
                 return found
         return None
+
+    def with_roll(self, tool: Pose, torso: float, seed: Sequence[float]) -> tuple[float, ...] | None:
+        """A solution with the upper arm rolled as in ``seed``, wherever the other joints are; None if there is none."""
+        closed = self._closed_form
+        start = np.asarray(seed, dtype=float)
+        if closed is None:
+            arms = self._kept(self._descend(start[None], tool, torso), tool, torso, seed)
+        else:
+            arms = self._kept(self._closed(closed, tool, torso, start[_ROLL : _ROLL + 1]), tool, torso, seed)
+        return _next_to(start, arms, np.inf)
 
     def _reaches(self, arm: Sequence[float], tool: Pose, torso: float) -> bool:
         """Whether the closed form is right: always for the PR2 that it was made for, perhaps not for another one."""
@@ -171,6 +186,8 @@ class ArmKinematics:
         for _ in range(IK.rounds):
             frame, jacobian = self._tool_and_jacobian(torso, arms)
             error = _error(target, frame)
+            if np.abs(error).max(initial=0.0) < _EXACT:
+                break
             turned = np.swapaxes(jacobian, 1, 2)
             damped = jacobian @ turned + IK.damping**2 * np.minimum(1.0, np.linalg.norm(error, axis=1) * 10)[
                 :, None, None

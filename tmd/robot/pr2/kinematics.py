@@ -132,7 +132,7 @@ def _link(joint: ET.Element) -> Link:
         parent=_end(joint, "parent"),
         kind=kind,
         origin=origin(joint.find("origin")),
-        axis=axis / np.linalg.norm(axis),
+        axis=axis / (np.linalg.norm(axis) or 1.0),  # those of fixed joints may be 0
         lower=float(limit.get("lower", "0")) if limit is not None and bounded else -inf,
         upper=float(limit.get("upper", "0")) if limit is not None and bounded else inf,
     )

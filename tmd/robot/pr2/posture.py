@@ -9,19 +9,10 @@ from typing import Protocol
 import numpy as np
 
 from tmd.robot.parameters import ARM_MOTION
-from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_line
+from tmd.robot.pr2.arm_motion import ArmModel, plan_arm, plan_level, plan_line
 from tmd.robot.pr2.collision import Collision
 from tmd.robot.sim.pose import Pose
 
-TUCKED = {
-    "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
-    "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
-}
-"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
-
-Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
-lie across each other, and one in the way of the other.
-"""
 _PLACES = [(x, y, z) for z in (1.15, 1.0, 1.3, 0.85) for x in (0.42, 0.5) for y in (0.2, 0.1, 0.3)]
 
 
@@ -85,7 +76,7 @@ def _fold(robot: PostureModel, side: str, budget: int) -> bool:
 
 def _folded(robot: PostureModel, side: str) -> list[tuple[float, ...]]:
     """The tucked posture; the nearest free one like it where it touches something at which the robot stands."""
-    usual = TUCKED[side]
+    usual = robot.model.tucked[side]
     others = [
         tuple(value + shift * (joint == number) for number, value in enumerate(usual))
         for shift in ARM_MOTION.tuck_shifts
@@ -103,19 +94,34 @@ def _carry(robot: PostureModel, side: str, budget: int) -> bool:
     """Bring a hand, and what it holds, to the front of the robot; it turns about the vertical only, if possible."""
     base = Pose.flat(*robot.base()[:2], 0.0, robot.base()[2])
     now = base.inverse() * robot.tool(side)
-    failed = 0
+    level = robot.keeps_level(side)
+    goals: list[tuple[float, ...]] = []
     for place in _tool_places(now, side):
         tool = base * place
-        for goal in robot.solve(side, tool)[:2]:
-            if robot.collides(side=side, arm=goal):
-                continue
+        found = [goal for goal in robot.solve(side, tool)[:2] if not robot.collides(side=side, arm=goal)]
+        if not found:
+            continue
+        if level is None:
             line = plan_line(robot, side, robot.tool(side), tool, arm=robot.arm(side))
-            path = line[1:] if line else plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
-            if path is not None:
-                return robot.move_arm(side, path)
-            failed += 1
-            if failed == ARM_MOTION.max_carried:
-                return False
+            path = line[1:] if line else None
+        else:
+            path = plan_level(robot, side, tool)
+        if path is not None:
+            return robot.move_arm(side, path)
+        goals += found
+        if level is None:
+            for goal in found:
+                path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+                if path is not None:
+                    return robot.move_arm(side, path)
+        if len(goals) >= ARM_MOTION.max_carried:
+            break
+    if level is None:
+        return False
+    for goal in goals[: ARM_MOTION.level_planned]:
+        path = plan_arm(robot, side, goal, rng=robot.rng, budget=budget)
+        if path is not None:
+            return robot.move_arm(side, path)
     return False
 
 

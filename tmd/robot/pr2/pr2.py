@@ -10,7 +10,7 @@ ten times what the real one does. Motors are stronger than the real ones, whose 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from math import asin, atan2, cos, hypot, pi, sin
@@ -23,21 +23,19 @@ from tmd.robot.parameters import ARM_MOTION, MOTOR
 from tmd.robot.pr2.collision import Collision, CollisionChecker, Held, Ignored, LinkBox, link_boxes
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Array, Tree
-from tmd.robot.pr2.posture import TUCKED, tuck
+from tmd.robot.pr2.posture import tuck
 from tmd.robot.pr2.trajectory import unwound
 from tmd.robot.pr2.trajectory_following import JointGroup, hold, jump, run
-from tmd.robot.pr2.urdf import BASE_JOINTS, FINGERS, HEAD, TOOL, TORSO, prepare
+from tmd.robot.pr2.urdf import BASE_JOINTS, HEAD, TOOL, TORSO, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.sim.simulator import Simulator
 
 ARMS = ("right", "left")
 _TORSO_START = 0.15
 _FINGER_RANGE = (0.0, 0.548)
-_TIP_OFFSET = 0.0336
-"""Metres between the frames of the finger tips when their surfaces meet."""
 _TOUCHING = 0.002
-_EYE = (0.1, 0.0, 0.11)
-"""The cameras, in the frame of head_tilt_link."""
+_SOLVE_WORK = 350
+"""Microseconds of the inverse kinematics of a pose, about."""
 _VIEW = (0.75, 0.6)
 """Half of the angle of view, radians: to the sides, up and down."""
 
@@ -62,6 +60,7 @@ class Pr2:
         movable: The numbers of all joints that move.
         arm_joints: The names of the seven joints of each arm.
         arm_groups: The drives of the arms.
+        keeps_level: See :class:`tmd.robot.pr2.arm_motion.ArmModel`; who knows what the hands hold sets it.
 
     Raises:
         MissingToolError: pybullet or the robot's package is not installed.
@@ -94,7 +93,9 @@ class Pr2:
         self.arm_kinematics = {side: ArmKinematics(self.tree, side) for side in ARMS}
         self.arm_joints = {side: self.arm_kinematics[side].joints for side in ARMS}
         self._held: dict[str, tuple[int, int, Pose]] = {}
+        self.keeps_level: Callable[[str], bool | None] = lambda side: None
         self._solid: dict[int, list[int]] = {}
+        self._gaps: list[tuple[float, float]] = []
         self._make_groups()
         self._set_up(pose)
         self.boxes = self._find_boxes()
@@ -111,7 +112,7 @@ class Pr2:
         self.torso_group = group([TORSO], 0.15, 5e4, 0.02, 0.003)
         self.head_group = group(HEAD, 3.0, 100.0, 0.2, 0.02)
         self.arm_groups = {side: group(self.arm_joints[side], 2.0, 500.0, 0.1, 0.01) for side in ARMS}
-        fingers = {side: [f"{side[0]}_{name}" for name in FINGERS] for side in ARMS}
+        fingers = {side: [f"{side[0]}_{name}" for name in self.model.fingers] for side in ARMS}
         self.finger_groups = {side: group(fingers[side], MOTOR.finger_speed, 60.0, 0.05, 0.03) for side in ARMS}
 
     def _set_up(self, pose: tuple[float, float, float]) -> None:
@@ -120,8 +121,8 @@ class Pr2:
             (self.torso_group, (_TORSO_START,)),
             (self.head_group, (0.0, 0.3)),
         ]
-        starts += [(self.arm_groups[side], TUCKED[side]) for side in ARMS]
-        starts += [(self.finger_groups[side], (finger_angle(0.04),) * 4) for side in ARMS]
+        starts += [(self.arm_groups[side], self.model.tucked[side]) for side in ARMS]
+        starts += [(self.finger_groups[side], self.fingers(0.04)) for side in ARMS]
         for group, positions in starts:
             self.sim.set_joints(self.body, group.joints, positions)
             hold(self.sim, self.body, group, positions)
@@ -181,7 +182,7 @@ class Pr2:
         tips = [self.sim.pose(self.body, self.index[f"{side[0]}_gripper_{finger}_finger_tip_link"]) for finger in "lr"]
         across = self.tool(side).inverse()
         left, right = (across.apply(tip.position)[1] for tip in tips)
-        return max(0.0, left - right - _TIP_OFFSET)
+        return max(0.0, left - right - self.model.tip_offset)
 
     # motion
 
@@ -217,11 +218,26 @@ class Pr2:
         Returns:
             Whether it arrived, every joint to 0.01 rad, within its budget of steps.
         """
-        return self._go(self.arm_groups[side], path, endless=(4, 6))
+        return self._go(self.arm_groups[side], path, endless=self.arm_kinematics[side].endless)
+
+    def fingers(self, gap: float) -> tuple[float, ...]:
+        """The positions of a hand's finger joints for a gap between its tips, within what they can do."""
+        if self.model.is_pr2:
+            return (finger_angle(gap),) * len(self.model.fingers)
+        if not self._gaps:
+            low, high = self.model.finger_range
+            for angle in np.linspace(low, high, 200):
+                positions = {f"r_{name}": float(angle) for name in self.model.fingers}
+                below = self.tree.below("r_gripper_palm_link")[1:]
+                frames = self.tree.forward(positions, below, {"r_gripper_palm_link": np.eye(4)})
+                tips = [frames[f"r_gripper_{finger}_finger_tip_link"][:3, 3] for finger in "lr"]
+                self._gaps.append((float(np.linalg.norm(tips[0] - tips[1])) - self.model.tip_offset, float(angle)))
+        gaps, angles = zip(*self._gaps, strict=True)
+        return (float(np.interp(gap, gaps, angles)),) * len(self.model.fingers)
 
     def open_gripper(self, side: str, gap: float = 0.08) -> bool:
         """Open a hand until its tips are ``gap`` apart; True if they are."""
-        return self._go(self.finger_groups[side], [(finger_angle(gap),) * 4])
+        return self._go(self.finger_groups[side], [self.fingers(gap)])
 
     def close_gripper(self, side: str, force: float = MOTOR.grip_force) -> float:
         """Close a hand until both fingers meet something, or each other.
@@ -235,13 +251,14 @@ class Pr2:
         """
         group = self.finger_groups[side]
         angles = np.array(self._where(group))
-        left, right = np.array([True, False, True, False]), np.array([False, True, False, True])
+        names = self.model.fingers
+        left, right = (np.array([name.startswith(f"gripper_{finger}_") for name in names]) for finger in "lr")
         stride = 0.02 if self.kinematic else MOTOR.finger_speed / 240
         stopped = {"l": False, "r": False}
         while not all(stopped.values()):
             for finger, mask in (("l", left), ("r", right)):
                 if not stopped[finger]:
-                    angles[mask] = np.maximum(angles[mask] - stride, _FINGER_RANGE[0])
+                    angles[mask] = np.maximum(angles[mask] - stride, self.model.finger_range[0])
             if self.kinematic:
                 self.sim.set_joints(self.body, group.joints, angles.tolist())
                 self.sim.tick()
@@ -260,14 +277,15 @@ class Pr2:
 
     def _squeeze(self, group: JointGroup, angles: Array, force: float) -> None:
         """Push the fingers to ``angles``; the tips follow their fingers, as the linkage of the real hand makes them."""
-        actual = np.clip(self._where(group), *_FINGER_RANGE)
-        targets = [angles[0], angles[1], actual[0], actual[1]]
-        forces = [force, force, 10 * force, 10 * force]
-        self.sim.drive_joints(self.body, group.joints, targets, [0.0] * 4, forces, 0.1)
+        actual = np.clip(self._where(group), *self.model.finger_range)
+        follow = len(group.joints) // 2 - 1
+        targets = [angles[0], angles[1], *[actual[0], actual[1]] * follow]
+        forces = [force, force, *[10 * force] * (2 * follow)]
+        self.sim.drive_joints(self.body, group.joints, targets, [0.0] * len(targets), forces, 0.1)
 
     def _finger_stops(self, side: str, finger: str, angles: Array, mask: Array) -> bool:
         """Whether a finger is closed, or meets something: seen by its lag, or by its contacts if it is set."""
-        if angles[mask].max() <= _FINGER_RANGE[0]:
+        if angles[mask].max() <= self.model.finger_range[0]:
             return True
         if not self.kinematic:
             actual = np.array(self._where(self.finger_groups[side]))
@@ -324,7 +342,7 @@ class Pr2:
 
     def eye(self) -> Pose:
         """The cameras in the world: +x is where they look."""
-        return self.sim.pose(self.body, self.index["head_tilt_link"]) * Pose(_EYE)
+        return self.sim.pose(self.body, self.index["head_tilt_link"]) * Pose(self.model.eye)
 
     def look_at(self, point: Sequence[float]) -> bool:
         """Turn the head to a point; True if it is then in the middle of the view, to 0.1 rad."""
@@ -333,7 +351,7 @@ class Pr2:
         x, y, z = (a - b for a, b in zip(torso.inverse().apply(point), pan_link.origin[:3, 3], strict=True))
         pan = min(max(atan2(y, x), pan_link.lower), pan_link.upper)
         ahead, up = hypot(x, y) - tilt_link.origin[0, 3], z - tilt_link.origin[2, 3]
-        tilt = asin(min(1.0, _EYE[2] / max(hypot(ahead, up), _EYE[2]))) - atan2(up, ahead)
+        tilt = asin(min(1.0, self.model.eye[2] / max(hypot(ahead, up), self.model.eye[2]))) - atan2(up, ahead)
         self._go(self.head_group, [(pan, min(max(tilt, tilt_link.lower), tilt_link.upper))])
         ahead, left, up = self.eye().inverse().apply(point)
         return ahead > 0 and atan2(hypot(left, up), ahead) < 0.1
@@ -370,6 +388,7 @@ class Pr2:
             Solutions within the joint limits, nearest to the seed first; collisions are not looked at.
         """
         kinematics = self.arm_kinematics[side]
+        self.sim.work += _SOLVE_WORK
         inside = self.base_link(base).inverse() * tool
         return kinematics.solve(inside, self.torso() if torso is None else torso, seed or self.arm(side))
 

@@ -50,6 +50,9 @@ class ReachBounds:
         bent = min(abs(float(kinematics.lower[_ELBOW])), np.pi)
         self.nearest = sqrt(upper**2 + fore**2 + 2 * upper * fore * cos(bent)) - CONTACT.slack
         self.farthest = upper + fore + CONTACT.slack
+        if not robot.model.is_pr2:  # its wrist is no point: the whole arm, from any distance
+            self.hand, self.nearest = 0.0, 0.0
+            self.farthest += float(np.linalg.norm(tool - wrist))
 
     def holds(self, wrists: Array, torso: float) -> Array:
         """Which of the wrists (n, 3), in ``base_link``, are in reach: (n,) of bool."""

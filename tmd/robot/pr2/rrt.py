@@ -19,6 +19,8 @@ from tmd.robot.pr2.trajectory import dense
 
 Free = Callable[[Array], bool]
 """Whether all of (n, k) configurations are free."""
+Project = Callable[[Array], Array | None]
+"""A configuration (k,) nearby that keeps a constraint; None if there is none."""
 
 
 @dataclass
@@ -44,7 +46,14 @@ class _Tree:
 
 
 def plan(
-    start: Array, goal: Array, free: Free, sample: Callable[[], Array], strides: Array, *, budget: int
+    start: Array,
+    goal: Array,
+    free: Free,
+    sample: Callable[[], Array | None],
+    strides: Array,
+    *,
+    budget: int,
+    project: Project | None = None,
 ) -> Array | None:
     """A path from ``start`` to ``goal``: the straight line if that is free, else one by RRT-connect.
 
@@ -55,6 +64,8 @@ def plan(
         sample: Draws (k,) from the space.
         strides: (k,): motions that a check may jump over.
         budget: How many samples to draw at most.
+        project: Brings each new node to where a constraint holds (CBiRRT, Berenson et al. 2009); ``free`` asks about it
+            as well.
 
     Returns:
         (n, k), corners only, or None.
@@ -64,9 +75,10 @@ def plan(
     trees = [_Tree([start]), _Tree([goal])]
     for _ in range(budget):
         here, there = trees
-        new = _extend(here, sample(), free, strides)
+        drawn = sample()
+        new = None if drawn is None else _extend(here, drawn, free, strides, project)
         if new is not None:
-            met = _connect(there, here.nodes[new], free, strides)
+            met = _connect(there, here.nodes[new], free, strides, project)
             if met is not None:
                 path = here.path(new) + there.path(met)[::-1][1:]
                 return np.array(path if here.nodes[0] is start else path[::-1])
@@ -101,20 +113,25 @@ def _clear(start: Array, end: Array, free: Free, strides: Array) -> bool:
     return free(dense(np.array([start, end]), strides.tolist())[1:])
 
 
-def _extend(tree: _Tree, target: Array, free: Free, strides: Array) -> int | None:
+def _extend(tree: _Tree, target: Array, free: Free, strides: Array, project: Project | None) -> int | None:
     near = tree.nearest(target, strides)
     step = (target - tree.nodes[near]) / strides
     length = float(np.linalg.norm(step))
-    point = (
-        target if length <= ARM_MOTION.rrt_edge else tree.nodes[near] + step * strides * ARM_MOTION.rrt_edge / length
-    )
+    edge = ARM_MOTION.rrt_edge if project is None else ARM_MOTION.level_edge
+    point: Array | None = target
+    if length > edge:
+        point = tree.nodes[near] + step * strides * edge / length
+        point = project(point) if project is not None else point
+        if point is None or float(np.linalg.norm((target - point) / strides)) > length - edge / 10:
+            return None  # the constraint leads away from there
+    assert point is not None
     return tree.add(point, near) if _clear(tree.nodes[near], point, free, strides) else None
 
 
-def _connect(tree: _Tree, target: Array, free: Free, strides: Array) -> int | None:
+def _connect(tree: _Tree, target: Array, free: Free, strides: Array, project: Project | None) -> int | None:
     """Extend towards ``target`` until it is reached or something is in the way."""
     while True:
-        new = _extend(tree, target, free, strides)
+        new = _extend(tree, target, free, strides, project)
         if new is None:
             return None
         if tree.nodes[new] is target:

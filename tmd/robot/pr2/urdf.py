@@ -9,19 +9,18 @@ from __future__ import annotations
 
 import hashlib
 import importlib.metadata
-import os
-import sys
-import tempfile
 import xml.etree.ElementTree as ET
-from collections.abc import Iterable
-from dataclasses import dataclass
-from functools import cache
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-from tmd.diagnostics import MissingToolError, OutputError, TmdError
-from tmd.files import make_directory, read_bytes, write_bytes
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.files import make_directory, write_bytes
+from tmd.pddl.reading.syntax import nearest
+from tmd.robot.pr2 import tiago_pro
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
 
 BASE_JOINTS = ("base_x_joint", "base_y_joint", "base_theta_joint")
 TORSO = "torso_lift_joint"
@@ -42,8 +41,21 @@ FINGERS = (
     "gripper_r_finger_tip_joint",
 )
 TOOL = "gripper_tool_frame"
+TUCKED = {
+    "right": (-0.192, 1.046, -0.883, -2.301, 1.193, -1.594, 1.345),
+    "left": (0.192, 1.046, 0.883, -2.301, -1.193, -1.594, -1.345),
+}
+"""For driving with empty hands: the arms stay above the base, 0.38 m to the front and 0.37 m to the sides at most.
+
+Found by random search on the collision hulls, at the lowest torso, where the base is nearest. The SRDF's tucked arms
+lie across each other, and one in the way of the other.
+"""
+ROBOTS = {"pr2": "pr2_description/urdf/pr2.urdf", "tiago_pro": "tiago_pro_description/robots/tiago_pro.urdf"}
+"""The robots of ``example-robot-data`` that the skills can move."""
 _DISTRIBUTION = "example-robot-data"
 _ADVICE = "pip install 'tmd[robot]'"
+_WITH_HANDS = "the skills take things: name a PR2 or a TIAGo Pro with both of its grippers"
+_ANOTHER = "the skills move a PR2 or a TIAGo Pro: leave --urdf out, or say --robot tiago_pro"
 _FRAME_MASS = 1e-3
 _HALL = 100.0
 """Metres: the range of the base's two sliding joints, more than any room."""
@@ -51,17 +63,31 @@ _HALL = 100.0
 
 @dataclass(frozen=True, slots=True)
 class RobotDescription:
-    """A PR2 that pybullet can load.
+    """A robot that pybullet can load, with the PR2's names of links and joints.
 
     Attributes:
         urdf: The repaired file.
         root: Its parsed ``<robot>``.
         disabled: Pairs of links, in both orders, that never collide or always do (the SRDF's list, and neighbours).
+        tucked: The postures of the arms for driving with empty hands.
+        fingers: The joints of a hand, without its side: the four of the PR2 first.
+        finger_range: Of these joints: closed, open; radians.
+        tip_offset: Metres between the frames of the finger tips when their surfaces meet.
+        eye: The cameras, in the frame of head_tilt_link.
+        own_joints: By the PR2's names of joints: the robot's own, and sign and shift from a position here to one there.
+        is_pr2: Whether lengths and axes are those of the PR2's arms, which closed forms can use.
     """
 
     urdf: Path
     root: ET.Element
     disabled: frozenset[tuple[str, str]]
+    tucked: Mapping[str, tuple[float, ...]]
+    fingers: tuple[str, ...] = FINGERS
+    finger_range: tuple[float, float] = (0.0, 0.548)
+    tip_offset: float = 0.0336
+    eye: tuple[float, float, float] = (0.1, 0.0, 0.11)
+    own_joints: Mapping[str, tuple[str, float, float]] = field(default_factory=dict)
+    is_pr2: bool = True
 
 
 def prepare(urdf: Path | None = None) -> RobotDescription:
@@ -69,22 +95,30 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
 
     Raises:
         MissingToolError: The package or its meshes are not there.
-        TmdError: ``urdf`` cannot be read, is not a PR2, or lacks a mesh.
+        TmdError: ``urdf`` cannot be read, is neither a PR2 nor a TIAGo Pro, has no hands, or lacks a mesh.
     """
     source = packaged("urdf/pr2.urdf") if urdf is None else urdf
-    root = _read(source, "robot")
+    root = read_urdf(source)
+    missing = tiago_pro.missing_joints(root)
+    if missing and _finger_joints(root) == set():
+        raise TmdError(f"{source} has no hands: {_lacks('joint', missing)}", hint=_WITH_HANDS)
+    other = missing == []
+    if other:
+        tiago_pro.adapt(root)
     check(source, root)
     meshes = {}
     for mesh in root.iter("mesh"):
         name = mesh.get("filename", "")
-        path = _find_mesh(source, name)
+        path = find_mesh(source, name)
         if path is None:
             if urdf is None:
                 raise MissingToolError(f"the PR2's mesh {name} is missing", hint=f"{_ADVICE} --force-reinstall")
             raise TmdError(f"{source}: its mesh {name} is missing", hint="put the meshes where the URDF names them")
         meshes[name] = path
     contents = {path: path.read_bytes() for path in sorted(set(meshes.values()))}
-    folder = _cache() / _digest(source.read_bytes(), *contents.values(), *(str(p).encode() for p in contents))
+    folder = cache_directory("pr2") / _digest(
+        source.read_bytes(), *contents.values(), *(str(p).encode() for p in contents)
+    )
     names = {path: f"{index:02d}-{path.name}" for index, path in enumerate(contents)}
     repair(root, {name: str(folder / names[path]) for name, path in meshes.items()})
     target = folder / "pr2.urdf"
@@ -94,7 +128,27 @@ def prepare(urdf: Path | None = None) -> RobotDescription:
         make_directory(folder)
         for file, data in files.items():
             write_bytes(file, data)
-    return RobotDescription(target, root, _disabled(root))
+    if other:
+        return RobotDescription(
+            target, root, _both_ways(tiago_pro.never_checked(root)), tiago_pro.TUCKED,
+            (*FINGERS, *tiago_pro.COUPLED), (0.0, tiago_pro.CLOSED), tiago_pro.TIP_OFFSET, tiago_pro.EYE,
+            tiago_pro.OWN_JOINTS, is_pr2=False,
+        )  # fmt: skip
+    return RobotDescription(target, root, _disabled(root), TUCKED)
+
+
+def packaged_robot(name: str) -> Path | None:
+    """The URDF of a robot of :data:`ROBOTS`; ``None`` for the PR2, which everything takes where nothing is said.
+
+    Raises:
+        MissingToolError: The package, or the file in it, is not there.
+        TmdError: There is no such robot.
+    """
+    if name not in ROBOTS:
+        raise TmdError(
+            f"there is no robot '{name}'", hint=nearest(name, list(ROBOTS)) or f"there are {', '.join(ROBOTS)}"
+        )
+    return None if name == "pr2" else _of_package(ROBOTS[name])
 
 
 def packaged(name: str) -> Path:
@@ -103,14 +157,23 @@ def packaged(name: str) -> Path:
     Raises:
         MissingToolError: The package, or the file in it, is not there.
     """
+    return _of_package(f"pr2_description/{name}")
+
+
+def _of_package(name: str) -> Path:
+    """A file of a robot in ``example-robot-data``.
+
+    Raises:
+        MissingToolError: The package, or the file in it, is not there.
+    """
     try:
         files = importlib.metadata.files(_DISTRIBUTION) or []
     except importlib.metadata.PackageNotFoundError as error:
         raise MissingToolError(f"the PR2's model is missing: no package {_DISTRIBUTION}", hint=_ADVICE) from error
-    found = [file for file in files if file.as_posix().endswith(f"pr2_description/{name}")]
+    found = [file for file in files if file.as_posix().endswith(f"/{name}")]
     path = Path(str(found[0].locate())) if found else None
     if path is None or not path.is_file():
-        raise MissingToolError(f"{_DISTRIBUTION} has no pr2_description/{name}", hint=f"{_ADVICE} --force-reinstall")
+        raise MissingToolError(f"{_DISTRIBUTION} has no {name}", hint=f"{_ADVICE} --force-reinstall")
     return path
 
 
@@ -126,14 +189,22 @@ def check(source: Path, root: ET.Element) -> None:
     links = {link.get("name") for link in root.findall("link")}
     frames = ["base_footprint", "base_link", *(f"{side}_{TOOL}" for side in "rl")]
     missing_links = [frame for frame in frames if frame not in links]
+    fingers = {f"{side}_{joint}" for side in "rl" for joint in FINGERS}
+    if missing and set(missing) <= fingers:
+        raise TmdError(f"{source} has no hands, or not both: {_lacks('joint', missing)}", hint=_WITH_HANDS)
     if missing or missing_links:
         parts = [_lacks(kind, names) for kind, names in (("joint", missing), ("link", missing_links)) if names]
-        raise TmdError(f"{source} is not a PR2: {'; '.join(parts)}", hint="leave --urdf out for the packaged PR2")
+        raise TmdError(f"{source} is not a PR2: {'; '.join(parts)}", hint=_ANOTHER)
     if _root_link(root) != "base_footprint":
         raise TmdError(
             f"{source}: its root is {_root_link(root)}, not base_footprint",
             hint="take the joints in front of base_footprint out: the base gets its own",
         )
+
+
+def _finger_joints(root: ET.Element) -> set[str]:
+    """The joints of hands, whosever they are."""
+    return {name for joint in root.findall("joint") if "finger" in (name := joint.get("name", ""))}
 
 
 def _lacks(kind: str, names: list[str]) -> str:
@@ -155,7 +226,7 @@ def repair(root: ET.Element, meshes: dict[str, str]) -> None:
         root.remove(extra)
     while idle := _idle_leaves(root):
         for child in list(root):
-            name = child.get("name", "") if child.tag == "link" else _end(child, "child")
+            name = child.get("name", "") if child.tag == "link" else end_of(child, "child")
             if name in idle:
                 root.remove(child)
     for mesh in root.iter("mesh"):
@@ -190,45 +261,14 @@ def with_normals(data: bytes) -> bytes:
     return data[:84] + mesh.tobytes()
 
 
-def _read(path: Path, tag: str) -> ET.Element:
-    try:
-        root = ET.fromstring(read_bytes(path))
-    except OSError as error:
-        raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
-    except ET.ParseError as error:
-        raise TmdError(
-            f"{path} is not valid XML: {error}", hint="name a URDF file; xacro files must be expanded"
-        ) from error
-    if root.tag != tag:
-        raise TmdError(f"{path} is not a URDF: its root is <{root.tag}>, not <{tag}>", hint="name a URDF file")
-    return root
-
-
-def _find_mesh(source: Path, name: str) -> Path | None:
-    """A mesh file: beside the URDF, or anywhere above it for ``package://`` names."""
-    path = Path(name.removeprefix("file://"))
-    if not name.startswith("package://"):
-        found = path if path.is_absolute() else source.resolve().parent / path
-        return found if found.is_file() else None
-    whole = Path(name.removeprefix("package://"))
-    shorter = Path(*whole.parts[1:])
-    candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
-    return next((candidate for candidate in candidates if candidate.is_file()), None)
-
-
-def _end(joint: ET.Element, end: str) -> str:
-    found = joint.find(end)
-    return "" if found is None else found.get("link", "")
-
-
 def _root_link(root: ET.Element) -> str:
-    children = {_end(joint, "child") for joint in root.findall("joint")}
+    children = {end_of(joint, "child") for joint in root.findall("joint")}
     return next((link.get("name", "") for link in root.findall("link") if link.get("name") not in children), "")
 
 
 def _idle_leaves(root: ET.Element) -> set[str]:
     """Links without children that are neither seen nor met: sensor frames, and helpers of the gripper."""
-    parents = {_end(joint, "parent") for joint in root.findall("joint")}
+    parents = {end_of(joint, "parent") for joint in root.findall("joint")}
     return {
         link.get("name", "")
         for link in root.findall("link")
@@ -250,34 +290,20 @@ def _inertial(mass: float) -> ET.Element:
 
 def _disabled(root: ET.Element) -> frozenset[tuple[str, str]]:
     """Pairs that need no check: the SRDF's, and links that are joined by one joint."""
-    pairs = {(_end(joint, "parent"), _end(joint, "child")) for joint in root.findall("joint")}
-    srdf = _read(packaged("srdf/pr2.srdf"), "robot")
+    pairs = {(end_of(joint, "parent"), end_of(joint, "child")) for joint in root.findall("joint")}
+    srdf = read_urdf(packaged("srdf/pr2.srdf"))
     pairs |= {(pair.get("link1", ""), pair.get("link2", "")) for pair in srdf.findall("disable_collisions")}
-    return frozenset(pairs | {(b, a) for a, b in pairs})
+    return _both_ways(pairs)
 
 
-@cache
-def _cache() -> Path:
-    """The user's cache directory, or a temporary one where that cannot be written."""
-    if sys.platform == "win32":
-        home = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        home = Path.home() / "Library" / "Caches"
-    else:
-        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    try:
-        folder = make_directory(home / "tmd" / "pr2")
-        if os.access(folder, os.W_OK):
-            return folder
-    except OutputError:
-        pass
-    return Path(tempfile.mkdtemp(prefix="tmd-pr2-"))
+def _both_ways(pairs: Iterable[tuple[str, str]]) -> frozenset[tuple[str, str]]:
+    return frozenset(each for a, b in pairs for each in ((a, b), (b, a)))
 
 
 def _digest(*parts: bytes) -> str:
-    """A name for the contents and for the present text of this module, whose repairs are in the copy."""
+    """A name for the contents and for the present text of the modules whose repairs are in the copy."""
     total = hashlib.sha256()
-    for part in _lengths((*parts, Path(__file__).read_bytes())):
+    for part in _lengths((*parts, Path(__file__).read_bytes(), Path(tiago_pro.__file__).read_bytes())):
         total.update(part)
     return total.hexdigest()[:20]
 

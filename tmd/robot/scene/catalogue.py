@@ -3,14 +3,33 @@
 from __future__ import annotations
 
 from tmd.diagnostics import TmdError
-from tmd.robot.assets.features import Region
-from tmd.robot.assets.shapes import Blueprint
+from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.shapes import Blueprint, Shapes
 from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint
 from tmd.robot.sim.pose import Vector
+from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
+from tmd.world.folder import DomainFolder
 
 FLOOR = "floor"
+TALL = 1.2
+"""What is so many times as high as it is wide falls over."""
+
+
+def built(environment: Environment, folder: DomainFolder) -> tuple[dict[str, Blueprint], dict[str, list[str]]]:
+    """How each object of an environment is built, and the names of its parts.
+
+    Raises:
+        TmdError: A shape makes no sense; with its place in ``objects.yaml``.
+    """
+    shapes = Shapes(folder)
+    classes = {name: entry.class_name for name, entry in environment.objects.items()}
+    parts = {
+        name: [vertex for vertex in folder.classes.get(kind).vertices if vertex != CLASS_ROOT]
+        for name, kind in classes.items()
+    }
+    return {name: shapes.blueprint(kind) for name, kind in classes.items()}, parts
 
 
 class Catalogue:
@@ -69,6 +88,24 @@ class Catalogue:
     def holds_contents(self, item: str) -> bool:
         """Whether it is a vessel: what is in it is seen."""
         return bool(self.blueprints[item].model.contents)
+
+    def opening(self, item: str) -> Opening | None:
+        """The rim of a vessel; None for what holds nothing or is closed."""
+        return self.blueprints[item].model.opening if item in self.blueprints else None
+
+    def spouts(self, whole: str) -> dict[str, Vector]:
+        """Where streams leave an object, in its own frame, by the full name of the part."""
+        if whole not in self.blueprints:
+            return {}
+        return {self.named(whole, part): place for part, place in self.blueprints[whole].model.spouts.items()}
+
+    def stands(self, item: str) -> bool:
+        """Whether it is to be put down upright: what holds something, and what is tall."""
+        model = self.blueprints[item].model
+        if model.contents and model.opening is None:
+            return False  # a spoon
+        depth, width, height = (high - low for low, high in zip(model.low, model.high, strict=True))
+        return model.opening is not None or bool(model.regions) or height > TALL * max(depth, width)
 
     def size(self, item: str) -> tuple[Vector, Vector]:
         """The item's box, lower and upper corner, in its own frame."""

@@ -30,11 +30,65 @@ class Room:
         poses: Where the fixtures stand.
         low: x and y of the lower corner.
         high: x and y of the upper corner.
+        corners: Where its walls meet, anticlockwise; empty: the rectangle of ``low`` and ``high``.
     """
 
     poses: dict[str, Pose]
     low: tuple[float, float]
     high: tuple[float, float]
+    corners: tuple[tuple[float, float], ...] = ()
+
+    def walls(self) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+        """The two ends of each wall, anticlockwise: the room is on the left of who goes from one to the other."""
+        (x0, y0), (x1, y1) = self.low, self.high
+        corners = self.corners or ((x0, y0), (x1, y0), (x1, y1), (x0, y1))
+        return list(zip(corners, (*corners[1:], corners[0]), strict=True))
+
+    def holds(self, pose: Pose, own: Footprint) -> bool:
+        """Whether an upright thing is wholly within the walls."""
+        points = _corners(pose, own, -0.001)
+        middle = pose.apply(((own[0] + own[2]) / 2, (own[1] + own[3]) / 2, 0.0))[:2]
+        order = (points[0], points[1], points[3], points[2])
+        sides = list(zip(order, (*order[1:], order[0]), strict=True))
+        return self._within(middle) and not any(_cross(*side, *wall) for side in sides for wall in self.walls())
+
+    def _within(self, point: tuple[float, float]) -> bool:
+        """Whether a point is inside (by the number of walls that a line from it along x meets)."""
+        x, y = point
+        met = 0
+        for (ax, ay), (bx, by) in self.walls():
+            if (ay > y) != (by > y) and x < ax + (y - ay) / (by - ay) * (bx - ax):
+                met += 1
+        return met % 2 == 1
+
+
+def _cross(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float], d: tuple[float, float]) -> bool:
+    """Whether the lines from a to b and from c to d meet."""
+
+    def side(p: tuple[float, float], q: tuple[float, float], r: tuple[float, float]) -> float:
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+
+
+def room_of(corners: Sequence[tuple[float, float]]) -> Room:
+    """An empty room by the corners of its walls.
+
+    Raises:
+        ValueError: They are not those of a room; the message says why.
+    """
+    count = len(corners)
+    walls = [(corners[i], corners[(i + 1) % count]) for i in range(count)]
+    if any(math.dist(*wall) < 0.05 for wall in walls):
+        raise ValueError("two of its corners are at one place")
+    if any(_cross(*walls[i], *walls[j]) for i in range(count) for j in range(i)):
+        raise ValueError("its walls cross each other")
+    area = sum(a[0] * b[1] - b[0] * a[1] for a, b in walls) / 2
+    if abs(area) < 1.0:
+        raise ValueError(f"it has {abs(area):.2f} square metres of floor")
+    xs, ys = zip(*corners, strict=True)
+    ordered = tuple(corners) if area > 0 else tuple(reversed(corners))
+    return Room({}, (min(xs), min(ys)), (max(xs), max(ys)), ordered)
 
 
 def arrange(sizes: dict[str, tuple[float, float]]) -> Room:
@@ -139,7 +193,7 @@ def floor_spots(room: Room, taken: Iterable[tuple[Pose, Footprint]], own: Footpr
     for row in range(6):
         for column in sorted(steps, key=lambda s: (abs(s), s)):
             pose = Pose.flat(-0.8 - 0.4 * row, 0.4 * column)
-            if pose.position[0] - 0.3 < room.low[0]:
+            if pose.position[0] - 0.3 < room.low[0] or not room.holds(pose, own):
                 continue
             if apart(pose, own, *robot, 0.1) and all(apart(pose, own, *other, 0.15) for other in standing):
                 spots.append((row % 2 + abs(column) % 2, pose))

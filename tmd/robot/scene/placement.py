@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from math import radians
 
 from numpy.random import Generator
 
@@ -10,7 +11,7 @@ from tmd.diagnostics import TmdError
 from tmd.robot.assets.features import Region
 from tmd.robot.assets.shapes import Blueprint
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.furniture_layout import Footprint, Room, apart, arrange, floor_spots, inside
+from tmd.robot.scene.furniture_layout import Footprint, Room, apart, arrange, floor_spots, inside, room_of
 from tmd.robot.sim.pose import Pose
 from tmd.world.environment import Environment
 
@@ -22,6 +23,8 @@ TALL = 0.12
 """Items from this height on stand behind the lower ones."""
 JITTER = 0.003
 _OPEN = "opened"
+_ROBOT: Footprint = (-0.35, -0.35, 0.35, 0.35)
+"""What the robot stands on."""
 
 
 class Placing:
@@ -68,25 +71,60 @@ class Placing:
         for name, blueprint in self._blueprints.items():
             if blueprint.sort == "item":
                 continue
-            position = self._environment.objects[name].position
-            if position is None:
+            entry = self._environment.objects[name]
+            if entry.position is None:
+                if entry.yaw is not None:
+                    message = f"'{name}' has a yaw and no position"
+                    raise self._error(name, message, "say its `position:` too, or leave the yaw out", "yaw")
                 sizes[name] = (blueprint.look.size[0], blueprint.look.size[1])
             else:
-                given[name] = _facing_the_middle(position[0], position[1])
+                given[name] = _facing_the_middle(entry.position[0], entry.position[1])
+                if entry.yaw is not None:
+                    given[name] = Pose.flat(entry.position[0], entry.position[1], 0.0, radians(entry.yaw))
         room = arrange(sizes)
+        if self._environment.room:
+            return self._walled(Room({**room.poses, **given}, room.low, room.high))
         if not given:
             return room
-        xs = [abs(p.position[0]) for p in given.values()]
-        ys = [abs(p.position[1]) for p in given.values()]
-        low = (min(room.low[0], -max(xs) - 0.6), min(room.low[1], -max(ys) - 0.6))
-        high = (max(room.high[0], max(xs) + 0.6), max(room.high[1], max(ys) + 0.6))
+        far = [0.0, 0.0]
+        for name, pose in given.items():
+            corners = [pose.apply((x, y, 0.0)) for x, y in _rectangle(_footprint(self._blueprints[name]))]
+            for axis in (0, 1):
+                reach = max(abs(corner[axis]) for corner in corners) + 0.05
+                far[axis] = max(far[axis], abs(pose.position[axis]) + 0.6, reach)
+        low = (min(room.low[0], -far[0]), min(room.low[1], -far[1]))
+        high = (max(room.high[0], far[0]), max(room.high[1], far[1]))
         return Room({**room.poses, **given}, low, high)
+
+    def _walled(self, arranged: Room) -> Room:
+        """The same fixtures within the walls that the environment has."""
+        source = self._environment.source
+        try:
+            empty = room_of(self._environment.room)
+        except ValueError as error:
+            raise source.error(
+                ("room",), f"this is not a room: {error}", "give its corners in order, in metres"
+            ) from None
+        if not empty.holds(Pose((0.0, 0.0, 0.0)), _ROBOT):
+            hint = "the robot starts at x = 0, y = 0; a room around that has space for it"
+            raise source.error(("room",), "the robot does not fit into the room where it starts", hint, "no-room")
+        for name, pose in arranged.poses.items():
+            if not empty.holds(pose, _footprint(self._blueprints[name])):
+                x, y, _ = pose.position
+                message = f"'{name}' is not within the walls of the room at {x:.2f} {y:.2f}"
+                hint = "give it a `position:` and a `yaw:` within them, or move the walls"
+                said = self._environment.objects[name].position is not None
+                raise self._error(name, message, hint, "position" if said else None)
+        return Room(arranged.poses, empty.low, empty.high, empty.corners)
 
     def _place(self, name: str) -> None:
         entry = self._environment.objects[name]
         if entry.position is not None:
             x, y, z = entry.position
-            self.poses[name] = Pose.flat(x, y, z)
+            self.poses[name] = Pose.flat(x, y, z, radians(entry.yaw or 0.0))
+            if self.room.corners and not self.room.holds(self.poses[name], self._footprints[name]):
+                message = f"'{name}' is not within the walls of the room"
+                raise self._error(name, message, "give another position, or move the walls", "position")
             self._standing.append((name, ""))
             return
         relation, where = (entry.at or "on floor").split()
@@ -97,7 +135,8 @@ class Placing:
             spots = floor_spots(self.room, taken, own)
             if not spots:
                 raise self._error(name, f"there is no room left on the floor for '{name}'", None)
-            self.poses[name] = self._shifted(spots[0])
+            turned = Pose.flat(*spots[0].position, radians(entry.yaw)) if entry.yaw is not None else spots[0]
+            self.poses[name] = self._shifted(turned)
             self._standing.append((name, where))
             return
         whole, part = self._split(name, where)
@@ -116,7 +155,7 @@ class Placing:
     def _free(self, name: str, whole: str, part: str, relation: str, gap: float) -> Pose | None:
         """The first free spot; tall things take the rear row first, low ones the front row."""
         blueprint, own = self._blueprints[name], self._footprints[name]
-        high = blueprint.model.high[2]
+        high, said = blueprint.model.high[2], self._environment.objects[name].yaw
         for region in self._blueprints[whole].model.regions:
             if region.part != part or region.relation != relation or region.low[2] + high > region.high[2]:
                 continue
@@ -124,9 +163,11 @@ class Placing:
             spots = list(region.spots)
             if high >= TALL:
                 spots.sort(key=lambda spot: spot[0])
-            for turned in TURNS:
+            for turned in TURNS if said is None else TURNS[:1]:
                 for x, y, z, yaw in spots:
                     pose = frame * Pose.flat(x, y, z, yaw + turned)
+                    if said is not None:
+                        pose = Pose.flat(*pose.position, radians(said))
                     if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
                         apart(pose, own, self.poses[other], self._footprints[other], gap)
                         for other, _ in self._standing
@@ -138,7 +179,7 @@ class Placing:
     def _frame(self, whole: str, region: Region) -> Pose:
         """The region's frame as the fixture stands at the start: a drawer may be open."""
         model, pose = self._blueprints[whole].model, self.poses[whole]
-        frame = pose * Pose(model.offset(region.link))
+        frame = pose * model.frame(region.link)
         link = model.links[region.link]
         if link.kind == "prismatic" and self._environment.objects[whole].states.get(_OPEN) is True:
             way = next((g.open for g in model.grips if g.link == region.link), 0.0)
@@ -168,13 +209,19 @@ class Placing:
         model = self._blueprints[whole].model
         return set(model.part_links) | {region.part for region in model.regions}
 
-    def _error(self, name: str, message: str, hint: str | None) -> TmdError:
-        return self._environment.source.error(("objects", name, "at"), message, hint)
+    def _error(self, name: str, message: str, hint: str | None, key: str | None = "at") -> TmdError:
+        """An error at what the environment says of an object."""
+        path = ("objects", name) if key is None else ("objects", name, key)
+        return self._environment.source.error(path, message, hint, "no-room")
 
 
 def _footprint(blueprint: Blueprint) -> Footprint:
     model = blueprint.model
     return (model.low[0], model.low[1], model.high[0], model.high[1])
+
+
+def _rectangle(own: Footprint) -> list[tuple[float, float]]:
+    return [(x, y) for x in (own[0], own[2]) for y in (own[1], own[3])]
 
 
 def _facing_the_middle(x: float, y: float) -> Pose:

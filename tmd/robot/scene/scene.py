@@ -14,8 +14,8 @@ from tmd.diagnostics import TmdError
 from tmd.robot.assets.colours import mixed
 from tmd.robot.assets.features import Grasp
 from tmd.robot.assets.room import build_room
-from tmd.robot.assets.shapes import Shapes
 from tmd.robot.assets.urdf_builder import ROOT
+from tmd.robot.scene.catalogue import built
 from tmd.robot.scene.furniture_layout import Room
 from tmd.robot.scene.handles import Handle, grip_of, handle_of
 from tmd.robot.scene.inventory import FLOOR, Inventory
@@ -67,16 +67,13 @@ class Scene(Inventory):
         rng: Generator | None = None,
         settle: int = SETTLE,
     ) -> None:
-        shapes = Shapes(folder)
-        blueprints = {name: shapes.blueprint(entry.class_name) for name, entry in environment.objects.items()}
+        super().__init__(sim, environment, *built(environment, folder))
         self._states = {
             name: {
                 vertex.name: dict(vertex.states) for vertex in folder.classes.get(entry.class_name).vertices.values()
             }
             for name, entry in environment.objects.items()
         }
-        parts = {name: [v for v in states if v != CLASS_ROOT] for name, states in self._states.items()}
-        super().__init__(sim, environment, blueprints, parts)
         self._shown: dict[str, tuple[str, ...]] = {}
         with tempfile.TemporaryDirectory(prefix="tmd-scene-") as directory:
             self._load(Path(directory), rng)
@@ -150,10 +147,12 @@ class Scene(Inventory):
     def _overlap(self, one: str, other: str, depth: float) -> None:
         guilty = other if self.environment.objects[other].position or one == FLOOR else one
         path = ("objects", guilty, "position")
+        both = f"'{other}' and the floor or a wall" if one == FLOOR else f"'{one}' and '{other}'"
         raise self.environment.source.error(
             path,
-            f"'{one}' and '{other}' are in each other by {depth * 1000:.0f} mm",
+            f"{both} are in each other by {depth * 1000:.0f} mm",
             "give other positions, or leave them out: then places are found",
+            "overlap",
         )
 
     # ------------------------------------------------------------------ where things may stand, and stand
@@ -216,6 +215,10 @@ class Scene(Inventory):
     def shown(self, name: str) -> tuple[str, ...]:
         """What a vessel is seen to contain."""
         return self._shown.get(name, ())
+
+    def filled(self) -> list[str]:
+        """The items that are seen to contain something, in file order."""
+        return [name for name in self.blueprints if self._shown.get(name) and self.is_item(name)]
 
     def sign(self, name: str, predicate: str, on: bool) -> None:
         """Let a state be seen: a burner glows, the tap runs, the microwave is lit; nothing where there is no sign."""

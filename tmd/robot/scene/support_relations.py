@@ -7,7 +7,8 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Protocol
 
-from tmd.robot.assets.features import Region
+from tmd.robot.assets.features import Opening, Region
+from tmd.robot.assets.urdf_builder import ROOT
 from tmd.robot.scene.furniture_layout import Footprint, Room, apart, floor_spots, inside
 from tmd.robot.scene.inventory import FLOOR, Inventory
 from tmd.robot.scene.placement import TURNS
@@ -26,9 +27,15 @@ _ON_TOP = 0.004
 
 @dataclass(frozen=True, slots=True)
 class Spot:
-    """A free place: the pose that an item's frame would have, in the world, now."""
+    """A free place.
+
+    Attributes:
+        pose: That the item's frame would have, in the world, now.
+        outlet: The part whose stream would run into the item there; empty where there is none.
+    """
 
     pose: Pose
+    outlet: str = ""
 
 
 class Things(Protocol):
@@ -48,6 +55,14 @@ class Things(Protocol):
 
     def size(self, item: str) -> tuple[Vector, Vector]:
         """The item's box in its own frame."""
+        ...
+
+    def opening(self, item: str) -> Opening | None:
+        """The rim of a vessel."""
+        ...
+
+    def spouts(self, whole: str) -> dict[str, Vector]:
+        """Where streams leave an object, in its own frame."""
         ...
 
     def regions(self, name: str, relation: str | None = None) -> list[tuple[str, Region]]:
@@ -77,6 +92,7 @@ def free_spots(
     if name == FLOOR:
         return [Spot(pose) for pose in floor_spots(room, others.values(), own)]
     tall = 0.0 if item is None else things.size(item)[1][2]
+    filled = item is not None and things.opening(item) is not None
     spots: list[Spot] = []
     heaped: list[Spot] = []
     for whole, region in things.regions(name, relation):
@@ -85,6 +101,8 @@ def free_spots(
         frame = things.frame(whole, region.link)
         low, high = region.low[2] + frame.position[2], region.high[2] + frame.position[2]
         near = {o: at for o, at in others.items() if low - 0.05 < at[0].position[2] < high}
+        if filled:
+            spots += _under_spouts(things, whole, region, own, near)
         for turned in TURNS:
             fitting = _fitting(frame, region, turned, own)
             gap = HEAP_GAP if region.heap else GAP
@@ -97,6 +115,28 @@ def free_spots(
                 break
     # beside what lies in a heap there may be room for a thing, and none for the hand
     return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
+
+
+def _under_spouts(
+    things: Things, whole: str, region: Region, own: Footprint, near: dict[str, tuple[Pose, Footprint]]
+) -> list[Spot]:
+    """Where a stream would run into a vessel: its middle is below the spout."""
+    frame = things.frame(whole, region.link)
+    found = []
+    for part, place in things.spouts(whole).items():
+        x, y, z = (frame.inverse() * things.frame(whole, ROOT)).apply(place)
+        if z < region.low[2] or not all(
+            a <= v <= b for a, v, b in zip(region.low[:2], (x, y), region.high, strict=False)
+        ):
+            continue
+        for turned in TURNS:
+            pose = frame * Pose.flat(x, y, region.low[2], turned)
+            if inside(pose, own, region.low, region.high, frame, region.overhang) and all(
+                apart(pose, own, *at, HEAP_GAP) for at in near.values()
+            ):
+                found.append(Spot(pose, part))
+                break
+    return found
 
 
 def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list[Pose]:

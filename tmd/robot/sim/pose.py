@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 Vector: TypeAlias = tuple[float, float, float]
 Quaternion: TypeAlias = tuple[float, float, float, float]
+_UNITS: tuple[Vector, Vector, Vector] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,6 +37,13 @@ class Pose:
         """A turn by ``angle`` radians about a unit vector through the origin."""
         s = sin(angle / 2)
         return cls((0.0, 0.0, 0.0), (axis[0] * s, axis[1] * s, axis[2] * s, cos(angle / 2)))
+
+    @classmethod
+    def turned(cls, roll: float, pitch: float, yaw: float) -> Pose:
+        """A turn by roll, pitch and yaw in radians, as URDF has them: about x, then y, then z of the outer frame."""
+        origin: Vector = (0.0, 0.0, 0.0)
+        x, y, z = (cls.about(axis, angle) for axis, angle in zip(_UNITS, (roll, pitch, yaw), strict=True))
+        return cls(origin, (z * y * x).orientation)
 
     @classmethod
     def from_matrix(cls, matrix: NDArray[np.float64]) -> Pose:

@@ -93,7 +93,7 @@ class Bodies(Engine):
                     pose.orientation,
                     useFixedBase=fixed,
                     flags=flags,
-                    physicsClientId=self._client,
+                    physicsClientId=self.client,
                 )
         except bullet.error as error:
             raise TmdError(
@@ -101,7 +101,7 @@ class Bodies(Engine):
             ) from error
         if sleeps:
             self._sleepers.add(body)
-        info = bullet.getDynamicsInfo(body, -1, physicsClientId=self._client)
+        info = bullet.getDynamicsInfo(body, -1, physicsClientId=self.client)
         self._inertial[body] = Pose(info[3], info[4])
         # the root's frame is meant, whatever the file says about its centre of mass
         self.set_pose(body, pose)
@@ -110,7 +110,7 @@ class Bodies(Engine):
     def remove(self, body: int) -> None:
         """Take a body out of the world."""
         self.wake()
-        self._bullet.removeBody(body, physicsClientId=self._client)
+        self._bullet.removeBody(body, physicsClientId=self.client)
         self._inertial.pop(body, None)
         self._sleepers.discard(body)
         self._names.pop(body, None)
@@ -129,12 +129,12 @@ class Bodies(Engine):
                 bullet.JOINT_FIXED: "fixed",
             }
             found = {}
-            for index in range(bullet.getNumJoints(body, physicsClientId=self._client)):
-                info = bullet.getJointInfo(body, index, physicsClientId=self._client)
+            for index in range(bullet.getNumJoints(body, physicsClientId=self.client)):
+                info = bullet.getJointInfo(body, index, physicsClientId=self.client)
                 lower, upper = (-inf, inf) if info[8] > info[9] else (info[8], info[9])
                 name = info[1].decode()
                 kind = kinds.get(info[2], "other")
-                turned = bullet.getDynamicsInfo(body, index, physicsClientId=self._client)[4]
+                turned = bullet.getDynamicsInfo(body, index, physicsClientId=self.client)[4]
                 axis = Pose((0.0, 0.0, 0.0), turned).rotate(info[13])  # given in the frame of the mass
                 found[name] = Joint(index, name, kind, lower, upper, axis, info[12].decode())
             self._names[body] = found
@@ -144,9 +144,9 @@ class Bodies(Engine):
         """The frame of a link in the world."""
         bullet = self._bullet
         if link == -1:
-            position, orientation = bullet.getBasePositionAndOrientation(body, physicsClientId=self._client)
+            position, orientation = bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
             return Pose(position, orientation) * self._inertial[body].inverse()
-        state = bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self._client)
+        state = bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
         return Pose(state[4], state[5])
 
     def set_pose(self, body: int, pose: Pose) -> None:
@@ -156,30 +156,26 @@ class Bodies(Engine):
         """
         self.wake(body)
         mass = pose * self._inertial[body]
-        self._bullet.resetBasePositionAndOrientation(
-            body, mass.position, mass.orientation, physicsClientId=self._client
-        )
-        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self._client)
+        self._bullet.resetBasePositionAndOrientation(body, mass.position, mass.orientation, physicsClientId=self.client)
+        self._bullet.resetBaseVelocity(body, (0, 0, 0), (0, 0, 0), physicsClientId=self.client)
 
     def wake(self, body: int | None = None) -> None:
         """Let a body, or every body, notice what changed under it while it slept."""
         for each in sorted(self._sleepers if body is None else self._sleepers & {body}):
             state = self._bullet.ACTIVATION_STATE_WAKE_UP
-            self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self._client)
+            self._bullet.changeDynamics(each, -1, activationState=state, physicsClientId=self.client)
 
     def motion(self, body: int) -> tuple[Pose, Vector, Vector]:
         """The exact state of a root, for :meth:`set_motion`: the frame of its mass, its velocity, its turning."""
-        position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self._client)
-        linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self._client)
+        position, orientation = self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client)
+        linear, angular = self._bullet.getBaseVelocity(body, physicsClientId=self.client)
         return Pose(position, orientation), linear, angular
 
     def set_motion(self, body: int, motion: tuple[Pose, Vector, Vector]) -> None:
         """Put a root back as :meth:`motion` found it, to the bit."""
         pose, linear, angular = motion
-        self._bullet.resetBasePositionAndOrientation(
-            body, pose.position, pose.orientation, physicsClientId=self._client
-        )
-        self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self._client)
+        self._bullet.resetBasePositionAndOrientation(body, pose.position, pose.orientation, physicsClientId=self.client)
+        self._bullet.resetBaseVelocity(body, linear, angular, physicsClientId=self.client)
 
     def extents(self, body: int, link: int | None = None) -> tuple[Vector, Vector]:
         """A box, parallel to the world's axes, around the collision shapes of one link, or of all links.
@@ -187,7 +183,7 @@ class Bodies(Engine):
         It is a bound: where the frame of the mass is turned against the shape, it is a little too large.
         """
         if link is not None:
-            lower, upper = self._bullet.getAABB(body, link, physicsClientId=self._client)
+            lower, upper = self._bullet.getAABB(body, link, physicsClientId=self.client)
             return lower, upper
         boxes = [self.extents(body, each) for each in self.solid_links(body)]
         if not boxes:
@@ -199,10 +195,12 @@ class Bodies(Engine):
     def solid_links(self, body: int) -> list[int]:
         """The links that have a collision shape, the root first."""
         bullet = self._bullet
-        links = range(-1, bullet.getNumJoints(body, physicsClientId=self._client))
-        return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self._client)]
+        links = range(-1, bullet.getNumJoints(body, physicsClientId=self.client))
+        return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
 
 
+_QUERY_WORK = 18
+"""Microseconds of asking what touches or is near, about."""
 WELD_FORCE = 500.0
 """Newtons that a weld or a pin may pull with: more than any item weighs, and less than what tears furniture."""
 
@@ -259,18 +257,18 @@ class Simulator(Bodies):
 
     def joint_position(self, body: int, joint: int | str) -> float:
         """Radians or metres."""
-        state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self._client)
+        state = self._bullet.getJointState(body, self._index(body, joint), physicsClientId=self.client)
         return float(state[0])
 
     def joint_states(self, body: int, joints: Sequence[int]) -> tuple[list[float], list[float]]:
         """Positions and velocities of several joints."""
-        states = self._bullet.getJointStates(body, joints, physicsClientId=self._client)
+        states = self._bullet.getJointStates(body, joints, physicsClientId=self.client)
         return [state[0] for state in states], [state[1] for state in states]
 
     def set_joint(self, body: int, joint: int | str, position: float) -> None:
         """Put a joint there, at rest: never while physics runs."""
         self.wake(body)
-        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self._client)
+        self._bullet.resetJointState(body, self._index(body, joint), position, 0.0, physicsClientId=self.client)
 
     def set_joints(
         self, body: int, joints: Sequence[int], positions: Sequence[float], velocities: Sequence[float] | None = None
@@ -282,7 +280,7 @@ class Simulator(Bodies):
             joints,
             [[position] for position in positions],
             [[speed] for speed in speeds],
-            physicsClientId=self._client,
+            physicsClientId=self.client,
         )
 
     def drive_joint(
@@ -297,7 +295,7 @@ class Simulator(Bodies):
             self._bullet.POSITION_CONTROL,
             targetPosition=target,
             force=force,
-            physicsClientId=self._client,
+            physicsClientId=self.client,
             **limit,
         )
 
@@ -329,7 +327,7 @@ class Simulator(Bodies):
             forces=forces,
             positionGains=[gain] * len(joints),
             velocityGains=[1.0] * len(joints),
-            physicsClientId=self._client,
+            physicsClientId=self.client,
         )
 
     def brake_joint(self, body: int, joint: int | str, force: float) -> None:
@@ -341,7 +339,7 @@ class Simulator(Bodies):
             self._bullet.VELOCITY_CONTROL,
             targetVelocity=0.0,
             force=force,
-            physicsClientId=self._client,
+            physicsClientId=self.client,
         )
 
     # constraints
@@ -361,7 +359,7 @@ class Simulator(Bodies):
         """Undo a weld or a pin."""
         for body in self._joined.pop(handle):
             self.wake(body)  # what hung asleep falls now
-        self._bullet.removeConstraint(handle, physicsClientId=self._client)
+        self._bullet.removeConstraint(handle, physicsClientId=self.client)
 
     def _constrain(
         self, body: int, link: int, other: int, other_link: int, kind: int, mine: Pose, theirs: Pose, force: float
@@ -369,17 +367,17 @@ class Simulator(Bodies):
         handle: int = self._bullet.createConstraint(
             body, link, other, other_link, kind, (0, 0, 0),
             mine.position, theirs.position, mine.orientation, theirs.orientation,
-            physicsClientId=self._client,
+            physicsClientId=self.client,
         )  # fmt: skip
-        self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self._client)
+        self._bullet.changeConstraint(handle, maxForce=force, physicsClientId=self.client)
         self._joined[handle] = body, other
         return handle
 
     def _mass_frame(self, body: int, link: int) -> Pose:
         """The frame at the centre of mass, which constraints are given in."""
         if link == -1:
-            return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self._client))
-        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self._client)
+            return Pose(*self._bullet.getBasePositionAndOrientation(body, physicsClientId=self.client))
+        state = self._bullet.getLinkState(body, link, computeForwardKinematics=1, physicsClientId=self.client)
         return Pose(state[0], state[1])
 
     # what touches, what is near, what is seen
@@ -405,17 +403,18 @@ class Simulator(Bodies):
     ) -> list[Contact]:
         asked = {"bodyB": other, "linkIndexA": link, "linkIndexB": other_link}
         chosen = {name: value for name, value in asked.items() if value is not None}
-        points = query(bodyA=body, **chosen, **options, physicsClientId=self._client) or ()
+        self.work += _QUERY_WORK
+        points = query(bodyA=body, **chosen, **options, physicsClientId=self.client) or ()
         return [_contact(point, body) for point in points]
 
     def ray(self, start: Sequence[float], end: Sequence[float]) -> Hit | None:
         """What a straight line from ``start`` to ``end`` meets first."""
-        body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self._client)[0]
+        body, link, _, position, _ = self._bullet.rayTest(start, end, physicsClientId=self.client)[0]
         return None if body < 0 else Hit(body, link, position)
 
     def colour(self, body: int, link: int, rgba: Sequence[float]) -> None:
         """Paint a link; each value in [0, 1]."""
-        self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self._client)
+        self._bullet.changeVisualShape(body, link, rgbaColor=rgba, physicsClientId=self.client)
 
 
 def _contact(point: Sequence[Any], body: int) -> Contact:

@@ -89,6 +89,7 @@ def _swing(cell: Cell, name: str, attempt: int, goals: Sequence[float]) -> None:
         accept=_out_of_its_way(cell, name, handle),
     )
     _pull(cell, name, _handle(cell, name), chosen)
+    cell.moment()
     cell.retire(chosen.side, chosen.ignore, lid=handle.kind == "lid")
 
 
@@ -252,13 +253,15 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     for side in hands:
         cell.robot.open_gripper(side, 0.0)
     farthest = _Farthest(handle)
-    chosen = reach(cell, options, touch, cell.front(name), attempt)
+    chosen = reach(cell, name, options, touch, cell.front(name), attempt)
     roll = 0.0 if chosen.poses[-1].angle(touch) < 0.1 else pi / 2
     cell.sim.add_watcher(farthest)
     try:
         with cell.pushed(chosen.side, handle):
             follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
+            farthest(cell.sim)  # in the kinematic mode the joint goes along after others were told
         touched = cell.robot.touches(chosen.side, handle.body, handle.index)
+        cell.moment()
     finally:
         cell.sim.remove_watcher(farthest)
     cell.come_back(handle)
@@ -267,7 +270,7 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         raise SkillError(SkillPhase.CONTACT, f"the finger does not touch {name}")
     if farthest.share < ARTICULATION.pressed_share:
         raise SkillError(SkillPhase.EFFECT, f"{name} went down {100 * farthest.share:.0f} % of its way")
-    return f"{name} went down {100 * farthest.share:.0f} % of its way"
+    return f"{name} went down {100 * min(farthest.share, 1.0):.0f} % of its way"
 
 
 class _Farthest:
@@ -305,8 +308,9 @@ def rotate(cell: Cell, name: str, setting: str, attempt: int) -> str:
         options += [Option(side, (before, *poses), ignore, number) for side in hands]
     for side in hands:
         cell.robot.open_gripper(side, handle.opening)
-    chosen = reach(cell, options, handle.grasp, cell.front(name), attempt, stop=2)
+    chosen = reach(cell, name, options, handle.grasp, cell.front(name), attempt, stop=2)
     _pull(cell, name, handle, chosen)
+    cell.moment()
     cell.retire(chosen.side, ignore)
     if cell.setting(name) != setting:
         raise SkillError(SkillPhase.EFFECT, f"{name} was turned, and is at {cell.setting(name) or 'no setting'}")

@@ -61,14 +61,13 @@ def reach_for(
     item = cell.whole(name)
     side = cell.side_of(item)
     if side is None:
-        return reach(
-            cell, options(), focus, cell.front(name) if front is None else front, attempt, stop=stop, accept=accept
-        )
+        side_of_it = cell.front(name) if front is None else front
+        return reach(cell, name, options(), focus, side_of_it, attempt, stop=stop, accept=accept)
     home, torso = cell.robot.base(), cell.robot.torso()
     last = SkillError(SkillPhase.STANCE, f"the {side} hand cannot hold {item} out for the other one")
     for _ in islice(_held_out(cell, side, item, options), 2 * attempt, 2 * attempt + _MOST):
         try:
-            return reach(cell, options(), focus, None, 0, stop=stop, stay=True)
+            return reach(cell, name, options(), focus, None, 0, stop=stop, stay=True)
         except SkillError as error:
             last = error
     with suppress(SkillError):  # another try begins from here as well, and not from wherever this one ended
@@ -81,6 +80,7 @@ def _held_out(cell: Cell, side: str, item: str, options: Callable[[], Sequence[O
     x, y, theta = cell.robot.base()
     for back, turn in dict.fromkeys(_STANDS):
         base = (x - back * cos(theta), y - back * sin(theta), theta + turn)
+        cell.look_on(f"a place where the {side} hand can hold {item} out for the other one")
         if (back or turn) and cell.robot.collides(base=base):
             continue
         try:
@@ -100,6 +100,7 @@ def _places(cell: Cell, side: str, item: str, options: Callable[[], Sequence[Opt
     now = options()
     asked = 0
     for number in range(len(_PLACES)):
+        cell.look_on(f"how the {side} hand can hold {item} out for the other one")
         (up, ahead, aside), turn = _PLACES[number * _STRIDE % len(_PLACES)]
         x, y, _ = robot.base_link().apply((ahead, aside if side == "left" else -aside, 0.0))
         there = Pose.flat(x, y, up + torso / 2, turn * tau / _TURNS)

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Hashable
 
 from tmd.pddl.model import GroundAtom, Instruction
+from tmd.robot.parameters import TIME
+from tmd.robot.sim.pose import Pose
 from tmd.robot.skills import articulated, navigate_and_look, pick_and_place, pour_and_dip
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
@@ -28,10 +30,33 @@ class RobotPerformer:
         """Steps and ticks so far."""
         return self.cell.sim.ticks
 
+    def situation(self) -> Hashable:
+        """Poses to the centimetre, joints to a tenth of their way."""
+        cell = self.cell
+        poses = [cell.sim.pose(cell.scene.bodies[item]) for item in cell.scene.items()]
+        held = tuple(sorted((side, item, _rounded(cell.in_tool(side, item))) for side, item in cell.in_hand.items()))
+        loose = tuple(
+            _rounded(pose)
+            for item, pose in zip(cell.scene.items(), poses, strict=True)
+            if item not in cell.in_hand.values()
+        )
+        joints = tuple(round(10 * cell.way(name)) for name in cell.scene.names() if cell.has_joint(name))
+        return held, loose, joints
+
+    def idle(self, instruction: Instruction) -> bool:
+        """See :class:`tmd.robot.monitor.executor.Performer`."""
+        return self.skills.task(instruction).skill in ("look", "drive", "wait")
+
     def perform(self, instruction: Instruction, gains: Collection[GroundAtom], attempt: int) -> str:
         """Do it; see :class:`tmd.robot.monitor.executor.Performer`."""
         task = self.skills.task(instruction)
-        said = self._do(task, gains, attempt)
+        self.cell.until = self.cell.sim.work + 1e6 * TIME.instruction
+        try:
+            said = self._do(task, gains, attempt)
+        except SkillError as error:
+            if error.stage in (SkillPhase.STANCE, SkillPhase.PATH, SkillPhase.TIME):
+                self._remember(task)
+            raise
         if task.skill == "push":
             seen = {p for p, sensor in self.skills.seen.items() if sensor == "joint"}
             springs = sorted(a.args[0] for a in gains if a.predicate in seen and a.args[0] != task.object)
@@ -39,6 +64,24 @@ class RobotPerformer:
                 navigate_and_look.step_back(self.cell, name)
                 self.cell.spring(name)
         return said
+
+    def _remember(self, task: SkillTask) -> None:
+        """How things stood and were held when what was to be done with them could not be reached.
+
+        They are put down elsewhere and held in another way, if there is one, when they are taken again.
+        """
+        cell = self.cell
+        if task.skill in ("look", "drive"):
+            return
+        for name in (task.object, task.target):
+            item = cell.whole(name) if name else ""
+            if not cell.scene.is_item(item):
+                continue
+            side = cell.side_of(item)
+            if side is None:
+                cell.unfit_spots.setdefault(item, []).append(cell.sim.pose(cell.scene.bodies[item]))
+            else:
+                cell.unfit_grips.setdefault(item, []).append(cell.in_tool(side, item))
 
     def _do(self, task: SkillTask, gains: Collection[GroundAtom], attempt: int) -> str:
         cell, name = self.cell, task.object
@@ -52,7 +95,8 @@ class RobotPerformer:
             case "pick":
                 return pick_and_place.pick(cell, name, attempt)
             case "place":
-                return pick_and_place.place(cell, name, task.target, task.relation, attempt)
+                wet = any(self.skills.inferred.get(a.predicate) == "contents" and a.args[0] == name for a in gains)
+                return pick_and_place.place(cell, name, task.target, task.relation, attempt, filled=wet)
             case "drop":
                 return pick_and_place.drop(cell, name, self._below(name, gains), attempt)
             case "open" | "close":
@@ -73,3 +117,9 @@ class RobotPerformer:
             if atom.predicate in seen and atom.args[0] == item:
                 return atom.args[1]
         raise SkillError(SkillPhase.PRECONDITION, f"there is nothing that {item} could land on")
+
+
+def _rounded(pose: Pose) -> tuple[int, ...]:
+    """A pose to the centimetre and a twentieth of a quaternion, whose sign says nothing."""
+    sign = 1 if next((value for value in reversed(pose.orientation) if abs(value) > 0.025), 1) > 0 else -1
+    return (*(round(100 * value) for value in pose.position), *(round(20 * sign * value) for value in pose.orientation))

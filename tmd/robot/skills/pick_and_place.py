@@ -5,13 +5,24 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
-from math import pi
+from math import degrees, pi
 
-from tmd.robot.parameters import GRASP, MOTOR
+import numpy as np
+
+from tmd.robot.assets.features import Frame, Grasp
+from tmd.robot.assets.fittings import DOWN, INTO, TIP
+from tmd.robot.parameters import CONTACT, GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
+
+_OPEN = 0.08
+"""Metres between the fingers of a hand that is about to take something."""
+_ALONG = 0.7
+"""Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar."""
+_ALIKE = (0.03, 0.5)
+"""Metres and radians between grips that count as one."""
 
 
 def pick(cell: Cell, item: str, attempt: int) -> str:
@@ -24,12 +35,15 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     if not cell.free():
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
     body = cell.scene.bodies[item]
+    start = cell.sim.pose(body)
+    lies_by_bar = cell.tilt(item) > CONTACT.upright and any(map(_of_bar, cell.scene.grasps(item)))
     for side in cell.free():
-        cell.robot.open_gripper(side)
-    chosen = reach(cell, options, cell.sim.pose(body), cell.front(item), attempt)
+        cell.robot.open_gripper(side, GRASP.bar if lies_by_bar else _OPEN)
+    chosen = reach(cell, item, options, cell.sim.pose(body), cell.front(item), attempt)
     side = chosen.side
     cell.robot.close_gripper(side)
     if not cell.robot.touches(side, body):
+        cell.unfit_grips.setdefault(item, []).append(start.inverse() * chosen.poses[-1])
         _let_off(cell, side, chosen)
         raise SkillError(SkillPhase.CONTACT, f"the {side} hand closed and does not touch {item}")
     below = cell.support(item)
@@ -37,6 +51,7 @@ def pick(cell: Cell, item: str, attempt: int) -> str:
     cell.in_hand[side] = item
     away = _out(cell, below)
     _leave(cell, side, away, _links(cell, item))
+    cell.moment()
     cell.fold()
     if cell.gap(side, item) > 0.03:
         raise SkillError(SkillPhase.EFFECT, f"{item} slipped out of the {side} hand")
@@ -52,6 +67,9 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
     upright = 1.0 if cell.scene.holds_contents(item) or high[2] > GRASP.tall else -1.0
     ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
     poses = [here * grasp.tool.pose() for grasp in ordered]
+    if cell.tilt(item) > CONTACT.upright:
+        poses = _lying(cell, item, poses)
+    poses.sort(key=lambda tool: _held_badly(cell, item, here.inverse() * tool))
     entry = _sideways(cell, item)
     return [
         Option(side, (start, tool), links, number)
@@ -59,6 +77,58 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
         for start in _starts(tool, entry)
         for side in _nearest_first(cell, here)
     ]
+
+
+def _held_badly(cell: Cell, item: str, grip: Pose) -> bool:
+    """Whether it was held like this when something could not be done with it."""
+    known = cell.unfit_grips.get(item, ())
+    return any(grip.distance(other) < _ALIKE[0] and grip.angle(other) < _ALIKE[1] for other in known)
+
+
+def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
+    """Tool poses for a thing that lies or leans: across its axis, and the usual ones turned about the fingers' axis.
+
+    Turned so, the fingers meet the same two sides, and the hand comes from where there is room: from above first.
+    """
+    here = cell.sim.pose(cell.scene.bodies[item])
+    low, high = cell.scene.size(item)
+    axis = np.array(here.rotate((0.0, 0.0, 1.0)))
+    across = np.cross(axis, (0.0, 0.0, 1.0))
+    found: list[Pose] = []
+    if np.linalg.norm(across) > 0.2:
+        across /= np.linalg.norm(across)
+        ax, ay, az = (float(value) for value in across)
+        if _width(cell, item, here.inverse().rotate((ax, ay, az))) <= GRASP.widest:
+            floor = cell.sim.extents(cell.scene.bodies[item])[0][2] + TIP + GRASP.above_ground
+            for share in (0.5, 0.35, 0.65, 0.2, 0.8):
+                x, y, z = here.apply((0.0, 0.0, low[2] + share * (high[2] - low[2])))
+                down = Frame((x, y, max(z, floor)), DOWN, (ax, ay, az)).pose()
+                found += [down * Pose.about((0.0, 1.0, 0.0), angle) for angle in (0.0, 0.6, -0.6, 1.1, -1.1)]
+    turns = [number * pi / 4 for number in range(8)]
+    bars = [here * grasp.tool.pose() for grasp in cell.scene.grasps(item) if _of_bar(grasp)]
+    length = here.rotate((1.0, 0.0, 0.0))
+    rolled = [
+        Pose(tool.position, (Pose.about(length, angle) * Pose((0.0, 0.0, 0.0), tool.orientation)).orientation)
+        for tool in bars
+        for angle in turns
+    ]
+    found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in (*usual, *rolled) for angle in turns]
+    kept = [tool for tool in found if tool.rotate((1.0, 0.0, 0.0))[2] < 0.3]
+    return sorted(kept, key=lambda tool: round(tool.rotate((1.0, 0.0, 0.0))[2], 1))[: GRASP.most_lying]
+
+
+def _of_bar(grasp: Grasp) -> bool:
+    """Whether it is one of a bar along x, round which the hand may be anywhere: taken from its end."""
+    return grasp.opening < GRASP.bar and grasp.tool.approach == INTO
+
+
+def _width(cell: Cell, item: str, along: Vector) -> float:
+    """How wide an item is along a level direction of its own frame; what is round is as wide as it is in y."""
+    low, high = cell.scene.size(item)
+    depth, width = high[0] - low[0], high[1] - low[1]
+    if cell.scene.opening(item) is not None or abs(depth - width) < 0.01:
+        return width
+    return abs(along[0]) * depth + abs(along[1]) * width
 
 
 def _sideways(cell: Cell, item: str) -> Vector | None:
@@ -78,28 +148,72 @@ def _starts(tool: Pose, entry: Vector | None) -> list[Pose]:
     return [close] if abs(across) > GRASP.max_opening_along else [outside, close]
 
 
-def place(cell: Cell, item: str, target: str, relation: str, attempt: int) -> str:
-    """Put ``item`` down on, in or next to ``target``.
+def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, filled: bool = False) -> str:
+    """Put ``item`` down on, in or next to ``target``, upright.
+
+    Args:
+        cell: Robot and scene.
+        item: What is held.
+        target: Where it goes.
+        relation: How.
+        attempt: How often this was tried before.
+        filled: It is to be filled there by what runs from a spout, so it goes below that and nowhere else. A vessel
+            goes there anyway where there is room.
 
     Raises:
-        SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere.
+        SkillError: It is not held, there is no room, the place cannot be reached, or the item ends up elsewhere, or
+            falls over.
     """
     side = cell.side_of(item)
     if side is None:
         raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
-    options = place_options(cell, side, item, target, relation)
-    if not options:
-        raise SkillError(SkillPhase.PRECONDITION, f"there is no room for {item} {relation} {target}")
-    focus = options[0].poses[-1] * cell.in_tool(side, item)
-    _reach_best(cell, item, options, focus, target, relation, attempt)
+    below, others = place_options(cell, side, item, target, relation)
+    if filled and not below and cell.scene.spouts(cell.whole(target)):
+        raise SkillError(SkillPhase.PRECONDITION, f"there is no room for {item} below {_occupied(cell, item, target)}")
+    if not below and not others:
+        told = _standing_there(cell, item, target, relation)
+        raise SkillError(SkillPhase.PRECONDITION, f"there is no room for {item} {relation} {target}{told}")
+    groups = [group for group in ((below,) if filled and below else (below, others)) if group]
+    for options in groups:
+        focus = options[0].poses[-1] * cell.in_tool(side, item)
+        try:
+            _reach_best(cell, item, options, focus, target, relation, attempt)
+        except SkillError as error:
+            if error.stage not in (SkillPhase.STANCE, SkillPhase.PATH) or options is groups[-1]:
+                raise
+        else:
+            break
     _release(cell, side, item)
+    cell.moment()
     _leave(cell, side, None, _links(cell, item))
     cell.fold()
+    cell.settle()
     now = cell.support(item)
     if now != (target, relation):
         where = f"{now[1]} {now[0]}" if now else "nowhere"
         raise SkillError(SkillPhase.EFFECT, f"{item} was put down, and is {where}")
+    if cell.fallen(item):
+        raise SkillError(SkillPhase.EFFECT, f"{item} was put down, and leans by {degrees(cell.tilt(item)):.0f} degrees")
     return f"{item} is {relation} {target}"
+
+
+def _occupied(cell: Cell, item: str, target: str) -> str:
+    """The spout of what an item is to be filled at, and what stands below it."""
+    whole = cell.whole(target)
+    frame = cell.sim.pose(cell.scene.bodies[whole])
+    for part, at in cell.scene.spouts(whole).items():
+        x, y, z = frame.apply(at)
+        for other in cell.scene.items():
+            low, high = cell.sim.extents(cell.scene.bodies[other])
+            if other != item and low[2] < z and low[0] - 0.1 < x < high[0] + 0.1 and low[1] - 0.1 < y < high[1] + 0.1:
+                return f"{part}: {other} is in the way"
+    return next(iter(cell.scene.spouts(whole)))
+
+
+def _standing_there(cell: Cell, item: str, target: str, relation: str) -> str:
+    """What stands where an item should go."""
+    there = [other for other in cell.scene.items() if other != item and cell.support(other) == (target, relation)]
+    return f": {', '.join(there[:4])} {'stands' if len(there) == 1 else 'stand'} there" if there else ""
 
 
 def _reach_best(
@@ -117,7 +231,7 @@ def _reach_best(
     ]
     for chosen in (away, again, fitting):
         try:
-            reach(cell, chosen, focus, cell.front(target), attempt, stop=2)
+            reach(cell, f"{relation} {target}", chosen, focus, cell.front(target), attempt, stop=2)
         except SkillError as error:
             if error.stage is not SkillPhase.STANCE or chosen is fitting:
                 raise
@@ -125,17 +239,21 @@ def _reach_best(
             return
 
 
-def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
-    """Ways to put an item down with the hand that holds it."""
+def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> tuple[list[Option], list[Option]]:
+    """Ways to put an item down with the hand that holds it: where a stream would run into it, and elsewhere."""
     grip = cell.in_tool(side, item).inverse()
     back = tuple(-value * GRASP.approach for value in cell.scene.entry(target, relation))
     links = _links(cell, item)
-    found = []
-    spots = cell.scene.support(target, relation, item, cell.in_hand.values())[:6]
-    for fall, (number, spot), turn in product(GRASP.release_heights, enumerate(spots), range(GRASP.headings)):
+    found: tuple[list[Option], list[Option]] = ([], [])
+    every = cell.scene.support(target, relation, item, cell.in_hand.values())
+    unfit = cell.unfit_spots.get(item, ())
+    fit = [spot for spot in every if all(spot.pose.distance(other) > GRASP.unfit for other in unfit)] or every
+    spots = [*(spot for spot in fit if spot.outlet), *[spot for spot in fit if not spot.outlet][:6]]
+    heights = GRASP.upright_heights if cell.scene.stands(item) else GRASP.release_heights
+    for fall, (number, spot), turn in product(heights, enumerate(spots), range(GRASP.headings)):
         stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / GRASP.headings)
         tool = stood * grip
-        found.append(Option(side, (_moved(tool, back), tool), links, number))
+        found[not spot.outlet].append(Option(side, (_moved(tool, back), tool), links, number))
     return found
 
 
@@ -165,7 +283,7 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
         raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
     cell.robot.raise_torso(0.0)
     _release(cell, side, item)
-    cell.settle(item)
+    cell.moment()
     cell.fold()
     now = cell.support(item)
     if now != (target, "on"):
@@ -175,11 +293,19 @@ def drop(cell: Cell, item: str, target: str, attempt: int) -> str:
     return f"{item} is on the floor"
 
 
+def _gap_to_let_go(cell: Cell, side: str, item: str) -> float:
+    """How wide a hand opens that lets go: as wide as it can, or as little as it must where a finger is behind a bar."""
+    _, across, _ = cell.in_tool(side, item).inverse().rotate((0.0, 1.0, 0.0))
+    behind = abs(across) < _ALONG and any(map(_of_bar, cell.scene.grasps(item)))
+    return GRASP.bar if behind else MOTOR.gripper_gap
+
+
 def _release(cell: Cell, side: str, item: str) -> None:
+    wide = _gap_to_let_go(cell, side, item)
     cell.robot.let_go(side)
     cell.in_hand.pop(side, None)
-    cell.robot.open_gripper(side, MOTOR.gripper_gap)  # a finger that still touches it would drag it along
-    cell.settle(item)
+    cell.robot.open_gripper(side, wide)  # a finger that still touches it would drag it along
+    cell.settle()
 
 
 def _let_off(cell: Cell, side: str, chosen: Option) -> None:

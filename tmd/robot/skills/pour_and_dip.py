@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import acos, cos, degrees, hypot, pi, sin
 
-from tmd.robot.parameters import POURING
+from tmd.robot.assets.features import Region
+from tmd.robot.parameters import CONTACT, POURING
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
@@ -47,7 +48,11 @@ def mouths(cell: Cell, item: str, side: str) -> list[Mouth]:
         hangs = tool.rotate((1.0, 0.0, 0.0))[2] < -0.7 and not cell.scene.holds_contents(item)
         if hangs:
             return [Mouth((middle[0], middle[1], low[2]), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0))]
-        top = high[2] * (POURING.rim_height_share if cell.scene.holds_contents(item) else 1.0)
+        opening = cell.scene.opening(item)
+        if opening is not None:
+            out = opening.radius + POURING.wall
+            low, high = (-out, -out, low[2]), (out, out, high[2])
+        top = high[2] if opening is None else opening.centre[2]
         return [_rim(low, high, top, axis) for axis in _axes(tool, middle)]
     far = high if tool.position[longest] < middle[longest] else low
     at, turn = list(middle), [0.0, 0.0, 0.0]
@@ -80,6 +85,7 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
         SkillError: It is not held, cannot be held there, or its mouth was not over the target.
     """
     side = _side(cell, item)
+    _refuse_fallen(cell, target)
     known = mouths(cell, item, side)
 
     def options() -> list[Option]:
@@ -90,14 +96,24 @@ def tip(cell: Cell, item: str, target: str, attempt: int, *, squeezed: bool = Fa
                 break
         return found
 
-    chosen = reach_for(cell, target, options, Pose(_over(cell, target, POURING.heights[0][0])), attempt)
-    how = known[chosen.spot]
-    if squeezed:
-        cell.robot.close_gripper(side, _SQUEEZE)
-    here = cell.sim.pose(cell.scene.bodies[item])
-    tilt = _tilt(here, how)
-    beside = _beside(cell, here.apply(how.at), target)
-    _go_back(cell, chosen)
+    body = cell.scene.bodies[item]
+
+    def over_rim() -> bool:
+        """Whether what runs out now gets where it should."""
+        here = cell.sim.pose(body)
+        return any(_beside(cell, here.apply(how.at), target) <= POURING.mouth_offset for how in known)
+
+    with cell.leaning(item, over_rim):
+        chosen = reach_for(cell, target, options, Pose(_overs(cell, target, POURING.heights[0][0])[0]), attempt)
+        how = known[chosen.spot]
+        if squeezed:
+            cell.robot.close_gripper(side, _SQUEEZE)
+        here = cell.sim.pose(body)
+        tilt = _tilt(here, how)
+        beside = _beside(cell, here.apply(how.at), target)
+        cell.load(target)
+        cell.moment()
+        _go_back(cell, chosen)
     said = (
         f"{item} was tipped by {degrees(tilt):.0f} degrees, its mouth {100 * beside:.1f} cm beside the rim of {target}"
     )
@@ -116,9 +132,11 @@ def tip_options(
     """
     side = _side(cell, item)
     grip = cell.in_tool(side, item).inverse()
-    over = _over(cell, target, height)
+    spills = None if closed else cell.spills_from(item)
     options = []
-    for angle, (index, how), number in product(POURING.tilts, enumerate(known), range(POURING.headings)):
+    for angle, over, (index, how), number in product(
+        POURING.tilts, _overs(cell, target, height), enumerate(known), range(POURING.headings)
+    ):
         stood = Pose.flat(0.0, 0.0, 0.0, 2 * pi * number / POURING.headings)
         x, y, _ = stood.rotate(how.at)
         nearer = near / max(hypot(x, y), 0.01)
@@ -129,10 +147,13 @@ def tip_options(
             )
             outside = before(cell, target, poses[0])
             options.append(Option(side, (*outside, *poses), _hands(cell, item), index))
+            shares = (1.0,) if closed else POURING.outside_shares
+            if outside and spills is not None:  # what is in it must not run out before it is there
+                shares = tuple(k for k in shares if abs(turned) * k < POURING.outside_margin * spills or k == 1.0)
+                if shares == (1.0,):
+                    continue
             if outside:
-                inside = [
-                    _over_rim(stood, how, at, turned * k) * grip for k in ((1.0,) if closed else POURING.outside_shares)
-                ]
+                inside = [_over_rim(stood, how, at, turned * k) * grip for k in shares]
                 (end,) = before(cell, target, inside[0])
                 start = _moved_up(outside[0], end.position[2] - outside[0].position[2])
                 options.append(Option(side, (start, end, *inside), _hands(cell, item), index))
@@ -163,12 +184,17 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
     Raises:
         SkillError: It is not held, cannot be brought there, or did not get in.
     """
+    _refuse_fallen(cell, target)
     how = _head(cell, item, _side(cell, item))
-    focus = Pose(_over(cell, target, POURING.dip_heights[0]))
-    chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
-    at = cell.sim.pose(cell.scene.bodies[item]).apply(how.at)
-    beside, below = _beside(cell, at, target), cell.top(target) - at[2]
-    _go_back(cell, chosen)
+    body = cell.scene.bodies[item]
+    focus = Pose(_overs(cell, target, POURING.dip_heights[0])[0])
+    with cell.leaning(item, lambda: _beside(cell, cell.sim.pose(body).apply(how.at), target) <= 0.0):
+        chosen = reach_for(cell, target, lambda: dip_options(cell, item, target), focus, attempt)
+        at = cell.sim.pose(body).apply(how.at)
+        beside, below = _beside(cell, at, target), _rim_height(cell, target) - at[2]
+        cell.load(item)
+        cell.moment()
+        _go_back(cell, chosen)
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < POURING.dipped_from or beside > 0.0:
         raise SkillError(SkillPhase.EFFECT, said)
@@ -189,18 +215,23 @@ def dip_options(cell: Cell, item: str, target: str) -> list[Option]:
     side = _side(cell, item)
     how, grip = _head(cell, item, side), cell.in_tool(side, item).inverse()
     ignore = _hands(cell, item) | {(cell.scene.place(target)[0], -1)}  # its lid may not be touched
-    inside = [
-        _held_at(_leaning(_heading(number), how, lean), how, _over(cell, target, -POURING.dip_depth), 0.0)
-        for lean, number in product(POURING.dip_leans, range(POURING.headings))
-    ]
+    (over,) = _overs(cell, target, -POURING.dip_depth)
+    ways = list(product(POURING.dip_leans, range(POURING.headings)))
+    inside = [_held_at(_leaning(_heading(number), how, lean), how, over, 0.0) for lean, number in ways]
     touched = _depths(cell, item, target, inside)
     options = []
-    for height, (number, there) in product(POURING.dip_heights, enumerate(inside)):
-        if touched[number] <= POURING.rim_penetration:
-            poses = tuple(
-                _moved_up(pose * grip, by) for pose, by in ((there, height + POURING.dip_depth), (there, 0.0))
-            )
-            options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, number))
+    for height, (index, there) in product(POURING.dip_heights, enumerate(inside)):
+        if touched[index] <= POURING.rim_penetration:
+            up = height + POURING.dip_depth
+            # above the rim it is level again: what slides off it before falls back
+            lean, number = ways[index]
+            above = (over[0], over[1], over[2] + up)
+            turning = [
+                _held_at(_leaning(_heading(number), how, share * lean), how, above, 0.0) * grip
+                for share in POURING.level_shares
+            ]
+            poses = (*turning, there * grip)
+            options.append(Option(side, (*before(cell, target, poses[0]), *poses), ignore, index))
     return options
 
 
@@ -244,9 +275,49 @@ def _side(cell: Cell, item: str) -> str:
     return side
 
 
-def _over(cell: Cell, target: str, height: float) -> Vector:
-    x, y, _ = cell.centre(target)
-    return (x, y, cell.top(target) + height)
+def _refuse_fallen(cell: Cell, target: str) -> None:
+    """What lies on its side takes nothing.
+
+    Raises:
+        SkillError: It does.
+    """
+    if cell.scene.is_item(target) and cell.scene.stands(target) and cell.tilt(target) > CONTACT.upright:
+        told = f"{target} leans by {degrees(cell.tilt(target)):.0f} degrees"
+        raise SkillError(SkillPhase.PRECONDITION, f"{told}: nothing can be put into it")
+
+
+def _overs(cell: Cell, target: str, height: float) -> list[Vector]:
+    """Points over a rim, or over different places of a basin, at a height above it; best first."""
+    if cell.scene.is_item(target):
+        opening = cell.scene.opening(target)
+        x, y, _ = cell.centre(target)
+        if opening is not None:
+            x, y, _ = cell.sim.pose(cell.scene.bodies[target]).apply(opening.centre)
+        return [(x, y, (cell.top(target) if height > 0 else _rim_height(cell, target)) + height)]
+    basin = _basin(cell, target)
+    if basin is None:
+        x, y, _ = cell.centre(target)
+        return [(x, y, cell.top(target) + height)]
+    frame, region = basin
+    places = dict.fromkeys((x, y) for x, y, _, _ in region.spots)
+    points = [frame.apply((x, y, region.low[2] + POURING.basin_depth + height)) for x, y in places]
+    return points[: POURING.basin_places]
+
+
+def _basin(cell: Cell, target: str) -> tuple[Pose, Region] | None:
+    """What things are put into from above, and its frame."""
+    for whole, region in cell.scene.regions(target, "in"):
+        if region.entry[2] < -0.5:
+            return cell.scene.frame(whole, region.link), region
+    return None
+
+
+def _rim_height(cell: Cell, target: str) -> float:
+    """The height of the rim of a vessel, or of its top."""
+    opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
+    if opening is None:
+        return cell.top(target)
+    return cell.sim.pose(cell.scene.bodies[target]).apply(opening.centre)[2]
 
 
 def _held_at(stood: Pose, how: Mouth, at: Vector, angle: float) -> Pose:
@@ -280,8 +351,16 @@ def _tilt(here: Pose, how: Mouth) -> float:
 
 
 def _beside(cell: Cell, point: Vector, target: str) -> float:
-    """How far outside of the box round ``target`` a point is, on the floor plan."""
+    """How far a point is outside of the opening of ``target``, its basin or the box round it, on the floor plan."""
+    opening = cell.scene.opening(target) if cell.scene.is_item(target) else None
+    if opening is not None:
+        x, y, _ = cell.sim.pose(cell.scene.bodies[target]).apply(opening.centre)
+        return max(hypot(point[0] - x, point[1] - y) - opening.radius, 0.0)
     low, high = cell.sim.extents(*cell.scene.place(target))
+    basin = None if cell.scene.is_item(target) else _basin(cell, target)
+    if basin is not None:
+        frame, region = basin
+        point, low, high = frame.inverse().apply(point), region.low, region.high
     return max(low[0] - point[0], point[0] - high[0], low[1] - point[1], point[1] - high[1], 0.0)
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from tmd.pddl.model import GroundAtom, Instruction, State
+from tmd.pddl.model import Instruction, State
+from tmd.robot.monitor.inference import KnownEffect
 from tmd.robot.monitor.observation import Mismatch
 
 
@@ -24,6 +25,8 @@ class SkillPhase(StrEnum):
     """The gripper is where it should be and touches nothing."""
     EFFECT = "effect"
     """Everything was done, and the thing did not move as it should."""
+    TIME = "time"
+    """It would have taken longer than an instruction may."""
 
 
 class SkillError(Exception):
@@ -49,7 +52,7 @@ class ExecutedStep:
         repair: Whether the monitor put it in.
         failure: Why the skill failed, with its stage; empty where it did not.
         evidence: What showed that the skill's event happened.
-        confirmed: The effects that the simulation confirms.
+        effects: What changed as predicted, each with what it is known by.
         mismatches: The facts that are not as predicted.
         begin: The simulation's step at the start.
         end: And at the end.
@@ -60,7 +63,7 @@ class ExecutedStep:
     repair: bool
     failure: str
     evidence: str
-    confirmed: tuple[GroundAtom, ...]
+    effects: tuple[KnownEffect, ...]
     mismatches: tuple[Mismatch, ...]
     begin: int
     end: int
@@ -71,9 +74,9 @@ class SkillStatus(StrEnum):
     """How an execution ended."""
 
     DONE = "done"
-    """Every instruction was done, and every effect confirmed."""
+    """Every instruction was done, and every effect is as predicted."""
     RECOVERED = "recovered"
-    """Something was not as predicted, the executor replanned if needed, and every effect is confirmed."""
+    """Something was not as predicted, the executor replanned if needed, and all that the plan is for holds."""
     STOPPED = "stopped"
     """It could not be done; the reason says why."""
 
@@ -88,6 +91,7 @@ class Execution:
         steps: One for each instruction that was tried, in order.
         repairs: How often the executor replanned.
         state: The last state that was observed.
+        lasting: What is otherwise at the end than the plan would have left it, and no aim of the plan.
     """
 
     status: SkillStatus
@@ -95,3 +99,4 @@ class Execution:
     steps: tuple[ExecutedStep, ...]
     repairs: int
     state: State
+    lasting: tuple[Mismatch, ...] = ()

@@ -6,25 +6,34 @@ import itertools
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from math import cos, hypot, sin
+from math import acos, cos, degrees, hypot, inf, sin
 
 import numpy as np
 
 from tmd.pddl.model import GroundAtom
-from tmd.robot.parameters import ARTICULATION, BASE_MOTION, GRASP
+from tmd.robot.parameters import ARTICULATION, BASE_MOTION, CONTACT, GRASP, TIME
 from tmd.robot.pr2.arm_motion import plan_line
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.collision import Ignored
 from tmd.robot.pr2.pr2 import ARMS, Pr2
-from tmd.robot.scene.scene import Handle, Scene
+from tmd.robot.scene.scene import FLOOR, Handle, Scene
 from tmd.robot.sim.pose import Pose, Vector
-from tmd.robot.sim.simulator import WELD_FORCE, Simulator
+from tmd.robot.sim.simulator import STEPS_PER_SECOND, WELD_FORCE, Simulator
+from tmd.robot.skills.results import SkillError, SkillPhase
 
 _PAST = tuple((0.0, 0.0, away) for away in (0.1, -0.1, 0.05, -0.05))
 """Metres that it is moved across the plane of its fingers, where they stand on both sides of a lid."""
 _LONG = 2000
 """Samples for a way of the arm where there is no other place to tuck it."""
 _NEARBY = 300
+_LEANING_EVERY = 8
+"""Steps between two looks at what leans."""
+_LEVEL = 0.05
+"""Radians below which nothing leans."""
+
+
+def _nothing(*_: str) -> None:
+    """Nobody is told."""
 
 
 @dataclass(eq=False)
@@ -37,6 +46,12 @@ class Cell:
         scene: The furniture and the things.
         rng: Random seed.
         in_hand: For each arm the item in it.
+        over_rim: For what may lean now, whether its mouth is where nothing is lost.
+        unfit_spots: Where items stood when what was to be done with them could not be reached.
+        unfit_grips: How items were held then.
+        until: The simulation's count of work at which an instruction is given up.
+        doing: Is told what is being looked for, while that takes long.
+        moment: Is called when what an instruction is about happens: a press, a pour, a turn.
     """
 
     sim: Simulator
@@ -44,8 +59,129 @@ class Cell:
     scene: Scene
     rng: np.random.Generator
     in_hand: dict[str, str] = field(default_factory=dict)
+    over_rim: dict[str, Callable[[], bool]] = field(default_factory=dict)
+    unfit_spots: dict[str, list[Pose]] = field(default_factory=dict)
+    unfit_grips: dict[str, list[Pose]] = field(default_factory=dict)
+    until: float = inf
+    doing: Callable[[str], None] = _nothing
+    moment: Callable[[], None] = _nothing
+    _leant: dict[str, float] = field(default_factory=dict)
+    _loaded: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        self.sim.add_watcher(self._watch_leaning)
+        self.robot.keeps_level = self._keeps_level
+
+    def _keeps_level(self, side: str) -> bool | None:
+        """What is full must be carried upright, what can hold something should; what lies in the hand need not."""
+        item = self.in_hand.get(side)
+        if item is None or not (self.scene.stands(item) or self.scene.shown(item)):
+            return None
+        if self.tilt(item) > CONTACT.upright or self.robot.held(side) is None:
+            return None
+        return bool(self.scene.shown(item)) and self.spills_from(item) is not None
+
+    def look_on(self, doing: str) -> None:
+        """Say what is being looked for, and see that it does not take too long.
+
+        Raises:
+            SkillError: The instruction has taken all that it may.
+        """
+        self.doing(doing)
+        if self.sim.work > self.until:
+            raise SkillError(SkillPhase.TIME, f"given up after about {TIME.instruction:.0f} s of computing: {doing}")
 
     # what the monitor measures
+
+    def seconds(self) -> float:
+        """Simulated seconds since the scene was made."""
+        return self.sim.steps / STEPS_PER_SECOND
+
+    def tilt(self, item: str) -> float:
+        """Radians between an item's upright axis and the vertical."""
+        return acos(max(-1.0, min(1.0, self.sim.pose(self.scene.bodies[item]).rotate((0.0, 0.0, 1.0))[2])))
+
+    def fallen(self, item: str) -> bool:
+        """Whether an item that should stand leans or lies; not on the floor, in a heap, or behind a shut door."""
+        if not self.scene.is_item(item) or not self.scene.stands(item) or self.tilt(item) <= CONTACT.upright:
+            return False
+        place = None if item in self.in_hand.values() else self.support(item)
+        return place is not None and place != (FLOOR, "on") and not self._heaped(place) and not self._shut_in(place)
+
+    def _heaped(self, place: tuple[str, str]) -> bool:
+        return any(region.heap for _, region in self.scene.regions(*place))
+
+    def _shut_in(self, place: tuple[str, str]) -> bool:
+        whole, relation = self.whole(place[0]), place[1]
+        parts = (self.scene.named(whole, grip.part) for grip in self.scene.blueprints[whole].model.grips)
+        return relation == "in" and any(self.is_open(part) is False for part in parts)
+
+    def _watch_leaning(self, sim: Simulator) -> None:
+        """Remember how far what has something in it leaned."""
+        if sim.ticks % _LEANING_EVERY and not self.robot.kinematic:
+            return
+        for item in dict.fromkeys((*self.scene.filled(), *sorted(self._loaded & set(self.scene.items())))):
+            tilt = self.tilt(item)
+            if tilt > self._leant.get(item, _LEVEL) and not (item in self.over_rim and self.over_rim[item]()):
+                self._leant[item] = tilt
+
+    @contextmanager
+    def leaning(self, item: str, over_rim: Callable[[], bool]) -> Iterator[None]:
+        """While an item may lean where nothing is lost by it."""
+        self.over_rim[item] = over_rim
+        try:
+            yield
+        finally:
+            del self.over_rim[item]
+
+    def load(self, item: str) -> None:
+        """Something is in an item from now on: it is remembered how far it leans."""
+        self._loaded.add(item)
+        self._leant.pop(item, None)
+
+    def leant(self, item: str) -> tuple[float, float] | None:
+        """See :class:`tmd.robot.monitor.inference.ContentSenses`."""
+        limit = self.spills_from(item)
+        return None if limit is None else (self._leant.get(item, 0.0), limit)
+
+    def reset_leant(self) -> None:
+        """Forget how far things leaned."""
+        self._leant.clear()
+        self._loaded.clear()
+
+    def spills_from(self, item: str) -> float | None:
+        """Radians from which what is in an item gets out; None where it is closed, or cannot hold anything."""
+        if not self.scene.is_item(item):
+            return None
+        handle = self.scene.handle(item)
+        if handle is not None and handle.kind == "lid" and self.way(item) <= ARTICULATION.shut_to:
+            return None
+        opening = self.scene.opening(item)
+        if opening is not None:
+            return max(opening.spills_from, CONTACT.repose)
+        return CONTACT.repose if self.scene.holds_contents(item) else None
+
+    def stream(self, item: str) -> tuple[bool, str] | None:
+        """See :class:`tmd.robot.monitor.inference.ContentSenses`."""
+        opening, place = self.scene.opening(item) if self.scene.is_item(item) else None, self.support(item)
+        spouts = self.scene.spouts(self.whole(place[0])) if place is not None else {}
+        if opening is None or place is None or not spouts:
+            return None
+        pose, whole = self.sim.pose(self.scene.bodies[item]), self.sim.pose(self.scene.bodies[self.whole(place[0])])
+        rim = pose.apply(opening.centre)
+        away = {}
+        for part, at in spouts.items():
+            x, y, z = whole.apply(at)
+            away[part] = hypot(x - rim[0], y - rim[1]) if z > rim[2] else inf
+        part = min(away, key=lambda name: away[name])
+        tilt = self.tilt(item)
+        told = (
+            f"the stream of {part} is {100 * away[part]:.1f} cm from the middle of the opening of {item}, which is "
+            f"{200 * opening.radius:.1f} cm wide"
+        )
+        if tilt > CONTACT.upright:
+            return False, f"{told}, and it leans by {degrees(tilt):.0f} degrees"
+        return away[part] <= opening.radius - CONTACT.stream, told
 
     def held(self) -> Sequence[str]:
         """The items in the hands that are really there: each is still where the gripper is."""
@@ -66,11 +202,22 @@ class Cell:
         return self.scene.supported(item) if self.scene.is_item(item) else None
 
     def is_open(self, name: str) -> bool | None:
-        """Whether a door, a drawer or a lid is open."""
+        """Whether a door, a drawer or a lid is open; ``None`` where it has none, or is neither open nor shut."""
         handle = self.scene.handle(name)
         if handle is None or handle.kind in ("knob", "button"):
             return None
-        return self.way(name) >= ARTICULATION.open_from
+        way = self.way(name)
+        return True if way >= ARTICULATION.open_from else False if way <= ARTICULATION.shut_to else None
+
+    def ajar(self, name: str) -> bool:
+        """Whether a door, a drawer or a lid is neither open nor shut."""
+        handle = self.scene.handle(name)
+        return handle is not None and handle.kind not in ("knob", "button") and self.is_open(name) is None
+
+    def has_joint(self, name: str) -> bool:
+        """Whether there is a joint that it is opened, shut or set by."""
+        handle = self.scene.handle(name)
+        return handle is not None and handle.kind != "button"
 
     def way(self, name: str) -> float:
         """How far a joint is on its way from closed (0) to open (1)."""
@@ -91,12 +238,13 @@ class Cell:
         return name_ if abs(angle - at) <= ARTICULATION.setting_share * step else None
 
     def reach(self, name: str) -> float:
-        """The distance on the floor from the robot's base to the nearest point of a thing and its whole, in metres.
+        """The distance on the floor from the robot's base to the nearest point of a thing or its whole, in metres.
 
-        What is in something is as near as that.
+        Doors and drawers of it, which may stand open, do not count. What is in something is as near as that.
         """
         x, y, _ = self.robot.base()
-        low, high = self.sim.extents(self.scene.place(name)[0])
+        body, _ = self.scene.place(name)
+        low, high = self.sim.extents(body, -1 if -1 in self.robot.solid_links(body) else None)
         own = hypot(max(low[0] - x, 0.0, x - high[0]), max(low[1] - y, 0.0, y - high[1]))
         place = self.support(self.whole(name))
         return own if place is None or place[1] != "in" else min(own, self.reach(place[0]))
@@ -112,8 +260,10 @@ class Cell:
                 return f"{len(self.held())} hands hold something"
             case "support":
                 place, at = self.support(name), self.sim.pose(self.scene.bodies[name]).position
-                where = f"{place[1]} {place[0]}" if place else "nowhere"
-                return f"{name} is {where}, at {at[0]:.2f} {at[1]:.2f} {at[2]:.2f}"
+                side = self.side_of(name)
+                where = f"{place[1]} {place[0]}" if place else f"in the {side} hand" if side else "nowhere"
+                leans = f" and leans by {degrees(self.tilt(name)):.0f} degrees" if self.fallen(name) else ""
+                return f"{name} is {where}{leans}, at {at[0]:.2f} {at[1]:.2f} {at[2]:.2f}"
             case "joint":
                 return self.how_open(name)
             case "setting":
@@ -127,14 +277,22 @@ class Cell:
 
     # what hands do
 
-    def settle(self, item: str) -> None:
-        """Let time pass until a thing lies still, for at most a second."""
-        body = self.scene.bodies[item]
-        before = self.sim.pose(body)
-        for _ in range(10):
-            self.sim.step(24)
-            now = self.sim.pose(body)
-            if now.distance(before) < 2e-4:
+    def settle(self) -> None:
+        """Let time pass until nothing that may fall moves for a quarter of a second, for at most four seconds.
+
+        What topples passes a point at which it hardly moves: so it must neither move nor turn, several times.
+        """
+        loose = [self.scene.bodies[item] for item in self.scene.items() if item not in self.in_hand.values()]
+        before, still = [self.sim.pose(body) for body in loose], 0
+        for _ in range(CONTACT.settle_checks):
+            self.sim.step(12)
+            now = [self.sim.pose(body) for body in loose]
+            moved = any(
+                a.distance(b) > CONTACT.still[0] or a.angle(b) > CONTACT.still[1]
+                for a, b in zip(now, before, strict=True)
+            )
+            still = 0 if moved else still + 1
+            if still == CONTACT.settled_after:
                 return
             before = now
 
@@ -268,7 +426,9 @@ class Cell:
 
     def how_open(self, name: str) -> str:
         """For people."""
-        return f"{name} is {100 * self.way(name):.0f} % open"
+        way = min(max(self.way(name), 0.0), 1.0)
+        neither = ", which is neither open nor shut" if self.ajar(name) else ""
+        return f"{name} is {100 * way:.0f} % open{neither}"
 
     # what skills ask
 

@@ -46,6 +46,22 @@ class SkillEntry(BaseModel):
     seconds: float = 2.0
 
 
+class Exposure(BaseModel):
+    """A fact that comes of another one about the same thing that holds for a time.
+
+    Attributes:
+        to: The predicate of the other one.
+        seconds: How long, in simulated seconds.
+    """
+
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
+    to: str
+    seconds: float = 2.0
+
+
+Rule: TypeAlias = Literal["event", "contents"] | Exposure
+
+
 class SkillsFile(BaseModel):
     """The whole of ``skills.yaml``."""
 
@@ -54,6 +70,7 @@ class SkillsFile(BaseModel):
     seen: dict[str, Sensor] = {}
     confirmed: dict[str, Confirmation] = {}
     derived: list[str] = []
+    inferred: dict[str, Rule] = {}
     signs: list[str] = []
     contents: str | None = None
 
@@ -87,6 +104,7 @@ class Skills:
     seen: Mapping[str, Sensor]
     confirmed: Mapping[str, Confirmation]
     derived: frozenset[str]
+    inferred: Mapping[str, Rule]
     signs: tuple[str, ...]
     contents: str | None
     domain: Domain
@@ -130,7 +148,7 @@ def visible(folder: DomainFolder) -> Skills:
     confirmed: dict[str, Confirmation] = {name: sense for name, sense in usual.items() if sense == "reach"}
     signs = tuple(name for name in ("active", "hot") if arities.get(name) == 1)
     contents = "contains" if arities.get("contains") == 2 else None
-    return Skills({}, seen, confirmed, frozenset(), signs, contents, folder.domain)
+    return Skills({}, seen, confirmed, frozenset(), {}, signs, contents, folder.domain)
 
 
 def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
@@ -166,10 +184,21 @@ def load_skills(folder: DomainFolder, report: Report | None = None) -> Skills:
     for section in ("derived", "signs"):
         for index, predicate in enumerate(getattr(said, section)):
             source.recover(None, _check_predicate, source, (section, index), predicate, arities)
+    for predicate, rule in said.inferred.items():
+        source.recover(None, _check_predicate, source, ("inferred", predicate), predicate, arities)
+        if isinstance(rule, Exposure):
+            source.recover(None, _check_predicate, source, ("inferred", predicate, "to"), rule.to, arities)
     if said.contents is not None:
         _check_predicate(source, ("contents",), said.contents, arities)
     return Skills(
-        said.skills, said.seen, said.confirmed, frozenset(said.derived), tuple(said.signs), said.contents, domain
+        said.skills,
+        said.seen,
+        said.confirmed,
+        frozenset(said.derived),
+        said.inferred,
+        tuple(said.signs),
+        said.contents,
+        domain,
     )
 
 

@@ -13,11 +13,12 @@ from itertools import chain, islice, pairwise, product
 from math import atan2, ceil, cos, hypot, pi, sin
 
 from tmd.robot.parameters import ARM_MOTION, STANCE
-from tmd.robot.pr2.arm_motion import between, plan_arm, plan_poses
+from tmd.robot.pr2.arm_motion import between, plan_arm, plan_level, plan_poses
 from tmd.robot.pr2.base_motion import plan_base
 from tmd.robot.pr2.gripper_clearance import HandChecker
 from tmd.robot.pr2.reach_bounds import Wrists
 from tmd.robot.sim.pose import Pose
+from tmd.robot.skills import obstruction
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 
@@ -27,6 +28,8 @@ Accept = Callable[["Option", Base], bool]
 
 _FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
 _COARSE = 4.0
+_EXPLAINED = 8
+"""Ways or places that are looked at to say what is in the way."""
 _SHORT, _LONG = 300, 2000
 """Samples for a way of the arm: where there are other stances to try, and where there is none."""
 _SHOULDER_HEIGHT = 0.790675
@@ -62,6 +65,7 @@ class StanceCandidate:
 
 def reach(
     cell: Cell,
+    what: str,
     options: Sequence[Option],
     focus: Pose,
     front: float | None,
@@ -75,8 +79,9 @@ def reach(
 
     Args:
         cell: Robot and scene.
+        what: What is to be reached, for people.
         options: What would do, best first.
-        focus: What is to be reached.
+        focus: Where that is.
         front: The heading of the side it is reached from, where it has one.
         attempt: How often this was tried before; later tries begin farther down the list.
         stop: Number of poses to go to; the others must be possible from there.
@@ -84,46 +89,90 @@ def reach(
         accept: Says of an option from a base whether it will do.
 
     Raises:
-        SkillError: None can be reached (stance), there is no way (path), or the robot did not get there (execution).
+        SkillError: None can be reached (stance), there is no way (path), the robot did not get there (execution), or
+            looking for it takes too long (time).
     """
     if not options:
-        raise SkillError(SkillPhase.STANCE, f"no hand fits in at {_place(focus)}")
+        raise SkillError(SkillPhase.STANCE, f"no hand fits in at {what}")
     fitting = with_room(cell, options)
     if not fitting:
-        raise SkillError(SkillPhase.STANCE, f"no hand fits in at {_place(focus)}: {len(options)} ways were tried")
-    found = candidates(cell, fitting, focus, front, stay=stay, accept=accept)
-    last = SkillError(SkillPhase.STANCE, f"no place to stand reaches {_place(focus)}: {len(fitting)} ways were tried")
+        raise SkillError(
+            SkillPhase.STANCE, f"no hand fits in at {what}, {len(options)} ways were tried{_in_the_way(cell, options)}"
+        )
+    found = candidates(cell, fitting, focus, front, what=what, stay=stay, accept=accept)
+    said: list[SkillError] = []
     failed: list[StanceCandidate] = []
     closed: list[Base] = []
     tried_before = list(islice(found, 2 * attempt))
-    for candidate in chain(found, tried_before):
+    for candidate in _timely(chain(found, tried_before), said):
+        cell.look_on(f"the way to {what}")
         if any(_alike(candidate, other) for other in failed) or any(_close(candidate.base, base) for base in closed):
             continue
         try:
             get_to(cell, candidate.base, candidate.torso)
         except SkillError as error:
-            last = error
+            said.append(error)
             closed.append(candidate.base)
         else:
             try:
-                _take(cell, candidate.option, stop)
+                _take(cell, what, candidate.option, stop)
             except SkillError as error:
-                last = error
+                said.append(error)
                 failed.append(candidate)
             else:
                 return candidate.option
         if len(failed) + len(closed) >= STANCE.max_tries:
             break
-    if last.stage is SkillPhase.PATH and failed:
-        return _insist(cell, failed[0], stop)
-    raise last
+    if not said:
+        raise SkillError(SkillPhase.STANCE, _unreached(cell, what, fitting, focus, front, stay=stay))
+    if said[-1].stage is SkillPhase.PATH and failed:
+        return _insist(cell, what, failed[0], stop)
+    raise said[-1]
 
 
-def _insist(cell: Cell, candidate: StanceCandidate, stop: int | None) -> Option:
+def _timely(found: Iterator[StanceCandidate], said: Sequence[SkillError]) -> Iterator[StanceCandidate]:
+    """The same; where they take too long, what was said last is told with that.
+
+    Raises:
+        SkillError: They take too long.
+    """
+    try:
+        yield from found
+    except SkillError as error:
+        if error.stage is not SkillPhase.TIME or not said:
+            raise
+        raise SkillError(SkillPhase.TIME, f"{error.reason}; before that, {said[-1].reason}") from error
+
+
+def _insist(cell: Cell, what: str, candidate: StanceCandidate, stop: int | None) -> Option:
     """Look longer for a way from the best stance, once nothing else is left."""
     get_to(cell, candidate.base, candidate.torso)
-    _take(cell, candidate.option, stop, budget=_LONG)
+    _take(cell, what, candidate.option, stop, budget=_LONG)
     return candidate.option
+
+
+def _in_the_way(cell: Cell, options: Sequence[Option]) -> str:
+    """What a hand would be in there."""
+    ways = [(option.side, option.poses[-1:], option.ignore) for option in options]
+    told = obstruction.of_hand(cell, ways[:: max(1, len(ways) // _EXPLAINED)])
+    return f": {told}" if told else ""
+
+
+def _unreached(
+    cell: Cell, what: str, options: Sequence[Option], focus: Pose, front: float | None, *, stay: bool
+) -> str:
+    """Why no place to stand does, with what is in the way."""
+    said = f"no place to stand reaches {what}, {len(options)} ways were tried"
+    here = cell.robot.base()
+    usual = [here] if stay else list(stances(cell, focus, front, STANCE.distances[:2]))
+    free = [base for base, clear in zip(usual, cell.robot.free_bases(usual), strict=True) if clear or base == here]
+    if not free:
+        told = obstruction.of_stances(cell, usual[:_EXPLAINED])
+        return f"{said}: there is no room to stand{', ' if told else ''}{told}"
+    pose = options[0].poses[-1]
+    near = sorted(free, key=lambda base: hypot(base[0] - focus.position[0], base[1] - focus.position[1]))
+    told = obstruction.of_arm(cell, options[0].side, pose, near[:_EXPLAINED], options[0].ignore)
+    return f"{said}: {told or 'its whole way is nowhere free'}"
 
 
 def with_room(cell: Cell, options: Sequence[Option]) -> list[Option]:
@@ -147,6 +196,7 @@ def candidates(
     front: float | None,
     patience: int = STANCE.search_budget,
     *,
+    what: str = "it",
     stay: bool = False,
     accept: Accept | None = None,
 ) -> Iterator[StanceCandidate]:
@@ -162,6 +212,7 @@ def candidates(
     heights = [cell.robot.torso()] if stay else _heights(cell, hand)
     wrists = Wrists(cell.robot, [o.side for o in options], [o.poses for o in options])
     for base in [here] if stay else _free(cell, focus, front):
+        cell.look_on(f"a place to stand for {what}")
         near = {torso: wrists.within(base, torso) for torso in heights}
         for torso, numbers in near.items():
             for option in (options[number] for number in numbers):
@@ -198,7 +249,9 @@ def stances(
     cell: Cell, focus: Pose, front: float | None, distances: Sequence[float] = STANCE.distances
 ) -> Iterator[Base]:
     """Where to stand: here, then round the focus."""
-    x, y, _ = focus.position
+    x, y, z = focus.position
+    if z < STANCE.low:
+        distances = (*STANCE.low_distances, *(d for d in distances if d > STANCE.low_distances[-1]))
     here = cell.robot.base()
     if hypot(here[0] - x, here[1] - y) < 1.05:
         yield here
@@ -252,13 +305,15 @@ def _drive(cell: Cell, base: Base) -> None:
         if not cell.robot.drive(path, pace=pace):
             raise SkillError(SkillPhase.EXECUTION, f"the base did not get to {base[0]:.2f} {base[1]:.2f}")
         return
-    raise SkillError(SkillPhase.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base")
+    told = obstruction.of_base_path(cell, base)
+    raise SkillError(SkillPhase.PATH, f"no way to {base[0]:.2f} {base[1]:.2f} for the base{': ' if told else ''}{told}")
 
 
 def _lift(cell: Cell, torso: float) -> None:
     """Move the torso, with tucked arms if they would be in something there."""
     if _sticks(cell, torso) and not (cell.fold() and not _sticks(cell, torso)):
-        raise SkillError(SkillPhase.PATH, f"something is in the way of the arms with the torso at {torso:.2f} m")
+        told = obstruction.of_posture(cell, torso) or "something is in the way"
+        raise SkillError(SkillPhase.PATH, f"{told} of the arms with the torso at {torso:.2f} m")
     if not cell.robot.raise_torso(torso):
         raise SkillError(SkillPhase.EXECUTION, f"the torso did not get to {torso:.2f} m")
 
@@ -279,11 +334,13 @@ def follow(cell: Cell, side: str, poses: Sequence[Pose], ignore: Links) -> None:
     Raises:
         SkillError: The arm cannot, or did not.
     """
-    path = plan_poses(cell.robot, side, dense([cell.robot.tool(side), *poses]), ignore=ignore)
+    whole = dense([cell.robot.tool(side), *poses])
+    path = plan_poses(cell.robot, side, whole, ignore=ignore)
     if path is None:
-        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight to {_place(poses[-1])}")
+        told = obstruction.of_straight(cell, side, whole, ignore)
+        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight on: {told}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}")
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(poses[-1])}{_held_up(cell)}")
 
 
 def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
@@ -295,18 +352,39 @@ def dense(poses: Sequence[Pose], pitch: float = 1.0) -> list[Pose]:
     return found
 
 
-def _take(cell: Cell, option: Option, stop: int | None, budget: int = _SHORT) -> None:
+def _take(cell: Cell, what: str, option: Option, stop: int | None, budget: int = _SHORT) -> None:
     side = option.side
-    rows = plan_poses(cell.robot, side, dense(option.poses), ignore=option.ignore)
+    whole = dense(option.poses)
+    rows = plan_poses(cell.robot, side, whole, ignore=option.ignore)
     if rows is None:
-        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight to {_place(option.poses[-1])} from here")
-    path = plan_arm(cell.robot, side, rows[0], rng=cell.rng, budget=budget)
+        told = obstruction.of_straight(cell, side, whole, option.ignore)
+        raise SkillError(SkillPhase.PATH, f"the {side} hand cannot go straight to {what} from here: {told}")
+    path = _level(cell, option, whole) or plan_arm(cell.robot, side, rows[0], rng=cell.rng, budget=budget)
     if path is None:
-        raise SkillError(SkillPhase.PATH, f"no way for the {side} hand to {_place(option.poses[0])}")
+        told = obstruction.of_arm_path(cell, side, rows[0])
+        level = cell.robot.keeps_level(side)
+        upright = f" with {cell.in_hand[side]} upright" if level else ""
+        raise SkillError(SkillPhase.PATH, f"no way for the {side} hand to {what}{upright}{': ' if told else ''}{told}")
     if not cell.robot.move_arm(side, path):
-        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {_place(option.poses[0])}")
+        raise SkillError(SkillPhase.EXECUTION, f"the {side} hand did not get to {what}{_held_up(cell)}")
     if option.poses[1:stop]:
         follow(cell, side, option.poses[1:stop], option.ignore)
+
+
+def _level(cell: Cell, option: Option, whole: Sequence[Pose]) -> list[tuple[float, ...]] | None:
+    """A straight way to the first pose for what is carried upright, from whose end the others can be reached."""
+    if cell.robot.keeps_level(option.side) is None:
+        return None
+    path = plan_level(cell.robot, option.side, option.poses[0], ignore=option.ignore)
+    if path is None or plan_poses(cell.robot, option.side, whole, ignore=option.ignore, arm=path[-1]) is None:
+        return None
+    return path
+
+
+def _held_up(cell: Cell) -> str:
+    """What the robot presses against."""
+    told = obstruction.of_posture(cell)
+    return f": {told}" if told else ""
 
 
 def _possible(cell: Cell, option: Option, base: Base, torso: float) -> tuple[bool, int]:

@@ -25,6 +25,8 @@ _NEAR_HAND = 0.9
 """A hand that is farther from the thing than this has nothing to do with it."""
 _SEEN = 0.1
 """A ray that gets this near to its goal has met it."""
+_OWN = 0.35
+"""The robot's own body counts as seen where it is this near to the point."""
 _GLIDE = 0.45
 """Seconds in which the camera makes about two thirds of its way."""
 _PERIOD = 0.6
@@ -97,6 +99,11 @@ class Camera:
         self._wide = wide
         self._since = math.inf
 
+    @property
+    def wide(self) -> bool:
+        """Whether the whole robot is shown."""
+        return self._wide
+
     def glide(self, seconds: float) -> View:
         """The view after this much more time."""
         self._since += seconds
@@ -145,7 +152,11 @@ class Camera:
 
     def _sees(self, eye: Vector, point: _Point) -> bool:
         hit = self._cell.sim.ray(eye, point.place)
-        return hit is None or hit.body in point.bodies or math.dist(hit.position, point.place) < _SEEN
+        if hit is None or math.dist(hit.position, point.place) < _SEEN:
+            return True
+        # its own shoulder may not stand for a hand
+        near = math.dist(hit.position, point.place) < _OWN
+        return hit.body in point.bodies and (near or hit.body != self._cell.robot.body)
 
     def _inside(self, eye: Vector) -> bool:
         """Whether the camera would stand in something, or so near that it fills the picture."""

@@ -23,13 +23,16 @@ if TYPE_CHECKING:
     Font: TypeAlias = FreeTypeFont | ImageFont
 
 Pixels: TypeAlias = NDArray[np.uint8]
-Mark: TypeAlias = Literal["expected", "confirmed", "missing"]
+Mark: TypeAlias = Literal["expected", "measured", "inferred", "assumed", "missing"]
 
 HEIGHT = 128
 """Of the caption under a picture 640 pixels wide; others have it in proportion."""
 _USUAL = 640
 _PAPER, _INK, _PALE = "#1d2127", "#f3f1ec", "#a3a9b3"
-_COLOURS = {"expected": "#a3a9b3", "confirmed": "#6fcf7c", "missing": "#ff7b6b"}
+_COLOURS = {
+    "expected": "#a3a9b3", "measured": "#6fcf7c", "inferred": "#6db3f2", "assumed": "#e6b450", "missing": "#ff7b6b",
+}  # fmt: skip
+LEGEND = "✓ measured   ∴ inferred from what was measured   ? assumed   ✗ not as predicted"
 _BADGES = {"ok": "#6fcf7c", "failed": "#ff7b6b", "mismatch": "#ff7b6b", "stopped": "#ff7b6b"}
 _COLUMNS = 4
 _GAP = 10
@@ -159,13 +162,13 @@ def _facts(
             return 2
         text = _fitted(draw, fact, font, right - x - step - (spare if row else 0.0))
         _mark(draw, (x, top + 21 * unit * row + 2 * unit), mark, 13 * unit)
-        draw.text((x + step, top + 21 * unit * row), text, _COLOURS[mark] if mark != "confirmed" else _INK, font)
+        draw.text((x + step, top + 21 * unit * row), text, _COLOURS[mark] if mark != "measured" else _INK, font)
         x += step + draw.textlength(text, font) + gap
     return row + 1 if facts else 0
 
 
 def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) -> None:
-    """A ring, a tick or a cross: drawn, because not every font has them."""
+    """A ring, a tick, three dots, a question mark or a cross: drawn, because not every font has them."""
     x, y = place
     colour, width = _COLOURS[mark], max(1, round(size / 5))
 
@@ -174,8 +177,17 @@ def _mark(draw: ImageDraw, place: tuple[float, float], mark: Mark, size: float) 
 
     if mark == "expected":
         draw.ellipse((x + 0.1 * size, y + 0.2 * size, x + 0.8 * size, y + 0.9 * size), outline=colour, width=width)
-    elif mark == "confirmed":
+    elif mark == "measured":
         line((0.0, 0.6), (0.35, 0.95), (0.95, 0.15))
+    elif mark == "inferred":  # therefore
+        for a, b in ((0.5, 0.25), (0.15, 0.85), (0.85, 0.85)):
+            dot = 0.14 * size
+            draw.ellipse((x + a * size - dot, y + b * size - dot, x + a * size + dot, y + b * size + dot), fill=colour)
+    elif mark == "assumed":
+        line((0.2, 0.3), (0.35, 0.12), (0.65, 0.12), (0.8, 0.32), (0.5, 0.55), (0.5, 0.7))
+        dot = 0.1 * size
+        at = (x + 0.5 * size, y + 0.95 * size)
+        draw.ellipse((at[0] - dot, at[1] - dot, at[0] + dot, at[1] + dot), fill=colour)
     else:
         line((0.1, 0.2), (0.85, 0.95))
         line((0.85, 0.2), (0.1, 0.95))

@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import io
+import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
+
+import numpy as np
 
 from tmd.files import write_bytes
 from tmd.pddl.model import GroundAtom
+from tmd.robot.assets.colours import robot_colour
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.session import TICK
 from tmd.robot.sim.engine import STEPS_PER_SECOND
@@ -27,7 +32,9 @@ _SHOWN = 0.8
 """Seconds for which the checked facts of an instruction are shown."""
 _FAILURE_SHOWN = 2.0
 _OPENING, _ENDING = 1.5, 2.5
-_TILE = (400, 300)
+TILE = (400, 300)
+_HEAD = 0.35
+"""Radians beside the middle of a close picture within which the robot's own head, nearer than that, is left out."""
 _FAR = ("look", "drive")
 """Skills that are seen from afar."""
 
@@ -63,12 +70,21 @@ class Film:
         skills: What instructions are about.
         movie: Where the film goes, from :func:`open_movie`; None: no film, only the filmstrip.
         strip: Whether there shall be a filmstrip.
+        tile: Width and height of its pictures without their captions.
 
     Raises:
         MissingToolError: Pillow is not installed.
     """
 
-    def __init__(self, cell: Cell, skills: Skills, *, movie: MovieFile | None = None, strip: bool = False) -> None:
+    def __init__(
+        self,
+        cell: Cell,
+        skills: Skills,
+        *,
+        movie: MovieFile | None = None,
+        strip: bool = False,
+        tile: tuple[int, int] = TILE,
+    ) -> None:
         pillow()
         self._cell = cell
         self._skills = skills
@@ -80,7 +96,12 @@ class Film:
         self._last: Pixels | None = None
         self._tries: Counter[int] = Counter()
         self._done: set[int] = set()
+        self._ran: list[ExecutedStep] = []
         self._of = 0
+        self._tile = tile
+        self._event: Pixels | None = None
+        if strip:
+            cell.moment = self._take_event
         if movie is not None:
             width, height = movie.size
             self._size = width, height - caption_height(width)
@@ -97,6 +118,7 @@ class Film:
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins."""
         self._of = title.of
+        self._event = None
         if not title.repair:
             self._tries[title.number] += 1
         task = self._skills.task(title.instruction)
@@ -111,26 +133,34 @@ class Film:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over: the facts are marked, and the picture stays for a moment."""
-        facts: list[tuple[str, Mark]] = [(str(atom), "confirmed") for atom in step.confirmed]
+        told = sorted(step.effects, key=lambda effect: not effect.holds)
+        facts: list[tuple[str, Mark]] = [(str(effect), effect.basis.value) for effect in told]
         facts += [(f"{'' if m.expected else 'not '}{m.atom}", "missing") for m in step.mismatches]
         badge = "failed" if step.failure else "mismatch" if step.mismatches else "ok"
         measured = "; ".join(m.measured for m in step.mismatches)
         note = step.failure or measured or step.evidence
         # what is missing first: there is room for a few facts only
-        facts.sort(key=lambda fact: fact[1] == "confirmed")
+        facts.sort(key=lambda fact: fact[1] != "missing")
+        self._ran.append(step)
         if badge == "ok" and not title.repair:
             self._done.add(title.number)
         number = self._number(title)
         self._caption = Caption(str(title.instruction), number, _said(title), tuple(facts), note, badge)
         self._hold(_SHOWN if badge == "ok" else _FAILURE_SHOWN)
         if self._strip:
-            self._tiles.append(under(self._picture(self._camera.best(), _TILE), self._caption))
+            # what it is about: the button while it is down, not the arm when it is tucked
+            seen = self._event if badge == "ok" else None
+            picture = self._picture(self._camera.best(), self._tile) if seen is None else seen
+            self._tiles.append(under(picture, self._caption))
 
     def close(self, execution: Execution) -> None:
         """End with how it ended."""
         repairs = f"; repairs of the plan: {execution.repairs}" if execution.repairs else ""
         badge = "stopped" if execution.status is SkillStatus.STOPPED else ""
-        note = execution.reason or "Every effect of the plan is confirmed."
+        lasting = "; ".join(f"left otherwise than planned: {each}" for each in execution.lasting)
+        effects = Counter(effect.basis.value for each in self._ran for effect in each.effects)
+        known = ", ".join(f"{count} {basis}" for basis, count in sorted(effects.items(), key=lambda pair: -pair[1]))
+        note = execution.reason or lasting or f"Every effect is as predicted: {known}."
         title = {"done": "Done", "recovered": "Recovered", "stopped": "Stopped"}[execution.status]
         self._caption = Caption(
             title,
@@ -139,6 +169,10 @@ class Film:
             badge=badge,
         )
         self._hold(_ENDING)
+
+    def _take_event(self) -> None:
+        """What an instruction is about happens now: the strip shows that."""
+        self._event = self._picture(self._camera.best(), self._tile)
 
     def _number(self, title: Title) -> str:
         """Its place in the plan, and which try it is, if it is not the first."""
@@ -187,7 +221,33 @@ class Film:
 
     def _picture(self, view: View, size: tuple[int, int]) -> Pixels:
         sim = self._cell.sim
-        return sim.picture(view.eye, view.target, *size, fov=FOV, shadow=sim.renderer != "tiny")
+        with self._without_head(view):
+            return sim.picture(view.eye, view.target, *size, fov=FOV, shadow=sim.renderer != "tiny")
+
+    @contextmanager
+    def _without_head(self, view: View) -> Iterator[None]:
+        """Without the robot's head, where it would be between the camera and what that looks at."""
+        robot, sim = self._cell.robot, self._cell.sim
+        hidden: list[str] = []
+        if not self._camera.wide and _before(view, robot.eye().position):
+            hidden = [name for name in robot.tree.below("head_pan_link") if name in robot.index]
+        for name in hidden:
+            sim.colour(robot.body, robot.index[name], (0.0, 0.0, 0.0, 0.0))
+        try:
+            yield
+        finally:
+            for name in hidden:
+                sim.colour(robot.body, robot.index[name], robot_colour(name))
+
+
+def _before(view: View, point: Sequence[float]) -> bool:
+    """Whether a point is near the line of sight, and nearer than the target."""
+    eye = np.array(view.eye)
+    ahead, there = np.array(view.target) - eye, np.array(point) - eye
+    far, near = float(np.linalg.norm(ahead)), float(np.linalg.norm(there))
+    if near < 1e-6 or near > far:
+        return False
+    return math.acos(max(-1.0, min(1.0, float(ahead @ there) / (far * near)))) < _HEAD + math.atan(0.2 / near)
 
 
 def _said(title: Title) -> str:

@@ -13,15 +13,13 @@ from math import atan2
 
 from tmd.pddl.model import State
 from tmd.robot.assets.colours import mixed
-from tmd.robot.assets.shapes import Shapes
 from tmd.robot.assets.urdf_builder import ROOT
-from tmd.robot.scene.catalogue import FLOOR, Catalogue
+from tmd.robot.scene.catalogue import FLOOR, Catalogue, built
 from tmd.robot.scene.handles import grip_of
 from tmd.robot.scene.placement import Placing
 from tmd.robot.scene.support_relations import free_spots
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.robot.skills.skill_file import Skills
-from tmd.world.classes import ROOT as CLASS_ROOT
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
@@ -84,13 +82,8 @@ class Still(Catalogue):
     """
 
     def __init__(self, environment: Environment, folder: DomainFolder, skills: Skills) -> None:
-        shapes = Shapes(folder)
-        entries = environment.objects.items()
-        blueprints = {name: shapes.blueprint(entry.class_name) for name, entry in entries}
-        classes = {name: folder.classes.get(entry.class_name) for name, entry in entries}
-        parts = {name: [v for v in known.vertices if v != CLASS_ROOT] for name, known in classes.items()}
-        super().__init__(environment, blueprints, parts)
-        placing = Placing(environment, blueprints, self.names(), None)
+        super().__init__(environment, *built(environment, folder))
+        placing = Placing(environment, self.blueprints, self.names(), None)
         self.room = placing.room
         self._skills = skills
         self._by_sense = {
@@ -145,7 +138,7 @@ class Still(Catalogue):
         while link != ROOT:
             step = model.links[link]
             position = picture.joints.get((whole, link), 0.0)
-            frame = Pose(step.origin) * moved(step.kind, step.axis, position) * frame
+            frame = step.at_zero() * moved(step.kind, step.axis, position) * frame
             link = step.parent
         return frame
 

@@ -11,8 +11,7 @@ import numpy as np
 from tmd.robot.assets.colours import robot_colour
 from tmd.robot.pr2.ik import ArmKinematics
 from tmd.robot.pr2.kinematics import Tree
-from tmd.robot.pr2.posture import TUCKED
-from tmd.robot.pr2.urdf import HEAD, TORSO, prepare
+from tmd.robot.pr2.urdf import HEAD, TORSO, TUCKED, prepare
 from tmd.robot.sim.pose import Pose
 from tmd.robot.video.symbolic_renderer import HANDS
 from tmd.studio.view3d.meshes import MeshPiece, pieces

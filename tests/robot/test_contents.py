@@ -1,0 +1,102 @@
+"""What is in things, how they stand, and what is open: measured in a simulation without the robot doing anything."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import radians
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip("pybullet", reason="needs the extra robot")
+
+from tmd.robot.session import SimulationSession
+from tmd.robot.sim.pose import Pose
+from tmd.robot.skills.pick_and_place import pick_options
+from tmd.robot.skills.robot_context import Cell
+from tmd.veil.corpus import Corpus
+from tmd.world.environment import load_environment
+from tmd.world.folder import find_domain
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.fixture(scope="module")
+def cell() -> Iterator[Cell]:
+    corpus = Corpus(find_domain("kitchen", ROOT / "domains"), ROOT / "problems" / "kitchen")
+    environment = load_environment(corpus.directory / "environments" / "kitchen1.yaml")
+    problem = corpus.world("kitchen1").task.problem
+    with SimulationSession(environment, corpus.folder, problem, kinematic=True) as session:
+        yield session.cell
+
+
+def put(cell: Cell, item: str, pose: Pose) -> None:
+    """Put an item somewhere and let it come to rest."""
+    cell.sim.set_pose(cell.scene.bodies[item], pose)
+    cell.sim.wake()
+    cell.settle()
+
+
+def test_a_vessel_goes_below_the_spout(cell: Cell) -> None:
+    spots = cell.scene.support("sink1", "in", "mug1")
+    assert spots[0].outlet == "sink1_tap" and not spots[-1].outlet
+    assert not any(spot.outlet for spot in cell.scene.support("sink1", "in", "spoon1"))
+
+
+def test_only_what_is_below_the_spout_and_upright_is_filled(cell: Cell) -> None:
+    home = cell.sim.pose(cell.scene.bodies["mug1"])
+    below, beside = cell.scene.support("sink1", "in", "mug1")[0], cell.scene.support("sink1", "in", "mug1")[-1]
+    put(cell, "mug1", below.pose)
+    runs_in, told = cell.stream("mug1") or (None, "")
+    assert runs_in is True and "sink1_tap" in told
+    put(cell, "mug1", beside.pose)
+    assert (cell.stream("mug1") or (None,))[0] is False
+    x, y, z = below.pose.position
+    put(cell, "mug1", Pose((x, y, z + 0.05)) * Pose.about((1.0, 0.0, 0.0), radians(90)))
+    assert (cell.stream("mug1") or (None,))[0] is False
+    put(cell, "mug1", home)
+    assert cell.stream("mug1") is None, "there is no spout above a counter"
+
+
+def test_what_lies_has_fallen_and_can_be_taken(cell: Cell) -> None:
+    home = cell.sim.pose(cell.scene.bodies["mug1"])
+    assert not cell.fallen("mug1") and cell.tilt("mug1") < 0.02
+    x, y, z = home.position
+    put(cell, "mug1", Pose((x, y, z + 0.05)) * Pose.about((0.0, 1.0, 0.0), radians(80)))
+    assert cell.fallen("mug1") and cell.tilt("mug1") > radians(30)
+    assert any(option.poses[-1].rotate((1.0, 0.0, 0.0))[2] < -0.5 for option in pick_options(cell, "mug1"))
+    put(cell, "mug1", home)
+    assert not cell.fallen("mug1")
+
+
+def test_what_is_full_is_seen_to_lean(cell: Cell) -> None:
+    home = cell.sim.pose(cell.scene.bodies["cup1"])
+    cell.scene.show("cup1", ("water",))
+    cell.reset_leant()
+    lean, limit = cell.leant("cup1") or (9.0, 0.0)
+    assert lean == 0.0 and radians(40) < limit < radians(60)
+    cell.sim.set_pose(cell.scene.bodies["cup1"], home * Pose.about((1.0, 0.0, 0.0), radians(70)))
+    cell.sim.tick()
+    assert (cell.leant("cup1") or (0.0,))[0] > radians(65)
+    cell.reset_leant()
+    with cell.leaning("cup1", lambda: True):
+        cell.sim.tick()
+    assert (cell.leant("cup1") or (1.0,))[0] == 0.0, "over a rim nothing is lost"
+    put(cell, "cup1", home)
+    cell.scene.show("cup1", ())
+
+
+def test_what_is_closed_does_not_spill(cell: Cell) -> None:
+    assert cell.leant("coffee_jar1") is None
+    assert cell.leant("raspberry_bottle1") is None
+
+
+@pytest.mark.parametrize(("share", "is_open"), [(0.0, False), (0.04, False), (0.3, None), (0.55, None), (0.65, True)])
+def test_between_open_and_shut_is_neither(cell: Cell, share: float, is_open: bool | None) -> None:
+    handle = cell.scene.handle("fridge1_door")
+    assert handle is not None
+    cell.sim.set_joint(handle.body, handle.index, handle.closed + share * (handle.open - handle.closed))
+    assert cell.is_open("fridge1_door") is is_open
+    assert cell.ajar("fridge1_door") is (is_open is None)
+    assert ("neither open nor shut" in cell.how_open("fridge1_door")) is (is_open is None)
+    cell.sim.set_joint(handle.body, handle.index, handle.closed)

@@ -1,0 +1,336 @@
+"""Recordings of runs as files: JSON Lines, CSV, MCAP for ROS 2, and motions for MoveIt.
+
+=========== ==============================================================================================
+``.jsonl``  one object a line (:mod:`tmd.records.trajectory`)
+``.csv``    one row a sample
+``.mcap``   ROS 2 messages (``sensor_msgs/JointState``, ``tf2_msgs/TFMessage``, ``std_msgs/String``) in CDR
+``.yaml``   ``moveit_msgs/RobotTrajectory``: one document for each instruction that moves something
+=========== ==============================================================================================
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable, Mapping, Sequence
+from math import cos, sin
+from pathlib import Path
+from types import TracebackType
+from typing import IO, Any, Self
+
+import yaml
+
+from tmd.diagnostics import MissingToolError, OutputError
+from tmd.records.json_record import rounded
+from tmd.records.trajectory import SampleLine, SceneLine, pose_record
+from tmd.robot.session import SimulationSession
+from tmd.robot.sim.pose import Pose
+from tmd.robot.state_recorder import Recorded, Sample, StateRecorder
+
+SUFFIXES = (".jsonl", ".csv", ".mcap", ".yaml")
+DEFAULT_RATE = 10.0
+WORLD, BASE = "map", "base_footprint"
+"""Frames, by the names that ROS has for them."""
+WORLD_JOINT = "world_joint"
+"""MoveIt's usual name for the joint between the two."""
+_MOVED = 1e-4
+"""Radians or metres: what moves less in an instruction is at rest."""
+_HEADER = (
+    "std_msgs/Header header\n", "=" * 80 + "\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n",
+    "=" * 80 + "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",
+)  # fmt: skip
+_JOINT_STATE = (
+    _HEADER[0] + "string[] name\nfloat64[] position\nfloat64[] velocity\nfloat64[] effort\n" + "".join(_HEADER[1:])
+)
+_TF = (
+    "geometry_msgs/TransformStamped[] transforms\n"
+    + "=" * 80 + "\nMSG: geometry_msgs/TransformStamped\nstd_msgs/Header header\nstring child_frame_id\n"
+    "geometry_msgs/Transform transform\n"
+    + "=" * 80 + "\nMSG: geometry_msgs/Transform\ngeometry_msgs/Vector3 translation\n"
+    "geometry_msgs/Quaternion rotation\n"
+    + "=" * 80 + "\nMSG: geometry_msgs/Vector3\nfloat64 x\nfloat64 y\nfloat64 z\n"
+    + "=" * 80 + "\nMSG: geometry_msgs/Quaternion\nfloat64 x\nfloat64 y\nfloat64 z\nfloat64 w\n"
+    + "".join(_HEADER[1:])
+)  # fmt: skip
+_STRING = "string data\n"
+
+
+def open_trajectory(path: Path) -> TrajectoryFile:
+    """A file for a recording; its suffix says of what kind.
+
+    Raises:
+        MissingToolError: What writes it is not installed.
+    """
+    kinds: dict[str, Callable[[Path], TrajectoryFile]] = {
+        ".jsonl": _JsonLines, ".csv": _Csv, ".mcap": _Mcap, ".yaml": _MoveIt,
+    }  # fmt: skip
+    return kinds[path.suffix](path)
+
+
+def recorders(session: SimulationSession, file: TrajectoryFile | None, rate: float) -> tuple[StateRecorder, ...]:
+    """Who records a run into a file: nobody where there is none."""
+    return () if file is None else (StateRecorder(session, rate, file),)
+
+
+class TrajectoryFile:
+    """A recording that grows; a context that ends it. The file is made when the run begins.
+
+    Args:
+        path: Where it goes.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._file: IO[Any] | None = None
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        if self._file is None:
+            return
+        try:
+            self._finish()
+            self._file.close()
+        except OSError as full:
+            if not isinstance(error, Exception):
+                raise self._error(full) from full
+        finally:
+            self._file = None
+
+    def open(self, what: Recorded) -> None:
+        """It begins.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        try:
+            self._file = self._make()
+            self._begin(what)
+        except OSError as error:
+            raise self._error(error) from error
+
+    def write(self, sample: Sample) -> None:
+        """The next sample.
+
+        Raises:
+            OutputError: It cannot be written.
+        """
+        try:
+            self._add(sample)
+        except OSError as error:
+            raise self._error(error) from error
+
+    def _error(self, error: OSError) -> OutputError:
+        return OutputError(
+            f"{self._path} cannot be written: {error.strerror or error}",
+            hint="check that the directory exists, that you may write there and that the disk has room",
+        )
+
+    def _make(self) -> IO[Any]:
+        return self._path.open("w", encoding="utf-8", newline="")
+
+    @property
+    def _out(self) -> IO[Any]:
+        assert self._file is not None, "open() comes first"
+        return self._file
+
+    def _begin(self, what: Recorded) -> None:
+        """What stands before the first sample."""
+
+    def _add(self, sample: Sample) -> None:
+        raise NotImplementedError
+
+    def _finish(self) -> None:
+        """What stands after the last one."""
+
+
+class _JsonLines(TrajectoryFile):
+    def _begin(self, what: Recorded) -> None:
+        self._out.write(SceneLine.of(what).to_line())
+
+    def _add(self, sample: Sample) -> None:
+        self._out.write(SampleLine.of(sample).to_line())
+
+
+class _Csv(TrajectoryFile):
+    """The first row names the columns: things have ``.x .y .z .qx .qy .qz .qw``."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self._columns: list[str] = []
+
+    def _add(self, sample: Sample) -> None:
+        base = dict(zip(("base.x", "base.y", "base.theta"), map(rounded, sample.base), strict=True))
+        row: dict[str, object] = {
+            "time": sample.time,
+            "number": sample.number,
+            "instruction": sample.instruction,
+            **base,
+        }
+        row |= {name: rounded(value) for name, value in (*sample.joints.items(), *sample.object_joints.items())}
+        for name, pose in sample.objects.items():
+            axes = (f"{name}.{axis}" for axis in ("x", "y", "z", "qx", "qy", "qz", "qw"))
+            row |= dict(zip(axes, pose_record(pose), strict=True))
+        writer = csv.writer(self._out, lineterminator="\n")
+        if not self._columns:
+            self._columns = list(row)
+            writer.writerow(self._columns)
+        writer.writerow([row[column] for column in self._columns])
+
+
+class _Mcap(TrajectoryFile):
+    """``/joint_states``, ``/object_joint_states``, ``/tf``, ``/tf_static`` and ``/instruction``, from time 0 on."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        try:
+            from mcap_ros2.writer import Writer
+        except ImportError as error:
+            hint = "pip install 'tmd[ros]', or ask for a .jsonl or .csv file"
+            raise MissingToolError("MCAP files need the package mcap-ros2-support", hint=hint) from error
+        self._kind: Any = Writer
+        self._said: tuple[int, str] | None = None
+
+    def _make(self) -> IO[Any]:
+        return self._path.open("wb")
+
+    def _begin(self, what: Recorded) -> None:
+        self._writer = self._kind(self._out)
+        self._joints = self._writer.register_msgdef("sensor_msgs/msg/JointState", _JOINT_STATE)
+        self._tf = self._writer.register_msgdef("tf2_msgs/msg/TFMessage", _TF)
+        self._string = self._writer.register_msgdef("std_msgs/msg/String", _STRING)
+        frames = [_transform(0.0, name, pose) for name, pose in what.fixtures.items()]
+        self._send("/tf_static", self._tf, {"transforms": frames}, 0.0)
+
+    def _add(self, sample: Sample) -> None:
+        time = sample.time
+        if self._said != (sample.number, sample.instruction):
+            self._said = (sample.number, sample.instruction)
+            self._send("/instruction", self._string, {"data": sample.instruction}, time)
+        state = _joint_state(time, sample.joints, sample.velocities)
+        self._send("/joint_states", self._joints, state, time)
+        things = _joint_state(time, sample.object_joints, {})
+        self._send("/object_joint_states", self._joints, things, time)
+        frames = [_transform(time, BASE, _base(sample))]
+        frames += [_transform(time, name, pose) for name, pose in sample.objects.items()]
+        self._send("/tf", self._tf, {"transforms": frames}, time)
+
+    def _send(self, topic: str, schema: Any, message: Mapping[str, object], time: float) -> None:  # noqa: ANN401 - theirs
+        stamp = round(time * 1e9)
+        self._writer.write_message(topic, schema, message, log_time=stamp, publish_time=stamp)
+
+    def _finish(self) -> None:
+        self._writer.finish()
+
+
+class _Plain(yaml.SafeDumper):
+    """Writes everything out, where a value stands twice as well."""
+
+    def ignore_aliases(self, data: object) -> bool:
+        """Always."""
+        return True
+
+
+class _MoveIt(TrajectoryFile):
+    """A document for each instruction, written when it is over: the joints that it moves, and the base if it drives."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self._samples: list[Sample] = []
+
+    def _begin(self, what: Recorded) -> None:
+        self._out.write(f"# moveit_msgs/msg/RobotTrajectory, one document an instruction; frames {WORLD} and {BASE}\n")
+
+    def _add(self, sample: Sample) -> None:
+        before = self._samples[-1] if self._samples else None
+        if before is not None and (before.number, before.instruction) != (sample.number, sample.instruction):
+            self._flush()
+        self._samples.append(sample)
+
+    def _flush(self) -> None:
+        samples, self._samples = self._samples, []
+        if samples and samples[0].instruction:
+            message = robot_trajectory(samples)
+            if message is not None:
+                text = yaml.dump(message, Dumper=_Plain, sort_keys=False, default_flow_style=None, width=120)
+                self._out.write(f"---\n# {samples[0].number}. {samples[0].instruction}\n{text}")
+
+    def _finish(self) -> None:
+        self._flush()
+
+
+def robot_trajectory(samples: Sequence[Sample]) -> dict[str, Any] | None:
+    """Samples as a ``moveit_msgs/msg/RobotTrajectory``; ``None`` where nothing moves.
+
+    Times are counted from the first sample. The joints of the robot that move are in ``joint_trajectory``, the base is
+    a planar joint of ``multi_dof_joint_trajectory``. Velocities are left to whoever times the motion anew: those of the
+    simulation are faster than a robot's.
+    """
+    times: list[float] = []
+    kept: list[Sample] = []
+    for sample in samples:  # a controller wants times that grow
+        if not times or sample.time > times[-1]:
+            times.append(sample.time)
+            kept.append(sample)
+        else:
+            kept[-1] = sample
+    first = kept[0]
+    moved = [name for name in first.joints if any(abs(s.joints[name] - first.joints[name]) > _MOVED for s in kept)]
+    drove = any(max(abs(a - b) for a, b in zip(s.base, first.base, strict=True)) > _MOVED for s in kept)
+    if len(kept) < 2 or not (moved or drove):
+        return None
+    since = [_stamp(sample.time - first.time) for sample in kept]
+    points = [
+        {
+            "positions": [rounded(sample.joints[name]) for name in moved],
+            "velocities": [], "accelerations": [], "effort": [], "time_from_start": at,
+        }
+        for sample, at in zip(kept, since, strict=True)
+    ]  # fmt: skip
+    ways = [
+        {"transforms": [_transform_of(_base(sample))], "velocities": [], "accelerations": [], "time_from_start": at}
+        for sample, at in zip(kept, since, strict=True)
+    ]
+    header = {"stamp": _stamp(0.0)}
+    return {
+        "joint_trajectory": {
+            "header": {**header, "frame_id": BASE}, "joint_names": moved, "points": points if moved else [],
+        },
+        "multi_dof_joint_trajectory": {
+            "header": {**header, "frame_id": WORLD},
+            "joint_names": [WORLD_JOINT] if drove else [],
+            "points": ways if drove else [],
+        },
+    }  # fmt: skip
+
+
+def _joint_state(time: float, positions: Mapping[str, float], velocities: Mapping[str, float]) -> dict[str, object]:
+    return {
+        "header": {"stamp": _stamp(time), "frame_id": ""},
+        "name": list(positions),
+        "position": list(positions.values()),
+        "velocity": [velocities[name] for name in positions] if velocities else [],
+        "effort": [],
+    }
+
+
+def _transform(time: float, name: str, pose: Pose) -> dict[str, object]:
+    header = {"stamp": _stamp(time), "frame_id": WORLD}
+    return {"header": header, "child_frame_id": name, "transform": _transform_of(pose)}
+
+
+def _transform_of(pose: Pose) -> dict[str, dict[str, float]]:
+    x, y, z, qx, qy, qz, qw = pose_record(pose)
+    return {"translation": {"x": x, "y": y, "z": z}, "rotation": {"x": qx, "y": qy, "z": qz, "w": qw}}
+
+
+def _base(sample: Sample) -> Pose:
+    x, y, theta = sample.base
+    return Pose((x, y, 0.0), (0.0, 0.0, sin(theta / 2), cos(theta / 2)))
+
+
+def _stamp(time: float) -> dict[str, int]:
+    whole, rest = divmod(round(time * 1e9), 1_000_000_000)
+    return {"sec": whole, "nanosec": rest}

@@ -1,0 +1,648 @@
+"""Things that come as files, a mesh or a URDF, with what ``objects.yaml`` says beside them.
+
+A mesh is turned and scaled, and put with the middle of its underside at the origin. What touches are convex pieces,
+for that is what simulators are quick with: its hull, or, of a vessel, the pieces that V-HACD divides it into (Mamou and
+Ghorbel 2009). Where it can be taken is measured on it. The copies are kept in the user's cache, one for each content.
+
+A URDF stays as it is but for names: a joint gets that of the link that it moves, and the root link is called ``root``,
+as in all models of the scene.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from tmd.diagnostics import MissingToolError, TmdError
+from tmd.files import make_directory, write_bytes
+from tmd.pddl.reading.syntax import nearest
+from tmd.robot.assets.appearance import rows
+from tmd.robot.assets.features import Frame, Grasp, Grip
+from tmd.robot.assets.fittings import DOWN, LEFT, TIP
+from tmd.robot.assets.urdf_builder import ROOT, UrdfLink, UrdfModel
+from tmd.robot.assets.vessels import CLEARANCE, WIDEST, contents, grasp, rim_grasps
+from tmd.robot.pr2.kinematics import Tree, origin
+from tmd.robot.sim.box_mesh import CUBE
+from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.sim.urdf_files import cache_directory, end_of, find_mesh, read_urdf
+from tmd.world.shape import GraspEntry, HandleEntry, RegionEntry, Shape
+
+if TYPE_CHECKING:
+    import trimesh
+
+Array = NDArray[np.float64]
+_ADVICE = "pip install 'tmd[meshes]'"
+_SMALLEST, _LARGEST = 0.01, 6.0
+"""Metres: what is smaller or larger is in other units."""
+_PIECES = {"maxConvexHulls": 32, "resolution": 100_000, "maxNumVerticesPerCH": 32}
+"""For V-HACD: a mug then keeps its hollow, with walls that are a millimetre too thick."""
+_NARROW = 0.07
+"""Metres: what is at most so wide fits between the fingers."""
+_RIM = 0.02
+"""Metres: a wall of so much is taken at its rim."""
+_PALM = 0.05
+"""Metres from the tool's frame back to the palm."""
+_READ = (".obj", ".stl", ".dae")
+"""What the simulator reads itself."""
+_FRICTION = {"door": 1.2, "flap": 1.2, "drawer": 5.0, "slide": 4.0, "lid": 0.03, "knob": 0.12, "button": 6.0}
+"""N or N·m that hold a joint where it is left, as in the scene's own kinds; of a button: its spring."""
+_SLIDES = ("drawer", "slide", "button")
+
+
+class ModelFault(Exception):  # noqa: N818 - it becomes a TmdError as soon as its place is known
+    """What is wrong with a file, or with what is said about it; ``path`` leads to that in the shape."""
+
+    def __init__(self, path: Sequence[str | int], message: str, hint: str | None = None) -> None:
+        super().__init__(message)
+        self.path, self.message, self.hint = tuple(path), message, hint
+
+
+# ---------------------------------------------------------------------- meshes
+
+
+def mesh_model(name: str, shape: Shape, path: Path, colour: str, mass: float) -> UrdfModel:
+    """A thing in one piece.
+
+    Args:
+        name: Of the class.
+        shape: With ``mesh``.
+        path: The file.
+        colour: Of what is seen.
+        mass: In kilograms.
+
+    Raises:
+        ModelFault: The file is no mesh, or what is said about it does not fit.
+        MissingToolError: What reads or divides meshes is not installed.
+    """
+    mesh = _standing(path, shape)
+    low, high = (_vector(corner) for corner in mesh.bounds)
+    hollow = _hollow(mesh) if shape.holds else None
+    solid = shape.solid if shape.solid is not None else not shape.holds
+    seen, solids = _copies(path, shape, mesh, solid=solid)
+    model = UrdfModel(name, mass)
+    model.mesh(seen, solids, low, high, colour)
+    if hollow is not None:
+        contents(model, hollow.radius, hollow.floor, high[2])
+    if shape.grasps:
+        _said_grasps(model, shape.grasps)
+    else:
+        _measured_grasps(model, mesh)
+        if hollow is not None and hollow.wall <= _RIM:
+            rim_grasps(model, hollow.outer, high[2], hollow.wall, (math.pi / 2, 0.0, -math.pi / 2))
+    for index, region in enumerate(shape.regions):
+        if region.link is not None:
+            raise ModelFault(("regions", index, "link"), "a mesh has no links", "leave `link` out")
+        _region(model, index, region, ROOT)
+    return model
+
+
+def read_mesh(path: Path) -> trimesh.Trimesh:
+    """The triangles of a file, all of its pieces together.
+
+    Raises:
+        ModelFault: It is no mesh.
+        MissingToolError: trimesh is not installed.
+    """
+    try:
+        import trimesh
+    except ImportError as error:
+        raise MissingToolError("reading meshes needs the package trimesh", hint=_ADVICE) from error
+    try:
+        mesh: Any = trimesh.load(path, force="mesh")
+        sound = len(mesh.faces) > 0 and bool(np.isfinite(mesh.vertices).all())
+    except MissingToolError:
+        raise
+    except Exception as error:  # its readers raise whatever a damaged file leads to
+        told = " ".join(str(error).split())[:120] or type(error).__name__
+        raise ModelFault(("mesh",), f"{path} is not a mesh: {told}", "name an OBJ, STL, PLY or GLB file") from error
+    if not sound:
+        raise ModelFault(("mesh",), f"{path} is not a mesh: it has no triangles", "name an OBJ, STL, PLY or GLB file")
+    return mesh  # type: ignore[no-any-return]  # trimesh.load gives whatever the file holds
+
+
+def _standing(path: Path, shape: Shape) -> trimesh.Trimesh:
+    """The mesh in metres, upright, with the middle of its underside at the origin."""
+    if not path.is_file():
+        raise ModelFault(("mesh",), f"there is no file {path}", "its path is read from the folder of objects.yaml")
+    mesh: Any = read_mesh(path)
+    mesh.apply_scale(shape.scale)
+    mesh.apply_transform(Pose.turned(*map(math.radians, shape.turn)).homogeneous())
+    extents = np.asarray(mesh.bounds[1] - mesh.bounds[0])
+    if not _SMALLEST <= extents.max() <= _LARGEST or extents.min() <= 0:
+        size = " × ".join(f"{side:.3g}" for side in extents)
+        hint = "say `scale: 0.001` if its unit is the millimetre"
+        raise ModelFault(("mesh",), f"{path} is {size} m large", hint)
+    bottom = mesh.vertices[:, 2].min()
+    foot = mesh.vertices[mesh.vertices[:, 2] < bottom + 0.05 * extents[2]]
+    middle = (foot.min(axis=0) + foot.max(axis=0)) / 2
+    mesh.apply_translation((-middle[0], -middle[1], -bottom))
+    return mesh  # type: ignore[no-any-return]  # as read_mesh gave it
+
+
+def _copies(path: Path, shape: Shape, mesh: trimesh.Trimesh, *, solid: bool) -> tuple[Path, list[Path]]:
+    """The mesh as it stands, and its convex pieces, as OBJ files in the user's cache."""
+    said = repr((shape.scale, shape.turn, solid, sorted(_PIECES.items())))
+    digest = hashlib.sha256(path.read_bytes() + b"\0" + said.encode() + Path(__file__).read_bytes()).hexdigest()[:20]
+    folder = cache_directory("meshes") / digest
+    seen = folder / "seen.obj"
+    if not seen.is_file():  # written last: where it is, everything is
+        make_directory(folder)
+        for number, (vertices, faces) in enumerate(_convex(mesh, solid=solid)):
+            write_bytes(folder / f"piece{number:02d}.obj", _obj(vertices, faces))
+        write_bytes(seen, _obj(np.asarray(mesh.vertices), np.asarray(mesh.faces)))
+    return seen, sorted(folder.glob("piece*.obj"))
+
+
+def _convex(mesh: trimesh.Trimesh, *, solid: bool) -> Iterator[tuple[Array, Array]]:
+    """Vertices and faces of convex pieces that make up the mesh."""
+    try:
+        if solid:
+            hull = mesh.convex_hull
+            yield np.asarray(hull.vertices), np.asarray(hull.faces)
+            return
+        from trimesh.decomposition import convex_decomposition
+
+        pieces = convex_decomposition(mesh, **_PIECES)
+    except ImportError as error:
+        raise MissingToolError(f"dividing meshes needs the package {error.name}", hint=_ADVICE) from error
+    for piece in pieces:
+        yield np.asarray(piece["vertices"]), np.asarray(piece["faces"])
+
+
+def _obj(vertices: Array, faces: Array) -> bytes:
+    """An OBJ file; the triangles do not share corners, so that edges are drawn sharp."""
+    lines = [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in vertices]
+    lines += [f"f {a + 1} {b + 1} {c + 1}" for a, b, c in faces]
+    return "\n".join([*lines, ""]).encode()
+
+
+def _cut(mesh: trimesh.Trimesh, height: float) -> Array:
+    """Where the mesh meets a level plane: line pieces (n, 2, 2), x and y of both ends."""
+    corners = np.asarray(mesh.triangles)
+    above = corners[:, :, 2] > height
+    crossing = corners[above.any(axis=1) & ~above.all(axis=1)]
+    ends = []
+    for one, other in ((0, 1), (1, 2), (2, 0)):
+        a, b = crossing[:, one], crossing[:, other]
+        met = (a[:, 2] > height) != (b[:, 2] > height)
+        share = np.where(met, (height - a[:, 2]) / np.where(met, b[:, 2] - a[:, 2], 1.0), np.nan)
+        ends.append(a[:, :2] + share[:, None] * (b - a)[:, :2])
+    points = np.stack(ends, axis=1)  # of the three edges of a triangle two are met
+    order = np.argsort(np.isnan(points[:, :, 0]), axis=1, kind="stable")[:, :2]
+    return np.take_along_axis(points, order[:, :, None], axis=1)
+
+
+def _radius(mesh: trimesh.Trimesh, height: float) -> float:
+    """How far the axis is from the nearest wall at a height."""
+    pieces = _cut(mesh, height)
+    start, way = pieces[:, 0], pieces[:, 1] - pieces[:, 0]
+    length = np.maximum((way**2).sum(axis=1), 1e-18)
+    share = np.clip(-(start * way).sum(axis=1) / length, 0.0, 1.0)
+    return float(np.linalg.norm(start + share[:, None] * way, axis=1).min()) if len(pieces) else 0.0
+
+
+def _bottom(mesh: trimesh.Trimesh) -> float:
+    """The height of the uppermost surface over the middle of the underside."""
+    corners = np.asarray(mesh.triangles)
+    flat, up = corners[:, :, :2] - 1e-7, corners[:, :, 2]  # beside a vertex that lies on the axis, as of a lathe
+    a, b, c = flat[:, 0], flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]
+    area = b[:, 0] * c[:, 1] - b[:, 1] * c[:, 0]
+    safe = np.where(np.abs(area) > 1e-18, area, np.inf)
+    v, w = (-(a[:, 0] * c[:, 1] - a[:, 1] * c[:, 0])) / safe, (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / safe
+    over = (v >= -1e-9) & (w >= -1e-9) & (v + w <= 1 + 1e-9) & np.isfinite(safe)
+    heights = up[:, 0] + v * (up[:, 1] - up[:, 0]) + w * (up[:, 2] - up[:, 0])
+    return float(heights[over].max()) if over.any() else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Hollow:
+    """The hollow of a vessel: radius and floor of what fills it, and its rim; metres."""
+
+    radius: float
+    floor: float
+    outer: float
+    wall: float
+
+
+def _hollow(mesh: trimesh.Trimesh) -> _Hollow:
+    """The hollow of a vessel, measured on the mesh."""
+    top, floor = float(mesh.bounds[1][2]), _bottom(mesh)
+    level = floor + 0.8 * (top - floor)
+    if floor > 0.6 * top:
+        message = f"it holds nothing: over the middle of its underside it is closed at {100 * floor:.1f} cm"
+        raise ModelFault(("holds",), message, "turn its opening up by `turn:`, or leave `holds` out")
+    radius = min(_radius(mesh, floor + share * (level - floor)) for share in (0.1, 0.5, 1.0))
+    if radius < 0.008:
+        raise ModelFault(("holds",), "it holds nothing: the middle of its underside is not in a hollow", None)
+    rim = top - 0.004
+    outer = float(np.abs(_cut(mesh, rim)[:, :, 1]).max())
+    return _Hollow(radius - 0.002, max(floor, 0.001), outer, outer - _radius(mesh, rim))
+
+
+def _measured_grasps(model: UrdfModel, mesh: trimesh.Trimesh) -> None:
+    """Grasps of what is narrow enough: from the sides and slanting, and from above."""
+    top, least = model.high[2], TIP + 0.004
+    for height in dict.fromkeys((max(0.5 * top, least), max(0.7 * top, least))):
+        points = _cut(mesh, min(height, top - 0.002)).reshape(-1, 2)
+        for approach in ((-1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)):
+            along, aside = points @ approach[:2], points @ (-approach[1], approach[0])
+            passed = np.abs(aside[along <= TIP])  # what the fingers go along, from both sides of the axis
+            width = 2 * float(passed.max()) if len(passed) else math.inf
+            if width > _NARROW or along.min() < -_PALM:
+                continue
+            across: Vector = (-approach[1], approach[0], 0.0)
+            grasp(model, (0.0, 0.0, height), approach, across, width)
+            for steep in (0.7, 0.45):
+                level = math.sqrt(1 - steep * steep)
+                grasp(model, (0.0, 0.0, height), (level * approach[0], level * approach[1], -steep), across, width)
+    over = max(top - 0.012, TIP + 0.006)
+    points = _cut(mesh, min(over, top - 0.002)).reshape(-1, 2)
+    for axis, across in ((1, LEFT), (0, (1.0, 0.0, 0.0))):
+        width = 2 * float(np.abs(points[:, axis]).max())
+        if width <= _NARROW:
+            grasp(model, (0.0, 0.0, over), DOWN, across, width)
+    if not model.grasps:
+        hint = "say under `grasps:` where it is narrow enough to be taken"
+        raise ModelFault(
+            ("mesh",), f"no hand fits round it: it is wider than {100 * _NARROW:.0f} cm on all sides", hint
+        )
+
+
+# ---------------------------------------------------------------------- what is said beside a file
+
+
+def _said_grasps(model: UrdfModel, entries: Sequence[GraspEntry]) -> None:
+    for index, entry in enumerate(entries):
+        if entry.width > WIDEST - CLEARANCE / 2:
+            message = f"no hand takes what is {100 * entry.width:.1f} cm wide"
+            raise ModelFault(("grasps", index, "width"), message, f"{100 * WIDEST - 1:.1f} cm at most")
+        tool = _frame(("grasps", index), entry.at, entry.approach, entry.across)
+        model.grasps.append(Grasp(tool, min(entry.width + CLEARANCE, WIDEST)))
+
+
+def _frame(path: Sequence[str | int], at: Vector, approach: Vector, across: Vector) -> Frame:
+    """A tool frame of directions of any length; ``across`` is made square to ``approach``."""
+    x, y = np.array(approach), np.array(across)
+    for key, direction in (("approach", x), ("across", y)):
+        if np.linalg.norm(direction) < 1e-6:
+            raise ModelFault((*path, key), f"{key}: (0, 0, 0) is not a direction")
+    x, y = x / np.linalg.norm(x), y / np.linalg.norm(y)
+    if abs(float(x @ y)) > 0.2:
+        raise ModelFault((*path, "across"), "the fingers cannot open along the way that the hand comes",
+                         "give directions at a right angle")  # fmt: skip
+    y -= float(x @ y) * x
+    return Frame(at, _vector(x), _vector(y / np.linalg.norm(y)))
+
+
+def _region(model: UrdfModel, index: int, entry: RegionEntry, link: str) -> None:
+    for axis, (low, high) in enumerate(zip(entry.low, entry.high, strict=True)):
+        if low >= high:
+            raise ModelFault(
+                ("regions", index, "high"), f"the region is empty along {'xyz'[axis]}", "low is below high"
+            )
+    spots: Sequence[tuple[float, float, float]] = [(x, y, math.radians(yaw)) for x, y, yaw in entry.spots]
+    if not spots:
+        depth, width = entry.high[0] - entry.low[0], entry.high[1] - entry.low[1]
+        behind = [min(0.12, depth / 2) + 0.16 * row for row in range(1 + int(max(depth - 0.24, 0.0) / 0.16))]
+        middle = (entry.low[1] + entry.high[1]) / 2
+        spots = rows(entry.high[0], max(width - 0.12, 0.0), tuple(behind), 0.06, middle)
+    entrance = np.array(entry.entry)
+    if np.linalg.norm(entrance) < 1e-6:
+        raise ModelFault(("regions", index, "entry"), "entry: (0, 0, 0) is not a direction")
+    entrance = entrance / np.linalg.norm(entrance)
+    model.region(entry.relation, entry.low, entry.high, _vector(entrance), spots, part=entry.part or ROOT, link=link,
+                 heap=entry.heap)  # fmt: skip
+
+
+# ---------------------------------------------------------------------- URDF
+
+
+@dataclass(slots=True)
+class _Source:
+    """A URDF that is being read: its file, what is parsed, the names that its links have in the model."""
+
+    path: Path
+    root: ET.Element
+    tree: Tree | None
+    first: str
+    moved: dict[str, str] = field(default_factory=dict)
+    """The link that each joint moves."""
+
+    def link(self, name: str) -> str:
+        """A link's name in the model."""
+        return ROOT if name == self.first else name
+
+
+class _FileModel(UrdfModel):
+    """A model whose text is that of a file."""
+
+    def __init__(self, name: str, mass: float) -> None:
+        super().__init__(name, mass)
+        self.element = ET.Element("robot")
+
+    def text(self) -> str:
+        """The URDF."""
+        return '<?xml version="1.0"?>\n' + ET.tostring(self.element, encoding="unicode") + "\n"
+
+
+def urdf_model(name: str, shape: Shape, path: Path, parts: Sequence[str], mass: float | None) -> UrdfModel:
+    """A thing with links and joints.
+
+    Args:
+        name: Of the class.
+        shape: With ``urdf``.
+        path: The file.
+        parts: The parts that the class has.
+        mass: Of the root link, where that shall not be what the file says.
+
+    Raises:
+        ModelFault: The file is no URDF, a mesh of it is missing, or what is said about it does not fit.
+        MissingToolError: What reads meshes is not installed.
+    """
+    source = _read(path)
+    model = _FileModel(name, mass or 0.2)
+    _find_meshes(source)
+    _move_root(source, shape)
+    _links(model, source, mass)
+    _named_parts(model, source, shape, parts)
+    for index, handle in enumerate(shape.handles):
+        _handle(model, source, index, handle, parts)
+    for index, region in enumerate(shape.regions):
+        _check_part(("regions", index, "part"), region.part, parts)
+        link = region.link if region.link is not None else source.first
+        _region(model, index, region, _known_link(source, ("regions", index, "link"), link))
+    for index, lamp in enumerate(shape.lamps):
+        _check_part(("lamps", index, "part"), lamp.part, parts)
+        link = _known_link(source, ("lamps", index, "link"), lamp.link)
+        model.lamp(lamp.part or ROOT, lamp.predicate, link, lamp.on, lamp.off)
+    model.contents = [_known_link(source, ("contents", i), link) for i, link in enumerate(shape.contents)]
+    _said_grasps(model, shape.grasps)
+    if abs(model.low[2]) > 0.02:
+        z = model.low[2]
+        hint = f"say `origin: {{xyz: [0, 0, {-z:.3f}]}}`"
+        raise ModelFault(("urdf",), f"{path}: its lowest point is at z = {z:.3f} m, and not on the floor", hint)
+    model.element = _renamed(model, source)
+    return model
+
+
+def _read(path: Path) -> _Source:
+    if not path.is_file():
+        raise ModelFault(("urdf",), f"there is no file {path}", "its path is read from the folder of objects.yaml")
+    try:
+        root = read_urdf(path)
+    except TmdError as error:
+        raise ModelFault(("urdf",), error.message, error.hint) from error
+    links = [link.get("name", "") for link in root.findall("link")]
+    joints = root.findall("joint")
+    if not links:
+        raise ModelFault(("urdf",), f"{path} has no links")
+    for joint in joints:
+        told = f"{path}: the joint '{joint.get('name')}'"
+        if joint.get("type") not in ("fixed", "revolute", "continuous", "prismatic"):
+            kinds = "fixed, revolute, continuous or prismatic"
+            raise ModelFault(("urdf",), f"{told} is {joint.get('type') or 'of no type'}", f"a joint is {kinds}")
+        for end in ("parent", "child"):
+            if end_of(joint, end) not in links:
+                message = f"{told} has the {end} link '{end_of(joint, end)}', which is not there"
+                raise ModelFault(("urdf",), message, nearest(end_of(joint, end), links))
+        if joint.find("mimic") is not None:
+            raise ModelFault(("urdf",), f"{told} mimics another one", "the simulator does not let joints do that")
+    children = [end_of(joint, "child") for joint in joints]
+    firsts = [link for link in links if link not in children]
+    if len(firsts) != 1 or len(set(children)) != len(children):
+        raise ModelFault(("urdf",), f"{path} is not a tree: it has {len(firsts)} root links", None)
+    if "root" in links and firsts != ["root"]:
+        raise ModelFault(("urdf",), f"{path}: a link that is not the root is called 'root'", "call it something else")
+    moved = {joint.get("name", ""): end_of(joint, "child") for joint in joints if joint.get("type") != "fixed"}
+    return _Source(path, root, Tree(root) if joints else None, firsts[0], moved)
+
+
+def _find_meshes(source: _Source) -> None:
+    """Name the meshes by absolute paths; what the simulator does not read is copied as OBJ."""
+    for mesh in source.root.iter("mesh"):
+        name = mesh.get("filename", "")
+        found = find_mesh(source.path, name)
+        if found is None:
+            hint = "put the meshes where the URDF names them"
+            raise ModelFault(("urdf",), f"{source.path}: its mesh {name or 'without a name'} is missing", hint)
+        try:
+            read = read_mesh(found)
+        except ModelFault as fault:
+            raise ModelFault(("urdf",), f"{source.path}: {fault.message}", fault.hint) from None
+        if found.suffix.lower() not in _READ:
+            folder = cache_directory("meshes")
+            data = _obj(np.asarray(read.vertices), np.asarray(read.faces))
+            found = folder / f"{hashlib.sha256(data).hexdigest()[:20]}.obj"
+            if not found.is_file():
+                write_bytes(found, data)
+        mesh.set("filename", str(found.resolve()))
+
+
+def _move_root(source: _Source, shape: Shape) -> None:
+    """Let the root's frame be the thing's: everything that is given in it is moved instead."""
+    roll, pitch, yaw = map(math.radians, shape.origin.rpy)
+    shift = Pose(shape.origin.xyz) * Pose.turned(roll, pitch, yaw)
+    for link in source.root.findall("link"):
+        if link.get("name") == source.first:
+            for each in (*link.findall("visual"), *link.findall("collision"), *link.findall("inertial")):
+                _shift(each, shift)
+    for joint in source.root.findall("joint"):
+        if end_of(joint, "parent") == source.first:
+            _shift(joint, shift)
+    source.tree = Tree(source.root) if source.tree is not None else None
+
+
+def _shift(element: ET.Element, shift: Pose) -> None:
+    found = element.find("origin")
+    moved = shift.homogeneous() @ origin(found)
+    if found is None:
+        found = ET.SubElement(element, "origin")
+    found.set("xyz", _words(moved[:3, 3]))
+    found.set("rpy", _words(_angles(moved)))
+
+
+def _angles(matrix: Array) -> tuple[float, float, float]:
+    """Roll, pitch, yaw of a 4×4 matrix."""
+    pitch = math.asin(max(-1.0, min(1.0, -float(matrix[2, 0]))))
+    if abs(matrix[2, 0]) > 1 - 1e-9:  # roll and yaw turn about one line
+        return 0.0, pitch, math.atan2(-float(matrix[0, 1]), float(matrix[1, 1]))
+    return math.atan2(matrix[2, 1], matrix[2, 2]), pitch, math.atan2(matrix[1, 0], matrix[0, 0])
+
+
+def _links(model: UrdfModel, source: _Source, mass: float | None) -> None:
+    """Links and joints as the model has them, their boxes, and masses where the file has none."""
+    frames = {source.first: np.eye(4)}
+    if source.tree is not None:
+        frames = source.tree.forward({}, source.tree.links, frames)
+    elements = {link.get("name", ""): link for link in source.root.findall("link")}
+    for name in frames:
+        element, called = elements[name], source.link(name)
+        if called != ROOT and source.tree is not None:
+            joint = source.tree.links[name]
+            kind = "revolute" if joint.kind == "continuous" else joint.kind
+            model.links[called] = UrdfLink(
+                called, source.link(joint.parent), kind, _vector(joint.origin[:3, 3]), _vector(joint.axis),
+                joint.lower, joint.upper, 1.0 if kind == "revolute" else 5.0, 0.0, 0.1, _angles(joint.origin),
+            )  # fmt: skip
+        points = [_points(source, each) for each in element.findall("collision")]
+        if points:
+            cloud = np.vstack(points)
+            model.links[called].boxes.append((_vector(cloud.min(axis=0)), _vector(cloud.max(axis=0))))
+            everywhere = cloud @ frames[name][:3, :3].T + frames[name][:3, 3]
+            for axis in range(3):
+                model.low[axis] = min(model.low[axis], float(everywhere[:, axis].min()))
+                model.high[axis] = max(model.high[axis], float(everywhere[:, axis].max()))
+        _weigh(model, element, called, mass)
+    if not math.isfinite(model.low[0]):
+        raise ModelFault(("urdf",), f"{source.path} has no collision shapes", "add <collision> to its links")
+
+
+def _points(source: _Source, collision: ET.Element) -> Array:
+    """Corners of a collision shape, in the link's frame."""
+    shape = next(iter(collision.find("geometry") or ()), None)
+    kind = None if shape is None else shape.tag
+    try:
+        if shape is not None and kind == "mesh":
+            read = read_mesh(Path(shape.get("filename", "")))
+            scale = np.array([float(word) for word in shape.get("scale", "1 1 1").split()])
+            points = np.asarray(read.bounds) * scale
+        elif shape is not None and kind == "box":
+            half = np.array([float(word) for word in shape.get("size", "").split()]) / 2
+            points = np.array([-half, half])
+        elif shape is not None and kind in ("cylinder", "sphere"):
+            radius = float(shape.get("radius", ""))
+            high = float(shape.get("length", "")) / 2 if kind == "cylinder" else radius
+            points = np.array([(-radius, -radius, -high), (radius, radius, high)])
+        else:
+            raise ValueError
+        (x0, y0, z0), (x1, y1, z1) = points.tolist()
+    except ValueError:
+        message = f"{source.path}: a <collision> has no mesh, box, cylinder or sphere with its size"
+        raise ModelFault(("urdf",), message) from None
+    corners = np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (z0, z1)])
+    frame = origin(collision.find("origin"))
+    moved: Array = corners @ frame[:3, :3].T + frame[:3, 3]
+    return moved
+
+
+def _weigh(model: UrdfModel, element: ET.Element, called: str, mass: float | None) -> None:
+    """A mass and inertia where the file has none, or where another mass was said."""
+    inertial = element.find("inertial")
+    if inertial is not None and inertial.find("mass") is not None and not (mass and called == ROOT):
+        link = model.links[called]
+        link.mass = float(inertial.find("mass").get("value", "0"))  # type: ignore[union-attr]  # seen above
+        return
+    if inertial is not None:
+        element.remove(inertial)
+    if called == ROOT and mass:
+        model.links[ROOT].mass = mass
+    element.extend(ET.fromstring(f"<all>{''.join(model.physics(model.links[called]))}</all>"))
+
+
+def _named_parts(model: UrdfModel, source: _Source, shape: Shape, parts: Sequence[str]) -> None:
+    for part, link in shape.parts.items():
+        _check_part(("parts", part), part, parts)
+        called = _known_link(source, ("parts", part), link)
+        model.part_links[part] = called
+        model.link_parts[called] = part
+
+
+def _check_part(path: Sequence[str | int], part: str | None, parts: Sequence[str]) -> None:
+    if part is not None and part not in parts:
+        hint = nearest(part, list(parts)) or "the class lists its `parts:`"
+        raise ModelFault(path, f"the class has no part '{part}'", hint)
+
+
+def _known_link(source: _Source, path: Sequence[str | int], name: str) -> str:
+    """A link by its name in the file."""
+    names = [link.get("name", "") for link in source.root.findall("link")]
+    if name not in names:
+        hint = nearest(name, names) or f"it has the links {', '.join(names)}"
+        raise ModelFault(path, f"{source.path.name} has no link '{name}'", hint)
+    return source.link(name)
+
+
+def _handle(model: UrdfModel, source: _Source, index: int, entry: HandleEntry, parts: Sequence[str]) -> None:
+    path = ("handles", index)
+    _check_part((*path, "part"), entry.part, parts)
+    if entry.joint not in source.moved:
+        hint = nearest(entry.joint, list(source.moved)) or f"it has the joints {', '.join(source.moved) or 'none'}"
+        raise ModelFault((*path, "joint"), f"{source.path.name} has no joint '{entry.joint}' that moves", hint)
+    link = model.links[source.moved[entry.joint]]
+    slides = link.kind == "prismatic"
+    if slides != (entry.kind in _SLIDES):
+        does = "slides" if slides else "turns"
+        raise ModelFault((*path, "kind"), f"'{entry.joint}' {does}, and a {entry.kind} does not")
+    if entry.kind == "knob" and not entry.settings:
+        raise ModelFault(path, "a knob has settings", "say `settings: {off: 0.0, high: 1.5}`")
+    opened = entry.open
+    if opened is None:
+        if not math.isfinite(link.upper):
+            raise ModelFault(path, f"'{entry.joint}' has no limits", "say the position that is `open`")
+        opened = link.upper if abs(link.upper - entry.closed) >= abs(link.lower - entry.closed) else link.lower
+    for key, value in (
+        ("closed", entry.closed),
+        ("open", opened),
+        *((f"settings.{k}", v) for k, v in entry.settings.items()),
+    ):
+        if not link.lower - 1e-6 <= value <= link.upper + 1e-6:
+            message = f"{key}: {value:g} is beyond the limits of '{entry.joint}', {link.lower:g} to {link.upper:g}"
+            raise ModelFault((*path, *key.split(".")), message)
+    force = entry.friction if entry.friction is not None else _FRICTION[entry.kind]
+    if entry.kind == "button":
+        link.spring = force
+    else:
+        link.friction = force
+    part = entry.part or ROOT
+    if part != ROOT:
+        model.part_links.setdefault(part, link.name)
+        model.link_parts[link.name] = part
+    opening = 0.0 if entry.kind in ("flap", "button") else min(entry.width + 2 * CLEARANCE, WIDEST)
+    tool = _frame(path, entry.at, entry.approach, entry.across)
+    settings = tuple(entry.settings.items())
+    model.grips.append(Grip(part, entry.kind, link.name, tool, opening, entry.closed, opened, settings))
+
+
+def _renamed(model: UrdfModel, source: _Source) -> ET.Element:
+    """The file with the names of the model, and with joints that stay where they are left."""
+    whole = ET.Element("robot", name=model.name)
+    whole.extend(source.root.findall("material"))
+    for link in source.root.findall("link"):
+        called = source.link(link.get("name", ""))
+        link.set("name", called or "root")
+        for box in [each for each in link.findall("visual/geometry") if each.find("box") is not None]:
+            size = box[0].get("size", "")  # drawn as the scene's own boxes are: its own are shaded round
+            box.remove(box[0])
+            ET.SubElement(box, "mesh", filename=CUBE, scale=size)
+        if link.find("contact") is None:
+            link.insert(0, ET.fromstring('<contact><lateral_friction value="0.8"/></contact>'))
+        whole.append(link)
+    for material in whole.iter("material"):
+        if material.find("color") is not None and material.find("specular") is None:
+            ET.SubElement(material, "specular", rgb="0 0 0")
+    for joint in source.root.findall("joint"):
+        child = end_of(joint, "child")
+        joint.set("name", child)
+        joint.find("parent").set("link", source.link(end_of(joint, "parent")) or "root")  # type: ignore[union-attr]
+        for old in joint.findall("dynamics"):
+            joint.remove(old)
+        ET.SubElement(joint, "dynamics", damping="0.0005", friction="0")
+        whole.append(joint)
+    return whole
+
+
+def _vector(values: Sequence[float] | Array) -> Vector:
+    x, y, z = (float(value) for value in values)
+    return x, y, z
+
+
+def _words(values: Sequence[float] | Array) -> str:
+    return " ".join(f"{float(value):.6f}" for value in values)

@@ -1,0 +1,68 @@
+"""URDF files: reading one, finding the meshes that it names, and where copies with changes are kept."""
+
+from __future__ import annotations
+
+import os
+import sys
+import tempfile
+import xml.etree.ElementTree as ET
+from functools import cache
+from pathlib import Path
+
+from tmd.diagnostics import OutputError, TmdError
+from tmd.files import make_directory, read_bytes
+
+
+def read_urdf(path: Path) -> ET.Element:
+    """The parsed ``<robot>`` of a URDF or SRDF.
+
+    Raises:
+        TmdError: The file cannot be read, or is none.
+    """
+    try:
+        root = ET.fromstring(read_bytes(path))
+    except OSError as error:
+        raise TmdError(f"{path} cannot be read: {error.strerror or error}", hint="name a URDF file") from error
+    except ET.ParseError as error:
+        raise TmdError(
+            f"{path} is not valid XML: {error}", hint="name a URDF file; xacro files must be expanded"
+        ) from error
+    if root.tag != "robot":
+        raise TmdError(f"{path} is not a URDF: its root is <{root.tag}>, not <robot>", hint="name a URDF file")
+    return root
+
+
+def find_mesh(source: Path, name: str) -> Path | None:
+    """A mesh file that a URDF names: beside it, or anywhere above it for ``package://`` names."""
+    path = Path(name.removeprefix("file://"))
+    if not name.startswith("package://"):
+        found = path if path.is_absolute() else source.resolve().parent / path
+        return found if found.is_file() else None
+    whole = Path(name.removeprefix("package://"))
+    shorter = Path(*whole.parts[1:])
+    candidates = (folder / each for folder in source.resolve().parents for each in (whole, shorter))
+    return next((candidate for candidate in candidates if candidate.is_file()), None)
+
+
+def end_of(joint: ET.Element, end: str) -> str:
+    """The link at an end, ``parent`` or ``child``, of a joint."""
+    found = joint.find(end)
+    return "" if found is None else found.get("link", "")
+
+
+@cache
+def cache_directory(name: str) -> Path:
+    """A directory of the user's cache, or a temporary one where that cannot be written."""
+    if sys.platform == "win32":
+        home = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        home = Path.home() / "Library" / "Caches"
+    else:
+        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    try:
+        folder = make_directory(home / "tmd" / name)
+        if os.access(folder, os.W_OK):
+            return folder
+    except OutputError:
+        pass
+    return Path(tempfile.mkdtemp(prefix=f"tmd-{name}-"))
