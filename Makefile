@@ -80,9 +80,9 @@ studio: setup ## Open the studio: a page in the browser to watch, correct and de
 	@$(BIN)/tmd studio --environment '$(KITCHEN)' $(ARGS)
 
 test: setup ## Run the tests (VEIL500_DIR=DIR runs those on the real data as well).
-	@$(BIN)/python -m pytest -n auto
+	@$(BIN)/python -m pytest -n auto --dist worksteal
 
-check: test style docs ## What CI runs: tests, format, lint, types, docs.
+check: test style ## What CI runs: tests, those of the pages among them, format, lint, types.
 
 style: setup ## Check format, lint and types, and change nothing.
 	@$(BIN)/ruff format --check .
@@ -99,10 +99,10 @@ types: setup ## Check types.
 	@$(BIN)/mypy
 
 docs: setup ## Run the examples in the pages, and check their links.
-	@$(BIN)/python -m pytest tests/test_docs.py
+	@$(BIN)/python -m pytest -n auto --dist worksteal tests/test_docs.py
 
 examples: setup ## Run the examples in the pages, and write what they print into the pages.
-	@$(BIN)/python tests/test_docs.py
+	@$(BIN)/python -m tests.test_docs
 
 bench: setup ## Run the benchmarks.
 	@set -e; for script in experiments/bench/*.py; do echo "== $$script"; $(BIN)/python "$$script"; done

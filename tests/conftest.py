@@ -23,8 +23,8 @@ if "PYTEST_XDIST_WORKER" not in os.environ:
 import pytest
 from hypothesis import settings
 
-from tmd.inference.learned import place, save, study
-from tmd.planning.search.numba_build import digest
+from tmd.inference.learned import cache_directory, digest, known, place, recall, save
+from tmd.planning.search import numba_build
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
@@ -36,33 +36,47 @@ settings.load_profile("untimed")
 
 
 LEARNED = ("living_room", "kitchen")
+DIGITS = 16
+"""Of a digest, in the name of a directory of the user's cache."""
 
 
 def pytest_configure(config: pytest.Config) -> None:
     """Compile the searches first: the command that did so would say so, where its test expects nothing."""
     if hasattr(config, "workerinput") or os.environ.get("NUMBA_CACHE_DIR"):
         return
-    if not list((ROOT / "tmd" / "planning" / "search" / "__pycache__").glob(f"greedy.search_any_{digest()}-*.nbc")):
+    if not list(
+        (ROOT / "tmd" / "planning" / "search" / "__pycache__").glob(f"greedy.search_any_{numba_build.digest()}-*.nbc")
+    ):
         subprocess.run([sys.executable, "-m", "tmd.planning"], cwd=ROOT, capture_output=True, check=True)
 
 
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_auto_num_workers() -> int:
+    """One process more than there are processors: many tests wait for a browser, a cluster or a time to be over."""
+    return len(os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") else range(os.cpu_count() or 1)) + 1
+
+
 @pytest.fixture(scope="session")
-def learned(tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
-    """A directory as `tmd learn --out` leaves it, for commands that tests run; one process learns each domain."""
+def learned(pytestconfig: pytest.Config, tmp_path_factory: pytest.TempPathFactory, worker_id: str) -> Path:
+    """A directory as `tmd learn --out` leaves it, for commands that tests run.
+
+    One process learns each domain; the next run has it from pytest's cache, if nothing that it is made from changed.
+    """
     base = tmp_path_factory.getbasetemp()
     root = (base if worker_id == "master" else base.parent) / "learned"
     root.mkdir(exist_ok=True)
     os.environ["TMD_LEARNED"] = str(root)
+    cache = getattr(pytestconfig, "cache", None)  # there is none with -p no:cacheprovider
     for name in LEARNED:
-        _learn(name, root)
-    for _ in range(2_000):
+        _learn(name, root, cache.mkdir("learned") if cache is not None else root)
+    for _ in range(6_000):
         if all((root / f"{name}.done").exists() for name in LEARNED):
             break
         time.sleep(0.1)
     return root
 
 
-def _learn(name: str, root: Path) -> None:
+def _learn(name: str, root: Path, kept: Path) -> None:
     """Learn a domain, unless another process does."""
     try:
         (root / f"{name}.begun").touch(exist_ok=False)
@@ -70,6 +84,11 @@ def _learn(name: str, root: Path) -> None:
         return
     try:
         corpus = Corpus(DomainFolder(ROOT / "domains" / name), ROOT / "problems" / name)
-        save(study(corpus), corpus, place(corpus, root))
+        for directory in (kept, root):
+            if recall(corpus, place(corpus, directory)) is None:
+                save(known(corpus, kept), corpus, place(corpus, directory))
+        cache = cache_directory()
+        assert cache is not None
+        shutil.copytree(place(corpus, root), cache / name / digest(corpus)[:DIGITS], dirs_exist_ok=True)
     finally:
         (root / f"{name}.done").touch()

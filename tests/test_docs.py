@@ -5,7 +5,7 @@ A block after ``<!-- file: NAME -->`` is a file that the examples of its page fi
 Blocks after ``<!-- tested: one after another -->`` are a walk: the commands of the page run in one directory, which is
 empty at first, and a block after ``<!-- write: PATH -->`` (or ``append:``) writes that file when its turn comes.
 A ``json`` block after ``<!-- format: NAME -->`` holds values of that format, one a line.
-``python tests/test_docs.py`` runs the examples and writes their output into the pages again, and the schemas.
+``python -m tests.test_docs`` runs the examples and writes their output into the pages again, and the schemas.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from pathlib import Path
 import pytest
 from pydantic import TypeAdapter
 
+from tests.cli.conftest import fork_server
 from tmd.records.schemas import FORMATS, schema_text, write_schemas
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -80,7 +81,8 @@ _PROGRESS = ("learning from the demonstrations of ", "compiling the search")
 
 def _printed(command: str, directory: Path, programs: Path) -> str:
     programs.mkdir(exist_ok=True)
-    for name, arguments in (("tmd", "-m tmd "), ("python", "")):
+    forked = f"-I -S {ROOT}/tests/cli/fork_server.py {fork_server()} "
+    for name, arguments in (("tmd", forked), ("python", "")):
         program = programs / name
         program.write_text(f'#!/bin/sh\nexec "{sys.executable}" {arguments}"$@"\n', encoding="utf-8")
         program.chmod(0o755)

@@ -13,25 +13,25 @@
     (hand_empty)                 ; nothing is in the hand
   )
 
-  ; Take a block from the table.
+  ; Take x from the table.
   (:action pick_up
     :parameters (?x - block)
     :precondition (and (clear ?x) (on_table ?x) (hand_empty))
     :effect (and (holding ?x) (not (clear ?x)) (not (on_table ?x)) (not (hand_empty))))
 
-  ; Put the block in the hand on the table.
+  ; Put x on the table: what is in the hand.
   (:action put_down
     :parameters (?x - block)
     :precondition (holding ?x)
     :effect (and (on_table ?x) (clear ?x) (hand_empty) (not (holding ?x))))
 
-  ; Take a block from the one that it stands on.
+  ; Take x from y.
   (:action unstack
     :parameters (?x - block ?y - block)
     :precondition (and (on ?x ?y) (clear ?x) (hand_empty))
     :effect (and (holding ?x) (clear ?y) (not (on ?x ?y)) (not (clear ?x)) (not (hand_empty))))
 
-  ; Put the block in the hand on another one.
+  ; Put x on y: what is in the hand on another block.
   (:action stack
     :parameters (?x - block ?y - block)
     :precondition (and (holding ?x) (clear ?y))

@@ -29,13 +29,13 @@
       (forall (?y - furniture) (when (= ?x ?y) (near pr2 ?y)))
       (forall (?y - furniture) (when (at ?x ?y on) (near pr2 ?y)))))
 
-  ; Take x from the furniture that the robot stands at.
+  ; Take x, which is on the furniture that the robot stands at.
   (:action grasp
     :parameters (?x - item)
     :precondition (and (free pr2) (exists (?y - furniture) (and (near pr2 ?y) (at ?x ?y on))))
     :effect (and (holding pr2 ?x) (not (free pr2)) (forall (?y - furniture) (not (at ?x ?y on)))))
 
-  ; Put what is in the hand on the furniture the robot stands at.
+  ; Put x on y: what is in the hand on the furniture the robot stands at.
   (:action keep
     :parameters (?x - item ?y - furniture ?rel - relation)
     :precondition (and (holding pr2 ?x) (near pr2 ?y))

@@ -59,13 +59,13 @@
       (forall (?z - furniture ?p - part ?rel - relation)
         (when (and (at ?x ?p ?rel) (part_of ?p ?z)) (near pr2 ?z)))))
 
-  ; Pull a drawer open; that takes the hand.
+  ; Pull the drawer x open; that takes the hand.
   (:action open
     :parameters (?x - part)
     :precondition (and (near pr2 ?x) (free pr2) (closes ?x) (not (opened ?x)))
     :effect (opened ?x))
 
-  ; Push a drawer shut.
+  ; Push the drawer x shut.
   (:action close
     :parameters (?x - part)
     :precondition (and (near pr2 ?x) (free pr2) (opened ?x))

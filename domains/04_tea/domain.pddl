@@ -87,7 +87,7 @@
       (forall (?v - vessel ?p - part ?s - substance)
         (when (and (= ?v ?x) (= ?rel in) (pours_into ?p ?y ?s) (active ?p)) (contains ?v ?s)))))
 
-  ; Turn a knob. What it controls starts or stops, and a tap fills what stands under it.
+  ; Turn the knob x to s. What it controls starts or stops, and a tap fills what stands under it.
   (:action turn
     :parameters (?x - part ?s - setting)
     :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)))

@@ -129,7 +129,7 @@
       (forall (?y - appliance) (when (and (fits ?x ?y) (at ?x ?y in)) (not (loaded ?y))))
       (not (heating ?x))))
 
-  ; Open the gripper: x lands where the robot stands.
+  ; Let x fall: the gripper opens, and x lands where the robot stands.
   (:action release
     :parameters (?x - item)
     :precondition (holding pr2 ?x)
@@ -140,7 +140,7 @@
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
       (forall (?y - fixture) (when (standing_at pr2 ?y) (at ?x ?y on)))))
 
-  ; Put x down so that it is on, in or next to y. To reach inside, the door must be open; some places have room for
+  ; Put x on, in or next to y. To reach inside, the door must be open; some places have room for
   ; one thing, a burner takes only what is heatproof, a microwave no metal. A burner that is lit begins to heat x,
   ; a tap that runs fills it with cold water.
   (:action keep
@@ -165,7 +165,7 @@
       (forall (?o - outlet ?s - liquid)
         (when (and (pours_into ?o ?y ?s) (not (= ?rel next_to)) (active ?o) (receives ?x)) (not (hot ?x))))))
 
-  ; Open the door, drawer or lid x; it takes a free hand, as do closing, pressing and turning. What it hid can be
+  ; Open x, a door, drawer or lid; it takes a free hand, as do closing, pressing and turning. What it hid can be
   ; seen; what must not run with x open stops.
   (:action open
     :parameters (?x - thing)
@@ -178,7 +178,7 @@
       (forall (?y - fixture ?z - item)
         (when (and (interrupts ?x ?y) (at ?z ?y in)) (not (heating ?z))))))
 
-  ; Close the door, drawer or lid x. What is behind it is out of sight.
+  ; Close x, a door, drawer or lid. What is behind it is out of sight.
   (:action close
     :parameters (?x - thing)
     :precondition (and (near pr2 ?x) (opened ?x) (not (both_hands_used pr2)))
@@ -234,7 +234,7 @@
       (forall (?d - part ?y - fixture ?z - item)
         (when (and (unlatches ?x ?d) (interrupts ?d ?y) (at ?z ?y in)) (not (heating ?z))))))
 
-  ; Turn the knob x to the setting s. What it controls works at every setting but the idle one.
+  ; Turn the knob x to s. What it controls works at every setting but the idle one.
   (:action turn
     :parameters (?x - part ?s - setting)
     :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)) (not (both_hands_used pr2)))

@@ -66,14 +66,14 @@
       (forall (?y - part ?z - station ?rel - relation)
         (when (and (at ?x ?z ?rel) (part_of ?y ?z)) (near pr2 ?y)))))
 
-  ; Open a lid or a door; not while what it guards runs.
+  ; Open x, a lid or a door; not while what it guards runs.
   (:action open
     :parameters (?x - part)
     :precondition (and (near pr2 ?x) (openable ?x) (not (opened ?x))
       (forall (?p - part) (or (not (guards ?x ?p)) (not (active ?p)))))
     :effect (opened ?x))
 
-  ; Close a lid or a door.
+  ; Close x, a lid or a door.
   (:action close
     :parameters (?x - part)
     :precondition (and (near pr2 ?x) (openable ?x) (opened ?x))
@@ -95,7 +95,7 @@
       (forall (?d - part) (or (not (shuts ?d ?y)) (opened ?d))))
     :effect (and (at ?x ?y ?rel) (free pr2) (not (holding pr2 ?x))))
 
-  ; Turn a knob; what it controls starts or stops.
+  ; Turn the knob x to s; what it controls starts or stops.
   (:action turn
     :parameters (?x - part ?s - setting)
     :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)))
@@ -105,7 +105,7 @@
       (forall (?p - part) (when (and (controls ?x ?p) (not (idle ?s))) (active ?p)))
       (forall (?p - part) (when (and (controls ?x ?p) (idle ?s)) (not (active ?p))))))
 
-  ; Press a button; what it controls starts, if it runs not yet and no lid stands open, or stops.
+  ; Press the button x; what it controls starts, if it runs not yet and no lid stands open, or stops.
   (:action press
     :parameters (?x - part)
     :precondition (and (near pr2 ?x) (pressable ?x)
@@ -124,7 +124,7 @@
       (forall (?v - tube ?p - part ?y - station)
         (when (and (at ?v ?y in) (spins ?p ?y) (active ?p)) (separated ?v)))))
 
-  ; Draw some of s into the pipette in the hand. The vessel keeps the rest.
+  ; Draw some s from v into the pipette x, which is in the hand. The vessel keeps the rest.
   (:action draw
     :parameters (?x - tool ?s - substance ?v - vessel)
     :precondition (and (holding pr2 ?x) (draws ?x) (contains ?v ?s)
@@ -133,7 +133,7 @@
       (forall (?t - substance) (not (loaded ?x ?t))))
     :effect (loaded ?x ?s))
 
-  ; Let what is in the pipette out into a vessel.
+  ; Let the s that is in the pipette x out into v.
   (:action dispense
     :parameters (?x - tool ?s - substance ?v - vessel)
     :precondition (and (holding pr2 ?x) (loaded ?x ?s)
@@ -141,7 +141,7 @@
         (and (near pr2 ?y) (at ?v ?y ?rel) (forall (?d - part) (or (not (shuts ?d ?y)) (opened ?d))))))
     :effect (and (contains ?v ?s) (not (loaded ?x ?s))))
 
-  ; Pour all that is in x into y.
+  ; Pour all that is in x into v.
   (:action pour
     :parameters (?x - vessel ?v - vessel)
     :precondition (and (holding pr2 ?x)
@@ -153,7 +153,7 @@
       (forall (?s - substance) (not (contains ?x ?s)))
       (when (hot ?x) (and (hot ?v) (not (hot ?x))))))
 
-  ; Write a label on a vessel, with the pen in the hand.
+  ; Write a label on v with the pen x, which is in the hand.
   (:action label
     :parameters (?x - tool ?v - vessel)
     :precondition (and (holding pr2 ?x) (writes ?x)

@@ -217,7 +217,7 @@
         (when (and (fits ?x ?y) (at ?x ?y in) (part_of ?z ?y)) (not (active ?z))))
       (not (heating ?x))))
 
-  ; Open the gripper: x lands where the robot stands.
+  ; Let x fall: the gripper opens, and x lands where the robot stands.
   (:action release
     :parameters (?x - item)
     :precondition (holding pr2 ?x)
@@ -229,7 +229,7 @@
       (when (one_hand_used pr2) (not (one_hand_used pr2)))
       (forall (?y - fixture) (when (standing_at pr2 ?y) (at ?x ?y on)))))
 
-  ; Put x down so that it is on, in or next to y. To reach inside, the door, lid or bag must be open; a microwave
+  ; Put x on, in or next to y. To reach inside, the door, lid or bag must be open; a microwave
   ; takes no metal, and heats x if it runs.
   (:action keep
     :parameters (?x - item ?y - thing ?rel - relation)
@@ -245,7 +245,7 @@
       (at ?x ?y ?rel)
       (when (and (heats ?y ?rel) (active ?y)) (heating ?x))))
 
-  ; Open the door, drawer, lid, bag or curtain x; it takes a free hand, as do closing, pressing and turning. What it
+  ; Open x, a door, drawer, lid, bag or curtain; it takes a free hand, as do closing, pressing and turning. What it
   ; hid can be seen; what must not run with x open stops.
   (:action open
     :parameters (?x - thing)
@@ -271,7 +271,7 @@
       (forall (?y - thing ?z - item ?w - part)
         (when (and (guards ?x ?y) (part_of ?w ?z) (at ?z ?y in)) (hidden ?w)))))
 
-  ; Press the button or switch x. What it controls starts, or stops if it was working; channel or volume go one
+  ; Press x, a button or switch. What it controls starts, or stops if it was working; channel or volume go one
   ; further, and for these the television or player has to be on. The buttons of a remote control want it in the hand.
   (:action press
     :parameters (?x - part)
@@ -309,7 +309,7 @@
       (forall (?y - part ?d - direction ?s - setting ?t - setting)
         (when (and (shifts ?x ?y ?d) (leads ?s ?d ?t) (set_to ?y ?s)) (not (set_to ?y ?s))))))
 
-  ; Turn the knob x to the setting s. What it controls works at every setting but the idle one.
+  ; Turn the knob x to s. What it controls works at every setting but the idle one.
   (:action turn
     :parameters (?x - part ?s - setting)
     :precondition (and (near pr2 ?x) (offers ?x ?s) (not (set_to ?x ?s)) (not (both_hands_used pr2)))

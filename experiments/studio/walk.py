@@ -100,6 +100,8 @@ def pictures(browser: Browser, url: str, directory: Path) -> None:
             page.screenshot(path=directory / f"{stem}-1-first.png")
             say(page, TEXT)
             page.locator("[data-step='6']").first.click()
+            page.locator("#tmd-over").filter(has_text="6 / ").wait_for()  # drawn by software, that may take seconds
+            page.locator("[data-step='6'] [aria-current=step]").first.wait_for()
             page.wait_for_timeout(2_000)
             page.screenshot(path=directory / f"{stem}-2-plan.png")
             press(page, "Correct this plan")

@@ -37,7 +37,7 @@ class Wire:
         self.identity = identity
         self.page = json.dumps({"search": search, "dark": dark, "plan": plan})
         self._happened: list[dict[str, object]] = []
-        self.told_page: list[dict[str, str]] = []
+        self.told_page: list[dict[str, Any]] = []
         self.elements: dict[str, dict[str, Any]] = {}
         self._news = threading.Condition()
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -86,6 +86,10 @@ class Wire:
     def send(self, message: dict[str, Any]) -> None:
         """Send one message."""
         self._socket.send(msgspec.msgpack.encode(message))
+
+    def looks(self, position: tuple[float, ...], wxyz: tuple[float, ...]) -> None:
+        """Move the camera."""
+        self.send({**_CAMERA, "position": position, "wxyz": wxyz})
 
     def garbage(self, data: bytes) -> None:
         """Send what no page would send."""

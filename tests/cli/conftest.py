@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import signal
+import socket
 import subprocess
 import sys
+import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory, TemporaryFile
 
 import pytest
+
+from tests.cli.fork_server import PATIENCE, ask
 
 ROOT = Path(__file__).resolve().parents[2]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
@@ -33,6 +41,32 @@ def heed_interrupts() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
+@cache
+def fork_server() -> str:
+    """The socket of a process that has imported everything, and carries out each command in a fork of itself."""
+    directory = TemporaryDirectory(prefix="tmd-fork-")
+    address = Path(directory.name) / "socket"
+    process = subprocess.Popen([sys.executable, "-m", "tests.cli.fork_server", address], cwd=ROOT, env=_environ({}))
+
+    def end() -> None:
+        process.kill()
+        process.wait()
+        directory.cleanup()
+
+    atexit.register(end)
+    for _ in range(PATIENCE * 20):
+        with socket.socket(socket.AF_UNIX) as connection, suppress(OSError):
+            connection.connect(str(address))
+            return str(address)
+        assert process.poll() is None, "the process that carries out commands has ended"
+        time.sleep(0.05)
+    raise TimeoutError("the process that carries out commands does not begin")
+
+
+def _environ(more: Mapping[str, str]) -> dict[str, str]:
+    return {**os.environ, "PYTHONPATH": str(ROOT), **more}
+
+
 def run_tmd(
     arguments: Sequence[str | Path],
     cwd: Path,
@@ -41,17 +75,29 @@ def run_tmd(
     env: Mapping[str, str] | None = None,
     before: str = "",
 ) -> Ended:
-    """Run ``tmd`` in ``cwd``; ``before`` is Python that is executed first, to take something away from it."""
+    """Run ``tmd`` in ``cwd``; ``before`` is Python that is executed first, to take something away from it.
+
+    With another environment, or something taken away, it is started from nothing.
+    """
+    words = list(map(str, arguments))
+    if not env and not before:
+        with TemporaryFile() as given, TemporaryFile() as out, TemporaryFile() as err:
+            given.write(stdin)
+            for stream in (given, out, err):
+                stream.seek(0)
+            code = ask(fork_server(), words, str(cwd), _environ({}), (given.fileno(), out.fileno(), err.fileno()))
+            said = [stream.seek(0) or stream.read().decode("utf-8") for stream in (out, err)]
+        return Ended(code, *said)
     start = [sys.executable, "-m", "tmd"]
     if before:
         start = [sys.executable, "-c", f"{before}\nfrom tmd.cli import main\nmain()"]
     done = subprocess.run(
-        [*start, *map(str, arguments)],
+        [*start, *words],
         cwd=cwd,
-        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        env=_environ(env or {}),
         input=stdin,
         capture_output=True,
-        timeout=240,
+        timeout=PATIENCE,
         check=False,
     )
     return Ended(done.returncode, done.stdout.decode("utf-8"), done.stderr.decode("utf-8"))

@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Ended, heed_interrupts, run_tmd
+from tests.cli.conftest import Ended, fork_server, heed_interrupts, run_tmd
 from tmd import __version__
 from tmd.diagnostics import DataError, ExitCode, MissingToolError, TmdError
 from tmd.evaluation.models import model
@@ -140,7 +140,8 @@ def test_the_script_for_slurm(tmp_path: Path, serial: dict[str, bytes]) -> None:
     (tmp_path / "all.sh").write_text(text)
     tmd = tmp_path / "bin" / "tmd"
     tmd.parent.mkdir()
-    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tmd "$@"\n')
+    forked = f"-I -S {ROOT}/tests/cli/fork_server.py {fork_server()}"
+    tmd.write_text(f'#!/bin/sh\nexec "{sys.executable}" {forked} "$@"\n')
     tmd.chmod(0o755)
     path = {"PATH": f"{tmd.parent}{os.pathsep}{os.environ['PATH']}", "PYTHONPATH": str(ROOT)}
 

@@ -257,7 +257,7 @@ def test_learning_raises_the_likelihood(data: Kitchens, lessons: list[Example], 
     values = [likelihood(features, np.zeros(features.size), made)]
     for rounds in (1, 3, 8):
         theta = ascend(features, made, np.random.default_rng(0), rounds=rounds, rate=0.2, ridge=1.0)
-        values.append(likelihood(features, theta, made) - 0.5 * float(theta @ theta))
+        values.append(likelihood(features, theta, made) - 0.5 * float(features.ridge() @ theta**2))
     assert values == sorted(values) and values[-1] > 0.5 * values[0]
     assert tree.rewards_["kitchen"].before < tree.rewards_["kitchen"].after < 0
 
@@ -312,8 +312,8 @@ def test_actions_that_training_never_had_surprise_and_break_nothing() -> None:
     assert "squeeze" not in policy.reward.features.actions
     things = sorted(name for name in policy.menu.things.kinds if name.endswith("1"))
     unseen = Instruction("squeeze", (things[0], things[1]))
-    (clause,) = parse("fill the kettle", data.lexicon).clauses
-    (score, found), *_ = policy.best(clause, (), (unseen,))
+    clauses = parse("fill the kettle", data.lexicon).clauses
+    (score, found), *_ = policy.best(clauses, 0, (unseen,))
     assert np.isfinite(score)
     assert found
-    assert policy.surprise(clause, (), (unseen,), (unseen, *found)) > policy.surprise(clause, (), (unseen,), found)
+    assert policy.surprise(clauses, 0, (unseen,), (unseen, *found)) > policy.surprise(clauses, 0, (unseen,), found)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+import pytest
+
 import tmd
 from tmd.domain_kit import DomainKit
 from tmd.grounded import Grounded
@@ -14,6 +16,11 @@ from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def _taught(learned: Path) -> None:
+    """What the larger domains teach is learned once for all tests."""
 
 
 @cache

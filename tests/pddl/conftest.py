@@ -6,15 +6,17 @@ import importlib.util
 import re
 import subprocess
 import sys
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from dataclasses import replace as dataclass_replace
+from functools import cache
 from itertools import product
 from pathlib import Path
 from random import Random
 
 import pytest
 
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import (
     TRUE,
     ActionSchema,
@@ -38,6 +40,7 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import read_domain, read_problem
+from tmd.pddl.task import Task
 from tmd.pddl.writer import format_domain, format_problem
 from tmd.world.compile import compile_problem
 from tmd.world.environment import load_environment
@@ -61,8 +64,25 @@ def _cases() -> Iterator[tuple[str, Path, Path]]:
             yield f"{domain.parent.name}-{environment.stem}", domain, environment
 
 
+def few_cases(test: Callable[..., None]) -> Callable[..., None]:
+    """Of each bundled domain the first environment and the last problem only: the others are much like them."""
+    vars(test)["few"] = True
+    return test
+
+
+def _of_few(cases: Mapping[str, tuple[Path, Path]]) -> dict[str, tuple[Path, Path]]:
+    last = {domain: problem for domain, problem in cases.values() if problem.suffix == ".pddl"}
+    return {
+        name: (domain, problem)
+        for name, (domain, problem) in cases.items()
+        if OWN in domain.parents or "environments" in problem.parts or problem == last[domain]
+    }
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     cases = {name: (domain, problem) for name, domain, problem in _cases()}
+    if getattr(metafunc.function, "few", False):
+        cases = _of_few(cases)
     if "paths" in metafunc.fixturenames:
         metafunc.parametrize("paths", list(cases.values()), ids=list(cases))
     if "seed" in metafunc.fixturenames:
@@ -72,12 +92,28 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         metafunc.parametrize("plan_path", plans, ids=[f"{p.parents[1].name}-{p.stem}" for p in plans])
 
 
+@cache
+def _read(domain: Path, problem: Path) -> Problem:
+    if problem.suffix == ".yaml":
+        return compile_problem(load_environment(problem), DomainFolder(domain.parent))
+    return read_problem(problem, read_domain(domain))
+
+
+@cache
+def _ground(domain: Path, problem: Path) -> Task:
+    return ground(_read(domain, problem))
+
+
 @pytest.fixture
 def problem(paths: tuple[Path, Path]) -> Problem:
     """The problem of a case; an environment is compiled to one."""
-    if paths[1].suffix == ".yaml":
-        return compile_problem(load_environment(paths[1]), DomainFolder(paths[0].parent))
-    return read_problem(paths[1], read_domain(paths[0]))
+    return _read(*paths)
+
+
+@pytest.fixture
+def task(paths: tuple[Path, Path]) -> Task:
+    """The problem of a case, ground."""
+    return _ground(*paths)
 
 
 @pytest.fixture

@@ -20,6 +20,8 @@ from tmd.pddl.task import Task
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_domain, format_formula, format_problem
 
+from .conftest import few_cases
+
 STEPS = 25
 Outside: TypeAlias = Any
 """An object of a tool that ships no types."""
@@ -57,9 +59,9 @@ def test_val_gives_the_same_verdict(
         assert value == ours.cost
 
 
-def test_val_follows_random_walks(problem: Problem, write: Callable[..., Any], val: Outside) -> None:
+@few_cases
+def test_val_follows_random_walks(problem: Problem, task: Task, write: Callable[..., Any], val: Outside) -> None:
     """A random walk is executable, and stops being so at the step where a broken instruction is put in."""
-    task = ground(problem)
     rng = Random(5)
     walk: list[Instruction] = []
     bits = task.init
@@ -78,11 +80,11 @@ def test_val_follows_random_walks(problem: Problem, write: Callable[..., Any], v
     assert validate(problem, (*walk, broken.instruction)).step == len(walk) + 1
 
 
+@few_cases
 def test_fast_downward_has_the_same_instructions_and_successors(
-    problem: Problem, write: Callable[..., Any], translate: Callable[..., Any]
+    problem: Problem, task: Task, write: Callable[..., Any], translate: Callable[..., Any]
 ) -> None:
     """We leave out no operator of theirs, except such as never apply in truth."""
-    task = ground(problem)
     sas = translate(write(problem))
     assert {o.instruction.pddl()[1:-1] for o in task.operators} <= {name for name, _, _ in sas.operators}
     _same_successors(task, sas)
@@ -134,6 +136,7 @@ def test_val_agrees_on_random_problems(random_problem: Problem, write: Callable[
             assert step == ours.step
 
 
+@few_cases
 def test_pddl_package_reads_and_writes_it(
     problem: Problem, write: Callable[..., Any], fixed_costs: Callable[[Problem], bool]
 ) -> None:
@@ -176,11 +179,11 @@ def _their_action(unified: Outside, instruction: Instruction) -> Outside:
     return ActionInstance(unified.action(instruction.name), arguments)
 
 
-def test_unified_planning_has_the_same_successors(problem: Problem, unified: Outside) -> None:
+@few_cases
+def test_unified_planning_has_the_same_successors(problem: Problem, task: Task, unified: Outside) -> None:
     """Its simulator takes up to a second a question, so few of them."""
     from unified_planning.engines.sequential_simulator import UPSequentialSimulator
 
-    task = ground(problem)
     simulator = UPSequentialSimulator(unified, error_on_failed_checks=False)
     rng = Random(3)
     state, theirs = problem.init, simulator.get_initial_state()

@@ -15,6 +15,8 @@ from tmd.pddl.model import Instruction, Problem, State, universe
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task
 
+from .conftest import few_cases
+
 
 def _instructions(problem: Problem) -> list[Instruction]:
     """Every instruction whose arguments have the right types."""
@@ -50,8 +52,8 @@ def _walk(problem: Problem, task: Task, start: State, steps: int, rng: Random) -
     return states
 
 
-def test_cases(problem: Problem) -> None:
-    task = ground(problem)
+@few_cases
+def test_cases(problem: Problem, task: Task) -> None:
     assert semantics.close(task.decode(task.init), problem) == problem.init
     _walk(problem, task, problem.init, 15 if len(task.atoms) < 100 else 3, Random(1))
 
@@ -102,9 +104,8 @@ def test_conditions_over_a_task(random_problem: Problem) -> None:
             assert any(c.holds(task.init) for c in cubes) == expected
 
 
-def test_every_atom_can_change(problem: Problem) -> None:
+def test_every_atom_can_change(task: Task) -> None:
     """No bit is wasted on an atom that holds at the start and that no operator deletes."""
-    task = ground(problem)
     deleted = added = 0
     for operator in task.operators:
         deleted |= operator.delete
@@ -117,14 +118,14 @@ def test_every_atom_can_change(problem: Problem) -> None:
         assert deleted & bit if task.init & bit else added & bit, task.atoms[number]
 
 
-def test_what_never_applies_is_left_out(problem: Problem) -> None:
-    names = {o.instruction.name for o in ground(problem).operators}
+def test_what_never_applies_is_left_out(task: Task) -> None:
+    names = {o.instruction.name for o in task.operators}
     assert not names & {"paint", "unready"}
 
 
-def test_the_same_bytes_each_time(problem: Problem) -> None:
-    shuffled = replace(problem, init=frozenset(sorted(problem.init, reverse=True)))
-    task, again = ground(problem), ground(shuffled)
+@few_cases
+def test_the_same_bytes_each_time(problem: Problem, task: Task) -> None:
+    again = ground(replace(problem, init=frozenset(sorted(problem.init, reverse=True))))
     assert repr((task.atoms, task.init, task.goal, task.operators)) == repr(
         (again.atoms, again.init, again.goal, again.operators)
     )

@@ -7,10 +7,11 @@ from random import Random
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tmd.pddl.grounding.ground_task import ground
-from tmd.pddl.model import Instruction, Problem
+from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import regress
-from tmd.pddl.task import ConditionalEffect, Cube, Operator
+from tmd.pddl.task import ConditionalEffect, Cube, Operator, Task
+
+from .conftest import few_cases
 
 WIDTH = 5
 bits = st.integers(0, 2**WIDTH - 1)
@@ -63,9 +64,9 @@ def test_sparse_cubes(cube: Cube, operator: Operator, loose: int) -> None:
     _exact(cube, weak, list(range(2**WIDTH)))
 
 
-def test_of_ground_operators(problem: Problem) -> None:
+@few_cases
+def test_of_ground_operators(task: Task) -> None:
     """Over the operators of real problems, in states that differ from reachable ones in some atoms."""
-    task = ground(problem)
     rng = Random(8)
     width = len(task.atoms)
     for _ in range(150):

@@ -40,8 +40,8 @@ def test_there_are_enough(queries_of: Queries) -> None:
 
 
 def test_hardly_any_search_ends_at_its_cap(queries_of: Queries) -> None:
-    """Of what Fast Downward solved in ten seconds, 99 % is solved within the usual cap: asked of every third."""
-    solvable = [query for name in NAMES for query in queries_of(name) if query.verdict == "solved"][::3]
+    """Of what Fast Downward solved in ten seconds, 99 % is solved within the usual cap: asked of every sixth."""
+    solvable = [query for name in NAMES for query in queries_of(name) if query.verdict == "solved"][::6]
     fillers = {name: GapFiller(queries_of(name)[0].task) for name in NAMES}
     capped = [
         query.name
@@ -88,7 +88,7 @@ def _replayed(query: Query, answer: Filled) -> None:
 def test_a_sample_is_asked_of_fast_downward_again(queries_of: Queries) -> None:
     pytest.importorskip("up_fast_downward", reason="Fast Downward is not installed")
     queries = [query for query in queries_of(NAMES[0]) if query.verdict != "gave up"]
-    chosen = queries[1 :: len(queries) // 3][:3]
+    chosen = queries[len(queries) // 2 :][:1]
     reference = fast_downward(queries[0].task)
     try:
         task = queries[0].task

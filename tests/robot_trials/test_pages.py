@@ -109,7 +109,7 @@ def test_what_a_robot_did_stands_on_the_page(tmp_path: Path) -> None:
     assert write_pages(config, carried_out=True) == 1 and len(linked_pages(tmp_path)) == 2
     html = (tmp_path / "pages" / "full-ramen-kitchen1-1.html").read_text()
     places = [html.index(f'id="step-{n}"') for n in (1, 2)]
-    assert places[0] < html.index("in view") < html.index("inferred: (found pr2 mug1)") < places[1]
+    assert places[0] < html.index(": in view<") < html.index("inferred: (found pr2 mug1)") < places[1]
     assert places[1] < html.index("no way") < html.index("again") < html.index(": near<")
     assert "recovered" in html and len(links(write_report(tmp_path))) == 3
 

@@ -63,16 +63,21 @@ def test_an_instruction_is_told_in_words(kitchen1: World) -> None:
     wording = Offers(kitchen1).wording
     for instruction, words in (
         ("moveto(pot1)", "Go and stand before pot1"),
-        ("keep(pot1, sink1, in)", "Put pot1 down so that it is in sink1"),
-        ("release(pot1)", "release pot1"),
+        ("keep(pot1, sink1, in)", "Put pot1 in sink1"),
+        ("turn(sink1_handle, high)", "Turn the knob sink1_handle to high"),
         ("juggle(a, b)", "juggle a, b"),
     ):
         assert wording.instruction(parse_instruction(instruction)) == words
     steps = [("wait()", "clause 1", False), ("find(x)", "clause 1", False)]
     html = step_list(steps, 1, words=["Let <time> pass", "y"])
-    assert (
-        "<p class='said'>Let &lt;time&gt; pass</p>" in html and 'title="y"' in html and "<p class='said'>y" not in html
-    )
+    assert "▸ Let &lt;time&gt; pass</span>" in html and "<code>wait()</code>" in html
+    assert 'title="find(x)"' in html and ">y</span>" in html and "<code>find(x)" not in html
+
+
+def test_what_is_said_alike_is_told_apart(kitchen1: World) -> None:
+    alike = [parse_instruction(line) for line in ("release(pot1)", "throw_up()", "throw(up)")]
+    told = Offers(kitchen1).wording.by_words(alike)
+    assert list(told) == ["Let pot1 fall", "throw up: throw_up()", "throw up: throw(up)"] and [*told.values()] == alike
 
 
 def test_what_cannot_be_done_is_listed_with_what_it_lacks(kitchen1: World) -> None:

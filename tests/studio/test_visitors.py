@@ -30,6 +30,14 @@ VISITORS = 10
 TEXT = "Put the cup on the shelf"
 STEPS = ("moveto(cup1)", "grasp(cup1)", "moveto(shelf1)", "keep(cup1, shelf1, on)")
 OBJECTS = ("cup1", "cup1", "shelf1", "shelf1")
+SAID = dict(
+    zip(
+        STEPS,
+        ("Go and stand before cup1", "Take cup1", "Go and stand before shelf1", "Put cup1 on shelf1"),
+        strict=True,
+    )
+)
+"""What the page calls them."""
 
 
 @pytest.fixture
@@ -54,8 +62,8 @@ def begin(visitor: Wire, text: str) -> None:
 def do(visitor: Wire, name: str, instruction: str) -> None:
     if visitor.elements[visitor.find("With")]["value"] != name:
         visitor.put("With", name)
-    visitor.press(instruction)
-    visitor.shows(f"▸ {instruction}")
+    visitor.press(SAID[instruction])
+    visitor.shows(f"▸ {SAID[instruction]}")
 
 
 def test_ten_visitors_at_once(server: Server) -> None:
@@ -282,6 +290,7 @@ def test_nothing_is_thrown_away_without_asking(server: Server) -> None:
         visitor.press("Plan it")
         visitor.told("Planned in")
         visitor.press("Correct this plan")
+        visitor.told("The plan is under Correct")
         visitor.press("Done: look at it, and save it")
         visitor.press("Throw it away, and take the plan")
         visitor.told("The corrected plan is under Demonstrate")
@@ -340,12 +349,12 @@ def test_the_plan_of_before_is_there_at_once_and_planned_again_behind(
         go_on.clear()
         with Wire(server.url, None, link, plan=plan) as again:
             again.told("Here is the plan that you looked at")
-            again.shows(f"▸ {STEPS[1]}")
+            again.shows(f"▸ {SAID[STEPS[1]]}")
             again.happens(step=1, list="say")
-            again.shows(f"▸ {STEPS[0]}")
+            again.shows(f"▸ {SAID[STEPS[0]]}")
             go_on.set()
             again.told(answer)
-            again.shows(f"▸ {STEPS[0]}")
+            again.shows(f"▸ {SAID[STEPS[0]]}")
     for damaged in ("[", "[[1,2,3]]", '[["grasp(cup9)",0,false]]', '[["keep(cup1, shelf1, on)",0,false]]', "[" * 9_000):
         go_on.clear()
         with Wire(server.url, None, link, plan=damaged) as again:
@@ -365,7 +374,7 @@ def test_what_was_not_saved_is_there_again_after_a_reload(server: Server) -> Non
         identity = visitor.identity
     with Wire(server.url, identity, "?tab=Demonstrate") as again:
         again.told("Here is what was not saved: 1 steps")
-        again.shows(f"▸ {STEPS[0]}")
+        again.shows(f"▸ {SAID[STEPS[0]]}")
 
 
 def test_a_correction_that_is_not_done_is_there_again(server: Server) -> None:
@@ -425,7 +434,7 @@ def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
         visitor.press("Correct this plan")
         visitor.told("The plan is under Correct")
         visitor.happens(step=3, list="correct")
-        visitor.shows(f"▸ {STEPS[2]}")
+        visitor.shows(f"▸ {SAID[STEPS[2]]}")
         visitor.shows("3 / 4 ")
         visitor.happens(move=1, to=2)
         visitor.shows("Step 1 does not apply.")
@@ -440,16 +449,16 @@ def test_a_plan_is_edited_by_clicking_and_dragging(server: Server) -> None:
             visitor.happens(**event)
         visitor.put(EVENT, "[" * 9_000)
         visitor.happens(step=1, list="correct")
-        visitor.shows(f"▸ {STEPS[0]}")
+        visitor.shows(f"▸ {SAID[STEPS[0]]}")
 
 
 def test_what_is_not_possible_yet_is_done_with_what_it_needs(server: Server) -> None:
     with Wire(server.url) as visitor:
         begin(visitor, f"{TEXT}.")
         visitor.put("With", "cup1")
-        wanted = "keep(cup1, shelf1, on)"
+        wanted = "Put cup1 on shelf1"
         visitor.until(lambda: wanted in visitor.elements[visitor.find("Not possible yet")]["options"])
-        visitor.put("Not possible yet", "keep(cup1, shelf1, on)")
+        visitor.put("Not possible yet", wanted)
         visitor.press("Do that, and first what it needs")
         visitor.told("Done, with 3 steps before it.")
         visitor.press("Save (K)")
@@ -491,8 +500,8 @@ def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> Non
             visitor.told(answer)
         begin(visitor, "Take the second cup.")
         visitor.put("With", "cup2")
-        visitor.until(lambda: "grasp(cup2)" in visitor.elements[visitor.find("Not possible yet")]["options"])
-        visitor.put("Not possible yet", "grasp(cup2)")
+        visitor.until(lambda: "Take cup2" in visitor.elements[visitor.find("Not possible yet")]["options"])
+        visitor.put("Not possible yet", "Take cup2")
         visitor.press("Do that, and first what it needs")
         visitor.told("before it")
         visitor.press("Save (K)")
@@ -500,6 +509,31 @@ def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> Non
     assert (directory / "corner1.yaml").read_text() == before
     assert "cup2" in (directory / "full_shelf.yaml").read_text()
     assert Corpus(server.studio.corpus.folder, server.studio.corpus.directory).demonstrations()
+
+
+def test_the_name_of_what_the_pointer_rests_on(server: Server) -> None:
+    look = server.studio.setting("corner1").look
+    assert look is not None
+    x, y, z = look.first.poses["cup1"].position
+    down = (0.0, 1.0, 0.0, 0.0)  # the camera's z looks down
+    with Wire(server.url) as visitor:
+        visitor.happens(over=[0, 0], asked=-1)
+        visitor.until(lambda: visitor.told_page)  # the room is there, and the camera looks at it
+        for asked, (camera, place, name) in enumerate(
+            (
+                ((x, y, z + 1.0), [0.5, 0.5], "cup1"),
+                ((x, y, z - 1.0), [0.5, 0.5], ""),
+                ((x, y, z + 1.0), [7, "b"], None),
+                ((x, y, z + 1.0), [0.5, 0.5, 0.5], None),
+                ((x, y, z + 1.0), [0.51, 0.49], "cup1"),
+            )
+        ):
+            visitor.looks(camera, down)
+            visitor.happens(over=place, asked=asked)
+            if name is not None:
+                visitor.until(lambda told={"name": {"asked": asked, "words": name}}: told in visitor.told_page)
+        names = [told["name"] for told in visitor.told_page if "name" in told]
+        assert len(names) == 4
 
 
 def test_what_has_no_picture_has_its_object_graphs_drawn_and_no_robot(

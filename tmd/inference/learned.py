@@ -85,6 +85,7 @@ class PolicyRecord:
     shapes: list[tuple[str, tuple[str, ...]]]
     needs: list[tuple[str, int, tuple[str, ...]]]
     longest: Annotated[int, Field(ge=0, le=10_000)]
+    facts: list[tuple[str, int]]
     before: Annotated[float, Field(allow_inf_nan=False)]
     after: Annotated[float, Field(allow_inf_nan=False)]
 
@@ -200,6 +201,7 @@ def reward_to_json(reward: Reward) -> bytes:
                 shapes=list(syntax.shapes),
                 needs=[(name, place, earlier) for (name, place), earlier in syntax.needs.items()],
                 longest=syntax.longest,
+                facts=list(features.facts),
                 before=reward.before,
                 after=reward.after,
             )
@@ -219,7 +221,9 @@ def reward_from_json(data: bytes, weights: bytes) -> Reward:
     """
     record = read_record(PolicyRecord, data)
     needs = {(name, place): earlier for name, place, earlier in record.needs}
-    features = Features(record.words, record.properties, Syntax(tuple(record.shapes), needs, record.longest))
+    features = Features(
+        record.words, record.properties, Syntax(tuple(record.shapes), needs, record.longest), record.facts
+    )
     # what is saved is always of one form: numpy need not find out what an unknown header may mean
     header = io.BytesIO()
     np.lib.format.write_array_header_1_0(

@@ -2,6 +2,10 @@
 
 It is the reward of the paper's Instruction-Tree baseline, and beyond the paper a second source of candidates for
 inference (the preset ``policy``). Here: the features of what may come next, proposing sequences, and learning them.
+
+The paper's has the words of the clause and the sequence so far. Ours is *grounded*: it knows besides which objects the
+nouns of this clause, of those before and of those to come may mean, the words of the whole text, whether an instruction
+applies in the state that was reached and changes it, and what holds there of the objects that it names.
 """
 
 from __future__ import annotations
@@ -19,6 +23,7 @@ from numpy.typing import NDArray
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import OBJECT, Instruction
+from tmd.pddl.task import Bits
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import lessons
 from tmd.veil.world import World
@@ -156,6 +161,22 @@ _MET = 4
 """How much of what a clause mentions was named: it mentions nothing; nothing was; some; all."""
 REALS = 2
 """The features that are numbers: the share of instructions that are no repeats, and (of STOP) the length so far."""
+_WHERE = 3
+"""Places of a clause in its text that are told apart: the first, the last, between."""
+_BEGUN = 4
+"""Numbers of instructions of the clause so far that are told apart with each action; more are alike."""
+_LENGTHS = 13
+"""The same for the end of the sequence."""
+_REPEATS = 6
+"""How often an instruction was done (never, once, more often), in this clause or before it."""
+_APPLIES, _CHANGES, _UNKNOWN = 1, 2, 3
+_EFFECTS = 4
+"""What an instruction would do now: it does not apply; it changes nothing; it changes something; it never applies."""
+_TABLE_RIDGE, _TEXT_RIDGE = 3.0, 12.0
+"""How much more the squared weights of words count in a grounded policy than those of its other features.
+
+There are a hundred times as many of them. By the likelihood of folds of VEIL-500's training environments.
+"""
 
 
 def properties(choice: Instruction, things: KnownObjects) -> list[tuple[str, ...]]:
@@ -179,11 +200,48 @@ def followers(before: Instruction | None, position: int, things: KnownObjects) -
     return found
 
 
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What a text says, seen from one of its clauses.
+
+    Attributes:
+        words: The numbers of the clause's words.
+        text: The numbers of the words of the whole text.
+        levels: How far the clause mentions each thing of the menu (0 not at all), with a last 0 for no thing.
+        later: 1 for each thing that a clause to come mentions.
+        where: 0 for the first clause of the text, 2 for the last one, 1 for those between.
+    """
+
+    words: Ints
+    text: Ints
+    levels: Ints
+    later: Ints
+    where: int
+
+
 class Node(NamedTuple):
     """A node of the tree: what was chosen for earlier clauses, and for this one."""
 
     earlier: tuple[Instruction, ...] = ()
     own: tuple[Instruction, ...] = ()
+
+
+class Parts(NamedTuple):
+    """The weights, part by part.
+
+    Attributes:
+        local: Words × properties, for the words of the clause and those of the sequence so far.
+        text: The same for the words of the whole text; ``None`` where the policy is not grounded.
+        paired: What is met or not.
+        facts: Places × facts.
+        reals: The features that are numbers.
+    """
+
+    local: Floats
+    text: Floats | None
+    paired: Floats
+    facts: Floats
+    reals: Floats
 
 
 class Features:
@@ -193,6 +251,8 @@ class Features:
         words: The words of the training clauses, with those of :func:`followers`.
         seen: The :func:`properties` of the training instructions.
         syntax: The constraints.
+        facts: What may hold of a thing: a predicate and the place of the thing. Without any the policy knows no states,
+            no words but the clause's and nothing of what is still to come, as the paper's baseline.
 
     Attributes:
         words: The numbers of the words.
@@ -200,12 +260,21 @@ class Features:
         actions: The numbers of the actions, STOP among them.
         places: The numbers of the argument places.
         arity: The greatest number of arguments.
-        starts: Where each block of the features after the matrix begins, counted from the matrix's end.
-        size: How many features there are. The matrix comes first, the :data:`REALS` last.
+        facts: The numbers of the facts.
+        starts: Where each block of the paired features begins, counted from the first of them.
+        shape: Words × properties: the matrix that comes first. A grounded policy has a second one for the whole text.
+        size: How many features there are: the matrices, the paired ones, places × facts, and :data:`REALS`.
     """
 
-    def __init__(self, words: Iterable[str], seen: Iterable[tuple[str, ...]], syntax: Syntax) -> None:
+    def __init__(
+        self,
+        words: Iterable[str],
+        seen: Iterable[tuple[str, ...]],
+        syntax: Syntax,
+        facts: Iterable[tuple[str, int]] = (),
+    ) -> None:
         self.syntax = syntax
+        self.facts = {fact: number for number, fact in enumerate(sorted(set(facts)))}
         self.words = {word: number for number, word in enumerate(sorted(set(words)))}
         self.properties = {name: number for number, name in enumerate(sorted({*seen, (STOP.name,)}))}
         self.actions = {n: i for i, n in enumerate(sorted({STOP.name, *(name for name, _ in syntax.shapes)}))}
@@ -214,14 +283,54 @@ class Features:
         self.arity = max((len(kinds) for _, kinds in syntax.shapes), default=0)
         # one more place stands for "no such argument", one more action for "none before"
         n, p = len(self.actions), len(self.places) + 1
-        blocks = (p * _LEVELS, p * _RECENCIES, p * (n + 1), (n + 1) * n * 2, n * 2, 1 + _MET)
+        blocks = [p * _LEVELS, p * _RECENCIES, p * (n + 1), (n + 1) * n * 2, n * 2, 1 + _MET]
+        if self.facts:
+            blocks += [p * _LEVELS * _RECENCIES, p * 4, (n + 1) * (n + 1) * n, n * _REPEATS, n * _WHERE * _BEGUN]
+            blocks += [n * _EFFECTS, n * _MET, 1 + _MET * _WHERE * _LENGTHS]
         self.starts = np.cumsum((0, *blocks))
         self.shape = (len(self.words), len(self.properties))
-        self.size = len(self.words) * len(self.properties) + int(self.starts[-1]) + REALS
+        matrix = len(self.words) * len(self.properties)
+        parts = (matrix, matrix if self.facts else 0, int(self.starts[-1]), p * len(self.facts), REALS)
+        self._ends = np.cumsum(parts).tolist()
+        self.size: int = self._ends[-1]
+
+    def parts(self, theta: Floats) -> Parts:
+        """Views of the weights (or of anything of their size), part by part."""
+        local, text, paired, facts, reals = np.split(theta, self._ends[:-1])
+        places = len(self.places) + 1
+        whole = text.reshape(self.shape) if self.facts else None
+        return Parts(local.reshape(self.shape), whole, paired, facts.reshape(places, len(self.facts)), reals)
+
+    def ridge(self) -> Floats:
+        """How much the square of each weight counts: alike in the paper's baseline."""
+        found: Floats = np.ones(self.size)
+        parts = self.parts(found)
+        if parts.text is not None:
+            parts.local[:] = _TABLE_RIDGE
+            parts.text[:] = _TEXT_RIDGE
+        return found
 
     def known(self, words: Iterable[str]) -> Ints:
         """The numbers of those words that training had."""
         return np.array(sorted({self.words[w] for w in words if w in self.words}), np.int64)
+
+
+_FACT_PLACES = 2
+"""What an atom says of its first two arguments is looked at; a third one is mostly a word of the domain."""
+_REMEMBERED = 20_000
+"""States and sequences that a menu keeps at most."""
+
+
+class Seen(NamedTuple):
+    """A state as the features see it.
+
+    Attributes:
+        effects: C, what each choice would do (:data:`_EFFECTS`).
+        facts: (things + 1) × facts, 1 where one holds of a thing.
+    """
+
+    effects: Ints
+    facts: Floats
 
 
 class Menu:
@@ -237,6 +346,7 @@ class Menu:
         args: C × arity, the things that are named.
         places: C × arity, the places they are named in.
         needs: Rows (choice, action, thing): the choice needs that the action named the thing before.
+        words: Things, 1 where one is a word of the domain, and for no thing.
     """
 
     def __init__(self, features: Features, things: KnownObjects, choices: Sequence[Instruction]) -> None:
@@ -260,6 +370,48 @@ class Menu:
                 self.places[row, place] = features.places[key]
                 needs += [(row, features.actions[n], self.numbers[arg]) for n in features.syntax.needs.get(key, ())]
         self.needs: Ints = np.array(needs, np.int64).reshape(-1, 3)
+        self.words: Mask = np.array([*(things.is_constant(name) for name in things.kinds), True])
+        self._operators = [things.world.task.by_instruction.get(choice) for choice in self.choices]
+        self._reached: dict[tuple[Instruction, ...], Bits] = {(): things.world.task.init}
+        self._seen: dict[Bits, Seen] = {}
+        self._masks: list[tuple[int, int, Bits]] = []
+        masks: Counter[tuple[str, tuple[str, int]]] = Counter()
+        for bit, atom in enumerate(things.world.task.atoms if features.facts else ()):
+            for place, name in enumerate(atom.args[:_FACT_PLACES]):
+                if name in self.numbers and (atom.predicate, place) in features.facts:
+                    masks[name, (atom.predicate, place)] += 1 << bit
+        self._masks = [(self.numbers[name], features.facts[fact], bits) for (name, fact), bits in masks.items()]
+
+    def seen_after(self, sequence: tuple[Instruction, ...]) -> Seen:
+        """The state that a sequence leads to, as the features see it; what can never apply changes nothing."""
+        state = self._state(sequence)
+        known = self._seen.get(state)
+        if known is None:
+            effects: Ints = np.full(len(self.choices), _UNKNOWN, np.int64)
+            for row, operator in enumerate(self._operators):
+                if operator is not None:
+                    applies = operator.applicable(state)
+                    effects[row] = applies + (applies and operator.apply(state) != state)
+            facts: Floats = np.zeros((len(self.numbers) + 1, len(self.features.facts)))
+            for thing, fact, bits in self._masks:
+                facts[thing, fact] = bool(state & bits)
+            if len(self._seen) == _REMEMBERED:
+                self._seen.clear()
+            known = self._seen[state] = Seen(effects, facts)
+        return known
+
+    def _state(self, sequence: tuple[Instruction, ...]) -> Bits:
+        known = len(sequence)
+        while sequence[:known] not in self._reached:
+            known -= 1
+        state = self._reached[sequence[:known]]
+        if len(self._reached) > _REMEMBERED:
+            self._reached = {(): self.things.world.task.init}
+        for length in range(known, len(sequence)):
+            operator = self.things.world.task.by_instruction.get(sequence[length])
+            state = operator.apply(state) if operator is not None else state
+            self._reached[sequence[: length + 1]] = state
+        return state
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,36 +420,37 @@ class Steps:
 
     Attributes:
         menu: What there is to choose from.
-        words: The numbers of the clause's words.
+        said: What the text says.
         followers: For each node the numbers of the words that stand for its sequence.
-        pairs: H × C × Q, the numbers of the other features.
+        pairs: H × C × Q, the numbers of the paired features.
+        facts: H × (things + 1) × facts, what holds of things.
         reals: H × C × 2, the features that are numbers.
         allowed: H × C, what the constraints allow.
     """
 
     menu: Menu
-    words: Ints
+    said: Said
     followers: tuple[Ints, ...]
     pairs: Ints
+    facts: Floats
     reals: Floats
     allowed: Mask
 
 
-def steps(menu: Menu, words: Ints, levels: Ints, nodes: Sequence[Node]) -> Steps:
+def steps(menu: Menu, said: Said, nodes: Sequence[Node]) -> Steps:
     """The features of every choice at each node.
 
     Args:
         menu: The choices.
-        words: The numbers of the clause's words.
-        levels: How far the clause mentions each thing of the menu (0 not at all), with a last 0 for no thing.
+        said: What the text says.
         nodes: The nodes.
     """
-    looks = [_look(menu, levels, node) for node in nodes]
-    added, pairs, reals, allowed = zip(*looks, strict=True)
-    return Steps(menu, words, tuple(added), np.stack(pairs), np.stack(reals), np.stack(allowed))
+    looks = [_look(menu, said, node) for node in nodes]
+    added, pairs, facts, reals, allowed = zip(*looks, strict=True)
+    return Steps(menu, said, tuple(added), np.stack(pairs), np.stack(facts), np.stack(reals), np.stack(allowed))
 
 
-def _look(menu: Menu, levels: Ints, node: Node) -> tuple[Ints, Ints, Floats, Mask]:
+def _look(menu: Menu, said: Said, node: Node) -> tuple[Ints, Ints, Floats, Floats, Mask]:
     """One node's part of :class:`Steps`."""
     features, none = menu.features, len(menu.numbers)
     n = len(features.actions)
@@ -317,19 +470,42 @@ def _look(menu: Menu, levels: Ints, node: Node) -> tuple[Ints, Ints, Floats, Mas
 
     follows = features.actions[before.name] if before is not None else n
     goes_on = (recent[menu.args] == _JUST_NAMED).any(axis=1)
-    start = features.starts
+    start, levels = features.starts, said.levels
+    met = _met(menu, levels, node.own)
     last_column = np.full(len(menu.choices), start[5])
-    last_column[-1] += 1 + _met(menu, levels, node.own)
-    pairs = np.column_stack(
-        (
-            start[0] + menu.places * _LEVELS + levels[menu.args],
-            start[1] + menu.places * _RECENCIES + recent[menu.args],
-            start[2] + menu.places * (n + 1) + last[menu.args],
-            start[3] + (follows * n + menu.actions) * 2 + goes_on,
-            start[4] + menu.actions * 2 + done,
-            last_column,
-        )
-    )
+    last_column[-1] += 1 + met
+    columns = [
+        start[0] + menu.places * _LEVELS + levels[menu.args],
+        start[1] + menu.places * _RECENCIES + recent[menu.args],
+        start[2] + menu.places * (n + 1) + last[menu.args],
+        start[3] + (follows * n + menu.actions) * 2 + goes_on,
+        start[4] + menu.actions * 2 + done,
+        last_column,
+    ]
+    facts = _NO_FACTS
+    if features.facts:
+        seen = menu.seen_after(node.earlier + node.own)
+        facts = seen.facts
+        times: Ints = np.zeros(len(menu.choices), np.int64)
+        for instruction in sequence:
+            if instruction in menu.index:
+                times[menu.index[instruction]] += 1
+        recent[menu.words] = 0
+        earlier = features.actions[sequence[-2].name] if len(sequence) > 1 else n
+        begun, where = min(len(node.own), _BEGUN - 1), said.where
+        end = np.full(len(menu.choices), start[13])
+        end[-1] += 1 + (met * _WHERE + where) * _LENGTHS + min(len(node.own), _LENGTHS - 1)
+        told = levels[menu.args]
+        columns += [
+            start[6] + (menu.places * _LEVELS + told) * _RECENCIES + recent[menu.args],
+            start[7] + menu.places * 4 + said.later[menu.args] * 2 + (told > 0),
+            start[8] + (earlier * (n + 1) + follows) * n + menu.actions,
+            start[9] + menu.actions * _REPEATS + np.minimum(times, 2) * 2 + done,
+            start[10] + (menu.actions * _WHERE + where) * _BEGUN + begun,
+            start[11] + menu.actions * _EFFECTS + seen.effects,
+            start[12] + menu.actions * _MET + met,
+            end,
+        ]
     length, different = len(node.own), len(set(node.own))
     reals: Floats = np.zeros((len(menu.choices), REALS))
     reals[:, 0] = (different + 1 - done) / (length + 1)
@@ -337,7 +513,10 @@ def _look(menu: Menu, levels: Ints, node: Node) -> tuple[Ints, Ints, Floats, Mas
     choice, action, thing = menu.needs.T
     allowed: Mask = np.ones(len(menu.choices), np.bool_)
     allowed[choice[~named[action, thing]]] = False
-    return features.known(followers(before, length, menu.things)), pairs, reals, allowed
+    return features.known(followers(before, length, menu.things)), np.column_stack(columns), facts, reals, allowed
+
+
+_NO_FACTS: Floats = np.zeros((0, 0))
 
 
 def _met(menu: Menu, levels: Ints, own: Sequence[Instruction]) -> int:
@@ -361,20 +540,29 @@ class Made(NamedTuple):
 
 def log_probabilities(features: Features, theta: Floats, at: Steps) -> Floats:
     """Give ln P(instruction | words, sequence so far), H × C: exp(θ·φ), normalised over the choices allowed."""
-    end = features.shape[0] * features.shape[1]
-    table = theta[:end].reshape(features.shape)
-    rows = table[at.words].sum(axis=0) + np.stack([table[words].sum(axis=0) for words in at.followers])
-    reward = rows @ at.menu.properties.T + theta[end:-REALS][at.pairs].sum(axis=2) + at.reals @ theta[-REALS:]
+    parts, menu = features.parts(theta), at.menu
+    words = parts.local[at.said.words].sum(axis=0)
+    if parts.text is not None:
+        words = words + _share(at.said) * parts.text[at.said.text].sum(axis=0)
+    rows = words + np.stack([parts.local[words].sum(axis=0) for words in at.followers])
+    reward = rows @ menu.properties.T + parts.paired[at.pairs].sum(axis=2) + at.reals @ parts.reals
+    if features.facts:
+        worth = at.facts @ parts.facts.T  # H × (things + 1) × places
+        reward += worth[:, menu.args, menu.places].sum(axis=2)
     reward[~at.allowed] = -np.inf
     reward -= reward.max(axis=1, keepdims=True)
     logs: Floats = reward - np.log(np.exp(reward).sum(axis=1, keepdims=True))
     return logs
 
 
+def _share(said: Said) -> float:
+    """What each word of the whole text counts: a long text has many that tell little."""
+    return 1.0 / float(np.sqrt(max(len(said.text), 1)))
+
+
 def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient: Floats | None = None) -> float:
     """The log-likelihood of the choices made. Its gradient is added to ``gradient``."""
     total = 0.0
-    end = features.shape[0] * features.shape[1]
     for at, choices in data:
         rows = np.arange(len(choices))
         logs = log_probabilities(features, theta, at)
@@ -384,14 +572,22 @@ def likelihood(features: Features, theta: Floats, data: Sequence[Made], gradient
         # the features that were met, less those that were to be expected
         rest = -np.exp(logs)
         rest[rows, choices] += 1
-        table = gradient[:end].reshape(features.shape)
-        having = rest @ at.menu.properties
-        table[at.words] += having.sum(axis=0)
+        parts, menu = features.parts(gradient), at.menu
+        having = rest @ menu.properties
+        parts.local[at.said.words] += having.sum(axis=0)
+        if parts.text is not None:
+            parts.text[at.said.text] += _share(at.said) * having.sum(axis=0)
         for words, row in zip(at.followers, having, strict=True):
-            table[words] += row
+            parts.local[words] += row
         weights = np.repeat(rest.ravel(), at.pairs.shape[2])
-        gradient[end:-REALS] += np.bincount(at.pairs.ravel(), weights, minlength=features.size - REALS - end)
-        gradient[-REALS:] += np.einsum("hc,hcr->r", rest, at.reals)
+        parts.paired[:] += np.bincount(at.pairs.ravel(), weights, minlength=len(parts.paired))
+        parts.reals[:] += np.einsum("hc,hcr->r", rest, at.reals)
+        if features.facts:
+            things = len(menu.numbers) + 1
+            cells = (menu.places * things + menu.args).ravel()
+            for row, facts in zip(rest, at.facts, strict=True):
+                named = np.bincount(cells, np.repeat(row, menu.args.shape[1]), minlength=len(parts.facts) * things)
+                parts.facts[:] += named.reshape(len(parts.facts), things) @ facts
     return total
 
 
@@ -407,8 +603,10 @@ def ascend(
 ) -> Floats:
     """The weights θ by stochastic gradient ascent, with the step sizes of AdaGrad, from zero.
 
-    What is raised is the log-likelihood less ridge/2 · |θ|². ``tell`` is told which share of the work is done.
+    What is raised is the log-likelihood less ridge/2 · Σ r θ², with r of :meth:`Features.ridge`. ``tell`` is told which
+    share of the work is done.
     """
+    each = ridge * features.ridge()
     theta: Floats = np.zeros(features.size)
     squares: Floats = np.full(features.size, _SMALL)
     for done in range(rounds):
@@ -417,7 +615,7 @@ def ascend(
             if tell is not None:
                 tell((done + start / len(order)) / rounds)
             part = [data[number] for number in order[start : start + _BATCH]]
-            gradient: Floats = theta * (-ridge * len(part) / len(data))
+            gradient: Floats = theta * each * (-len(part) / len(data))
             likelihood(features, theta, part, gradient)
             squares += gradient**2
             theta += rate * gradient / np.sqrt(squares)
@@ -478,29 +676,29 @@ class Policy:
         self.beam = beam
         self.bonus = bonus
         self.slack = slack
-        self._last: tuple[tuple[object, ...], tuple[Menu, Ints, Ints]] | None = None
+        self._last: tuple[tuple[object, ...], tuple[Menu, Said]] | None = None
 
     def knows(self, verb: str) -> bool:
         """Whether it was learned from demonstrations with that verb."""
         return _verb(verb) in self.reward.features.words
 
     def best(
-        self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int = 1
+        self, clauses: Sequence[Clause], number: int, done: Sequence[Instruction], count: int = 1
     ) -> list[tuple[float, tuple[Instruction, ...]]]:
         """The ``count`` sequences of the greatest reward for a clause, by beam search, greatest first.
 
         Args:
-            clause: The clause.
-            earlier: The clauses before it.
-            done: The instructions that were chosen for those.
+            clauses: The clauses of the text.
+            number: Which of them it is, counted from 0.
+            done: The instructions that were chosen for those before it.
             count: How many are wanted; at least one is found, perhaps the empty one.
         """
         features = self.reward.features
-        menu, words, levels = self._read(clause, earlier)
+        menu, said = self._read(clauses, number)
         found: list[tuple[float, tuple[Instruction, ...]]] = []
         beam: list[tuple[float, tuple[Instruction, ...]]] = [(0.0, ())]
         for _ in range(features.syntax.longest + 1):
-            at = steps(menu, words, levels, [Node(tuple(done), own) for _, own in beam])
+            at = steps(menu, said, [Node(tuple(done), own) for _, own in beam])
             logs = np.round(log_probabilities(features, self.reward.theta, at), _ROUNDED)
             longer = []
             for (total, own), row in zip(beam, logs, strict=True):
@@ -517,38 +715,98 @@ class Policy:
                 break
         return found
 
+    def sample(
+        self, clauses: Sequence[Clause], count: int, random: np.random.Generator, *, temperature: float = 1.0
+    ) -> list[tuple[Instruction, ...]]:
+        """``count`` sequences for a whole text, drawn from the distribution.
+
+        Args:
+            clauses: The clauses of the text.
+            count: How many are wanted; some may be alike.
+            random: The draws.
+            temperature: What the logarithms of the probabilities are divided by: below 1 what is likely gets likelier.
+        """
+        drawn: list[tuple[Instruction, ...]] = [()] * count
+        for number in range(len(clauses)):
+            own = self._sampled(clauses, number, drawn, random, temperature)
+            drawn = [(*before, *after) for before, after in zip(drawn, own, strict=True)]
+        return drawn
+
+    def _sampled(
+        self,
+        clauses: Sequence[Clause],
+        number: int,
+        before: Sequence[tuple[Instruction, ...]],
+        random: np.random.Generator,
+        temperature: float,
+    ) -> list[tuple[Instruction, ...]]:
+        """A sequence for one clause after each of those ``before``."""
+        features = self.reward.features
+        menu, said = self._read(clauses, number)
+        own: list[tuple[Instruction, ...]] = [()] * len(before)
+        going = list(range(len(before)))
+        for _ in range(features.syntax.longest):
+            nodes = list(dict.fromkeys(Node(before[i], own[i]) for i in going))
+            logs = log_probabilities(features, self.reward.theta, steps(menu, said, nodes)) / temperature
+            shares = np.exp(logs - logs.max(axis=1, keepdims=True)).cumsum(axis=1)
+            sums = dict(zip(nodes, np.round(shares / shares[:, -1:], _ROUNDED), strict=True))
+            still = []
+            for i, draw in zip(going, random.random(len(going)).tolist(), strict=True):
+                row = int(np.searchsorted(sums[Node(before[i], own[i])], draw, side="right"))
+                choice = menu.choices[min(row, len(menu.choices) - 1)]
+                if choice != STOP:
+                    own[i] = (*own[i], choice)
+                    still.append(i)
+            going = still
+            if not going:
+                break
+        return own
+
     def surprise(
         self,
-        clause: Clause,
-        earlier: Sequence[Clause],
+        clauses: Sequence[Clause],
+        number: int,
         done: Sequence[Instruction],
         instructions: Sequence[Instruction],
     ) -> float:
         """The mean of -ln P over ``instructions`` and the end of the sequence; each is at most :data:`MOST`."""
-        menu, words, levels = self._read(clause, earlier)
+        menu, said = self._read(clauses, number)
         own = tuple(instructions)
         nodes = [Node(tuple(done), own[:length]) for length in range(len(own) + 1)]
-        logs = log_probabilities(self.reward.features, self.reward.theta, steps(menu, words, levels, nodes))
+        logs = log_probabilities(self.reward.features, self.reward.theta, steps(menu, said, nodes))
         each = [
             min(MOST, -float(logs[row, menu.index[choice]])) if choice in menu.index else MOST
             for row, choice in enumerate((*own, STOP))
         ]
         return round(sum(each) / len(each), _ROUNDED)
 
-    def _read(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
-        """The choices, the clause's words, and how far it mentions things; that of the last clause is remembered."""
-        key = tuple((c.text, c.verb, c.resolved()) for c in (clause, *earlier))
+    def _read(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, Said]:
+        """The choices, and what the text says there; that of the last clause is remembered."""
+        key = (number, *((c.text, c.verb, c.resolved()) for c in clauses))
         last = self._last
         if last is None or last[0] != key:
-            last = self._last = key, self._reading(clause, earlier)
+            last = self._last = key, self._reading(clauses, number)
         return last[1]
 
-    def _reading(self, clause: Clause, earlier: Sequence[Clause]) -> tuple[Menu, Ints, Ints]:
-        words = self.reward.features.known(bag(clause, grounded=self.grounded))
-        if not self.grounded:
-            return self.menu, words, nothing(self.menu.things)
-        levels = mentioned(clause, earlier, self.menu.things)
-        return _with_mentioned(self.menu, levels), words, levels
+    def _reading(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, Said]:
+        said = said_in(clauses, number, self.menu, grounded=self.grounded)
+        return (_with_mentioned(self.menu, said.levels) if self.grounded else self.menu), said
+
+
+def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: bool) -> Said:
+    """What a text says, seen from one of its clauses."""
+    features, things, clause = menu.features, menu.things, clauses[number]
+    words = features.known(bag(clause, grounded=grounded))
+    if not grounded:
+        return Said(words, words, nothing(things), nothing(things), 0)
+    where = 0 if number == 0 else 2 if number == len(clauses) - 1 else 1
+    text = features.known(word for each in clauses for word in bag(each, grounded=True))
+    later = nothing(things)
+    numbers = {name: place for place, name in enumerate(things.kinds)}
+    for noun in (noun for each in clauses[number + 1 :] for noun in each.resolved()):
+        matches = things.world.mentions.of(noun, _NO_STATE)
+        later[[numbers[match.name] for match in matches if match.score == matches[0].score]] = 1
+    return Said(words, text, mentioned(clause, clauses[:number], things), later, where)
 
 
 def bag(clause: Clause, *, grounded: bool) -> list[str]:
@@ -595,6 +853,10 @@ def _with_mentioned(menu: Menu, levels: Ints) -> Menu:
     return Menu(menu.features, menu.things, sorted({*menu.choices[:-1], *more})) if more else menu
 
 
+RIDGE = 3.0
+"""Weight of the squared weights of the paper's baseline."""
+GROUNDED_RIDGE = 3.0
+"""The same of a grounded policy for all but its words, chosen as those of its words were."""
 _COVER = 0.99
 """This share of the training sequences is not longer than what is searched."""
 
@@ -616,7 +878,7 @@ def learn_policy(
     certain: float = 0.95,
     rounds: int = 8,
     rate: float = 0.2,
-    ridge: float = 3.0,
+    ridge: float | None = None,
     tell: Callable[[float], None] | None = None,
 ) -> Reward:
     """Learn the constraints, the features and their weights.
@@ -633,7 +895,7 @@ def learn_policy(
         certain: From which share on what went before counts as needed (``learn_syntax``).
         rounds: How often the training data are gone through.
         rate: Step size of the ascent.
-        ridge: Weight of the squared weights.
+        ridge: Weight of the squared weights; by default :data:`RIDGE`, or :data:`GROUNDED_RIDGE` where it is grounded.
         tell: Is told which share of the ascent, which takes the longest, is done.
     """
     lessons = study(demonstrations, world_of, lexicon)
@@ -646,6 +908,8 @@ def learn_policy(
         if lesson.things not in menus:
             menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
         data += steps_made(lesson, menus[lesson.things], grounded=grounded)
+    if ridge is None:
+        ridge = GROUNDED_RIDGE if grounded else RIDGE
     theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge, tell=tell)
     choices = max(sum(len(made.choices) for made in data), 1)
     before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
@@ -684,24 +948,25 @@ def number_features(lessons: Sequence[PolicyLesson], syntax: Syntax, *, grounded
                 seen.update(properties(instruction, things))
                 before = instruction
             words.update(followers(before, len(made), things))
-    return Features(words, seen, syntax)
+    atoms = [atom for things in {lesson.things for lesson in lessons} for atom in things.world.task.atoms]
+    facts = {(atom.predicate, place) for atom in atoms for place in range(len(atom.args[:_FACT_PLACES]))}
+    return Features(words, seen, syntax, facts if grounded else ())
 
 
 def steps_made(lesson: PolicyLesson, menu: Menu, *, grounded: bool) -> list[Made]:
     """The sequence of each clause as choices from the menu, with the STOP at its end."""
     found = []
     done: tuple[Instruction, ...] = ()
-    earlier: list[Clause] = []
+    clauses = [clause for clause, _ in lesson.clauses if clause is not None]
+    number = 0
     for clause, made in lesson.clauses:
         if clause is not None and made:
             nodes = [Node(done, made[:length]) for length in range(len(made) + 1)]
-            levels = mentioned(clause, earlier, lesson.things) if grounded else nothing(lesson.things)
-            at = steps(menu, menu.features.known(bag(clause, grounded=grounded)), levels, nodes)
+            at = steps(menu, said_in(clauses, number, menu, grounded=grounded), nodes)
             choices: Ints = np.array([menu.index[choice] for choice in (*made, STOP)], np.int64)
             # the constraints are only almost always kept; what was done was possible
             at.allowed[np.arange(len(choices)), choices] = True
             found.append(Made(at, choices))
-        if clause is not None:
-            earlier.append(clause)
+        number += clause is not None
         done += made
     return found

@@ -162,15 +162,15 @@ class SequenceModel(Protocol):
         ...
 
     def best(
-        self, clause: Clause, earlier: Sequence[Clause], done: Sequence[Instruction], count: int
+        self, clauses: Sequence[Clause], number: int, done: Sequence[Instruction], count: int
     ) -> Sequence[tuple[float, Instructions]]:
-        """The ``count`` likeliest sequences for a clause, each after its score, likeliest first."""
+        """The ``count`` likeliest sequences for a clause of a text, each after its score, likeliest first."""
         ...
 
     def surprise(
         self,
-        clause: Clause,
-        earlier: Sequence[Clause],
+        clauses: Sequence[Clause],
+        number: int,
         done: Sequence[Instruction],
         instructions: Sequence[Instruction],
     ) -> float:
@@ -208,7 +208,7 @@ class PolicyProposer(Proposer):
         if not self._has_say(clause):
             return
         found: dict[Instructions, Proposal] = {}
-        for _, proposed in self.policy.best(clause, situation.earlier, situation.done, self.config.generated):
+        for _, proposed in self.policy.best(situation.clauses, situation.number, situation.done, self.config.generated):
             kept = tuple(i for i in proposed if i in self.world.task.by_instruction)
             names = self.world.mentions.meant(clause, [a for i in kept for a in i.args], situation.state)
             raw = {"generated": 1.0 / self.trust, **self.energy.of_sequence(kept, len(kept), names)}
@@ -219,7 +219,7 @@ class PolicyProposer(Proposer):
         """Δ_words."""
         if not self._has_say(situation.clause):
             return {}
-        surprise = self.policy.surprise(situation.clause, situation.earlier, situation.done, instructions)
+        surprise = self.policy.surprise(situation.clauses, situation.number, situation.done, instructions)
         return {"words": surprise * self.trust}
 
     def _has_say(self, clause: Clause) -> bool:

@@ -146,6 +146,14 @@ def width_of(said: Mapping[str, Any]) -> int:
     return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
 
 
+def place_of(said: object) -> tuple[float, float] | None:
+    """A place in the picture, from its left upper corner (0, 0) to its right lower one (1, 1); ``None`` for none."""
+    if not isinstance(said, list) or len(said) != 2 or not all(type(part) in (int, float) for part in said):
+        return None
+    across, down = map(float, said)
+    return (across, down) if 0 <= across <= 1 and 0 <= down <= 1 else None
+
+
 def _number(said: Mapping[str, str], name: str, usual: int) -> int:
     text = said.get(name, "")
     return int(text) if text.isascii() and text.isdecimal() and len(text) <= _WHOLE else usual
@@ -209,10 +217,14 @@ class Window:
             self._kept = link
             self._tell({"link": link.query()})
 
+    def call(self, asked: object, words: str) -> None:
+        """Say what the pointer rests on, for the event ``asked``; empty for nothing that has a name."""
+        self._tell({"name": {"asked": asked, "words": words}})
+
     def show_tab(self, name: str) -> None:
         """Open a tab."""
         self._tell({"tab": name})
 
-    def _tell(self, words: Mapping[str, str]) -> None:
+    def _tell(self, words: Mapping[str, object]) -> None:
         (kind,) = words
         self._client.local_storage.set_item(f"{kind}-{KEY}", json.dumps(words))  # of one key viser sends the last only

@@ -17,10 +17,10 @@ from tmd.diagnostics import TmdError
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.model import Instruction
 from tmd.robot.monitor.listeners import Title
-from tmd.robot.sim.pose import Vector
+from tmd.robot.sim.pose import Pose, Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
-from tmd.studio.page import PageLink, Window, width_of
+from tmd.studio.page import PageLink, Window, place_of, width_of
 from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -33,6 +33,7 @@ from tmd.studio.view3d.performance import perform
 from tmd.studio.view3d.playback import Reel
 from tmd.studio.view3d.scenery import Scenery
 from tmd.veil.demonstration import Demonstration
+from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import ClientHandle, NotificationHandle
@@ -149,6 +150,11 @@ class Visitor:
         elif link.tab == "Correct":
             self.correct.come_back()
 
+    @property
+    def wording(self) -> Wording:
+        """The words of the environment."""
+        return self.studio.offers(self.setting.name).wording
+
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
 
@@ -172,6 +178,8 @@ class Visitor:
         elif event.get("clicked") is True:  # in the picture; a click on an object has come before
             if time.monotonic() - self._pointed_at > _CLICK:
                 self.select(None)
+        elif (place := place_of(event.get("over"))) is not None:
+            self.window.call(event.get("asked"), self._called(*place))
         elif isinstance(event.get("move"), int) and isinstance(to, int):
             self.correct.move(event["move"], to)
 
@@ -278,6 +286,25 @@ class Visitor:
         self._pointed_at = time.monotonic()
         self.guarded(lambda: self.select(name))(None)
 
+    def _called(self, across: float, down: float) -> str:
+        """The name of what is seen at a place of the picture, the part's where it is one; empty for none."""
+        camera, scenery = self.client.camera, self._scenery
+        if scenery is None:
+            return ""
+        high = np.tan(camera.fov / 2)
+        w, x, y, z = camera.wxyz
+        ahead = Pose((0.0, 0.0, 0.0), (x, y, z, w))  # a camera looks along z, and its y is down
+        ray = ahead.apply(((2 * across - 1) * high * camera.aspect, (2 * down - 1) * high, 1.0))
+        found = scenery.first_hit(camera.position.tolist(), ray)
+        if found is None:
+            return ""
+        name, link = found
+        world = self.setting.world
+        parts = {part for _, part in world.profiles.parts.get(name, ())}
+        name = part if (part := f"{name}_{link}") in parts else name
+        kind = world.mentions.kinds.get(name, "")
+        return name if name.rstrip("_0123456789").endswith(kind) else f"{name}: {kind.replace('_', ' ')}"
+
     @property
     def scenery(self) -> Scenery | None:
         """The 3D view; ``None`` where there is nothing to see."""
@@ -347,8 +374,10 @@ class Visitor:
 
             def begun(title: Title) -> None:
                 repair = "repair: " if title.repair else ""
-                self.player.say(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
-                self.tell(f"The robot, step {title.number} of {title.of}: {repair}{title.instruction}")
+                done = self.wording.instruction(title.instruction)
+                said = f"The robot, step {title.number} of {title.of}: {repair}{done}"
+                self.player.say(said)
+                self.tell(said)
                 self.say.mark(title.number)
 
             self.tell(perform(self.setting, folder, plan, scenery, figure, ended, begun), aloud=True)

@@ -66,6 +66,7 @@ def render(subject: Subject) -> Page:
     goals = followed(subject.goals, subject.problem, [step.instruction for step in subject.steps])
     script = data("page.js")
     said = subject.said
+    wording = Wording(subject.problem)
     html = (
         templates()
         .get_template("page.html.j2")
@@ -75,7 +76,8 @@ def render(subject: Subject) -> Page:
             outcome=outcome(verdict, goals, subject.problem.goal),
             goals=goals,
             doubts=subject.doubts,
-            in_words=Wording(subject.problem).fact,
+            in_words=wording.fact,
+            done=wording.instruction,
             ticks=_ticks(goals),
             marks=MARKS,
             pddl=format_formula,

@@ -56,13 +56,31 @@ class Wording:
         return self._told(atom.predicate, atom.args) or str(atom)
 
     def instruction(self, instruction: Instruction) -> str:
-        """What is done, by the comment above the action: *Go and stand before pot1*; its name where that says less."""
+        """What is done, by the comment above the action: *Go and stand before pot1*; its name where that says less.
+
+        Of the comment's first sentence, as much is told as speaks of all that it speaks of.
+        """
         action = self._actions.get(instruction.name)
         plain = " ".join((instruction.name.replace("_", " "), ", ".join(instruction.args))).strip()
         if action is None or len(instruction.args) != len(action.parameters):
             return plain
-        sentence = re.split(r"[.:;(]|, and ", action.comment)[0].strip()
-        return self._filled(sentence, action.parameters, instruction.args) or plain
+        sentence = re.split(r"[.:;(]", action.comment)[0].strip()
+        names = [_word(parameter.name.removeprefix("?")) for parameter in action.parameters]
+        spoken = [name for name in names if name.search(sentence)]
+        ends = [*(found.start() for found in re.finditer(", ", sentence)), len(sentence)]
+        short = next(sentence[:end] for end in ends if all(name.search(sentence, 0, end) for name in spoken))
+        return self._filled(short, action.parameters, instruction.args) or plain
+
+    def by_words(self, instructions: Iterable[Instruction]) -> dict[str, Instruction]:
+        """Instructions by their words; where two have the same, PDDL stands behind them."""
+        told: dict[str, list[Instruction]] = {}
+        for instruction in instructions:
+            told.setdefault(self.instruction(instruction), []).append(instruction)
+        return {
+            words if len(alike) == 1 else f"{words}: {instruction}": instruction
+            for words, alike in told.items()
+            for instruction in alike
+        }
 
     def condition(self, condition: Formula) -> str:
         """What ``condition`` says, without full stop: *there is some water in cup1, and cup1 is hot*.

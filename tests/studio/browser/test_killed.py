@@ -13,14 +13,13 @@ from .test_browser import choose, entry, press, tab, told, visiting
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-STEPS = (("cup1", "moveto(cup1)"), ("cup1", "grasp(cup1)"), ("shelf1", "moveto(shelf1)"))
-LAST = ("shelf1", "keep(cup1, shelf1, on)")
+STEPS = (("cup1", "Go and stand before cup1"), ("cup1", "Take cup1"), ("shelf1", "Go and stand before shelf1"))
+LAST = ("shelf1", "Put cup1 on shelf1")
 
 
 def begin(page: Page, text: str) -> None:
     tab(page, "Demonstrate")
     page.locator("textarea:visible").first.fill(text)
-    page.wait_for_timeout(300)
     press(page, "Begin")
     told(page, "Point at an object")
 
@@ -44,7 +43,6 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
         press(page, "Save (K)")
         told(page, "Saved as shown-corner1-01")
         page.locator("textarea:visible").first.fill("Take the cup to the shelf.")
-        page.wait_for_timeout(300)
         press(page, "Begin")
         for number, step in enumerate(STEPS, start=1):
             do(page, *step, number)

@@ -32,7 +32,7 @@ class InstructionTree:
         certain: From which share on what went before counts as needed (``learn_syntax``).
         rounds: How often the training data are gone through.
         rate: Step size of the ascent.
-        ridge: Weight of the squared weights.
+        ridge: Weight of the squared weights; the usual one where none is given.
         grounded: Whether the reward also knows which objects the clause's nouns may mean. The paper's baseline has
             the words alone; with this it is a row of ours.
     """
@@ -46,7 +46,7 @@ class InstructionTree:
         certain: float = 0.95,
         rounds: int = 8,
         rate: float = 0.2,
-        ridge: float = 3.0,
+        ridge: float | None = None,
         grounded: bool = False,
     ) -> None:
         self.beam = beam
@@ -81,12 +81,11 @@ class InstructionTree:
         policy = self.policy(example.environment, example.world, data)
         if policy is None:
             return Prediction()
-        earlier: list[Clause] = []
         served: list[tuple[Clause, tuple[Instruction, ...], str | None]] = []
-        for clause in parse(example.demonstration.text, data.lexicon).clauses:
+        clauses = parse(example.demonstration.text, data.lexicon).clauses
+        for number, clause in enumerate(clauses):
             done = tuple(i for _, made, _ in served for i in made)
-            served.append((clause, policy.best(clause, earlier, done)[0][1], None))
-            earlier.append(clause)
+            served.append((clause, policy.best(clauses, number, done)[0][1], None))
         return by_clause(served)
 
     def policy(self, environment: str, world: str, data: Worlds) -> Policy | None:

@@ -3,6 +3,7 @@
 "use strict";
 (() => {
   const KEY = "tmd-page", EVENT = "tmdevent", PLAN = "tmd-plan", LOOK = 1500, LATE = 350, PATIENCE = 12000;
+  const SENT = 55, REST = 100, SOON = 15, NEAR = 6; // milliseconds; pixels
   const getItem = Storage.prototype.getItem, setItem = Storage.prototype.setItem;
   const mine = (key) => String(key).endsWith(KEY);
   const dark = matchMedia("(prefers-color-scheme: dark)");
@@ -21,7 +22,64 @@
     if (told.link !== undefined) history.replaceState(null, "", told.link || location.pathname);
     if (told.plan !== undefined) setItem.call(sessionStorage, PLAN, told.plan);
     if (told.tab) tab(told.tab, 40);
+    if (told.name !== undefined) called(told.name);
   };
+
+  // Of what happens in the panel viser sends something every 50 ms at most, and of what happens meanwhile the last thing
+  // only. So a click waits until what was typed before it is sent, and what this script has to tell waits as well.
+  let holding = 0, last = null, unsent = null;
+  const later = [], again = new Set();
+
+  function hold() { // two timers, each a little longer than viser's: it may send once more after 50 ms
+    clearTimeout(holding);
+    holding = setTimeout(() => { holding = setTimeout(go, SENT); }, SENT);
+  }
+
+  function go() {
+    holding = 0;
+    for (const input of again) {
+      again.delete(input);
+      if (input.isConnected) return write(input, `${input.value} `), write(input, input.value.slice(0, -1));
+    }
+    while (!holding && later.length) later.shift()();
+  }
+
+  function soon(act) {
+    later.push(act);
+    if (!holding) go();
+  }
+
+  function write(input, value) { // as if it were typed
+    const kind = input instanceof HTMLTextAreaElement ? HTMLTextAreaElement : HTMLInputElement;
+    Object.getOwnPropertyDescriptor(kind.prototype, "value").set.call(input, value);
+    input.dispatchEvent(new Event("input", { bubbles: true }));
+  }
+
+  addEventListener("input", ({ target }) => {
+    if (holding && last && last !== target) again.add(last); // typing cannot wait: what it overtook is sent once more
+    last = target.matches("textarea, input[type=text]:not([aria-haspopup])") ? target : null;
+    hold();
+  }, true);
+
+  addEventListener("click", (event) => {
+    const found = event.target instanceof Element
+      && event.target.closest("button, [role=button], [role=option], input[type=checkbox], input[type=radio]");
+    if (!found) return;
+    if (!event.isTrusted || !holding) return last = null, hold();
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    later.push(() => found.click());
+  }, true);
+
+  for (const kind of ["keydown", "pointermove", "pointerup"]) { // sliders
+    addEventListener(kind, (event) => {
+      if (!(event.target instanceof Element) || !event.target.closest("[role=slider], [class*=Slider]")) return;
+      if (kind === "pointermove" && !event.buttons) return;
+      if (holding && last) again.add(last);
+      last = null;
+      hold();
+    }, true);
+  }
 
   function tab(name, tries) {
     const found = [...document.querySelectorAll("[role=tab]")].find((each) => each.textContent.trim() === name);
@@ -43,12 +101,14 @@
   }
 
   function send(event) {
-    const input = labelled(EVENT);
-    if (!input) return;
-    const set = Object.getOwnPropertyDescriptor(HTMLInputElement.prototype, "value").set;
     recent = [...recent, { ...event, number: ++number }].slice(-8); // what was sent just before may not be read yet
-    set.call(input, JSON.stringify(recent));
-    input.dispatchEvent(new Event("input", { bubbles: true }));
+    if (unsent) return;
+    unsent = () => {
+      unsent = null;
+      const input = labelled(EVENT);
+      if (input) write(input, JSON.stringify(recent));
+    };
+    soon(unsent);
   }
 
   dark.addEventListener("change", () => send({ dark: dark.matches }));
@@ -101,8 +161,8 @@
     event.stopImmediatePropagation();
     document.activeElement.blur();
     const code = event.code;
-    setTimeout(() => document.documentElement.dispatchEvent(
-      new KeyboardEvent("keydown", { key, code, ctrlKey: held, bubbles: true, cancelable: true })), LATE);
+    soon(() => document.documentElement.dispatchEvent(
+      new KeyboardEvent("keydown", { key, code, ctrlKey: held, bubbles: true, cancelable: true })));
   }
 
   addEventListener("keydown", (event) => {
@@ -112,7 +172,7 @@
       const panel = event.target.closest("[role=tabpanel]") || document;
       const button = [...panel.querySelectorAll("button")].find((each) =>
         ["Plan it", "Begin", "Start over"].includes(each.textContent.trim()) && each.offsetParent);
-      if (button) setTimeout(() => button.click(), LATE); // the page sends what was typed a moment later
+      if (button) soon(() => button.click());
     } else if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "k") elsewhere(event, "k", true);
     else if (event.altKey && /^Key[A-Z]$/.test(event.code)) elsewhere(event, event.code.slice(3).toLowerCase(), false);
     else if (event.key === "Escape") event.target.blur();
@@ -136,6 +196,41 @@
       setTimeout(() => send({ clicked: true }), 700);
     }
   }, true);
+
+  // the name of what the pointer rests on: only the server knows where things are
+  let resting = 0, pointed = null;
+
+  function called(name) {
+    if (!pointed || pointed.asked !== name.asked || !name.words) return;
+    pointed.shown = pointed.shown || document.createElement("div");
+    pointed.shown.className = "tmd-name";
+    pointed.shown.setAttribute("role", "tooltip");
+    pointed.shown.textContent = name.words;
+    document.body.append(pointed.shown);
+    const { width, height } = pointed.shown.getBoundingClientRect();
+    pointed.shown.style.left = `${Math.max(4, Math.min(pointed.x + 12, innerWidth - width - 4))}px`;
+    pointed.shown.style.top = `${pointed.y + 16 + height < innerHeight ? pointed.y + 16 : pointed.y - height - 8}px`;
+  }
+
+  function unname() {
+    clearTimeout(resting);
+    pointed?.shown?.remove();
+    pointed = null;
+  }
+
+  addEventListener("pointermove", (event) => {
+    const { clientX: x, clientY: y, target, buttons, pointerType } = event;
+    if (pointed && target === pointed.canvas && !buttons && Math.hypot(x - pointed.x, y - pointed.y) < NEAR) return;
+    unname();
+    if (!(target instanceof HTMLCanvasElement) || buttons || pointerType !== "mouse") return;
+    resting = setTimeout(() => {
+      const place = target.getBoundingClientRect();
+      pointed = { x, y, canvas: target, asked: number + 1 };
+      send({ over: [(x - place.left) / place.width, (y - place.top) / place.height], asked: pointed.asked });
+    }, REST);
+  }, true);
+  for (const kind of ["pointerdown", "wheel", "keydown", "blur"]) addEventListener(kind, unname, true);
+  document.addEventListener("pointerleave", unname);
 
   // a step is dragged to the place of another
   let dragged = null;
@@ -222,7 +317,7 @@
       over.setAttribute("aria-hidden", "true"); // the panel says it already
       document.body.append(over);
     }
-    if (over.textContent !== said) over.textContent = said;
+    if (over.textContent !== said) over.textContent = said, unname(); // what stood there may be somewhere else now
     const canvas = document.querySelector("canvas");
     if (canvas) {
       const place = canvas.getBoundingClientRect();
@@ -240,7 +335,7 @@
 
   addEventListener("DOMContentLoaded", () => {
     new MutationObserver(() => {
-      if (!waiting) waiting = true, requestAnimationFrame(tidy);
+      if (!waiting) waiting = true, setTimeout(tidy, SOON); // not with a frame: where graphics are slow, those are rare
     }).observe(document.documentElement, {
       subtree: true, childList: true, characterData: true, attributeFilter: ["data-mantine-color-scheme"] });
     addEventListener("click", (event) => {

@@ -13,6 +13,7 @@ from tmd.studio.environment_view import Setting
 from tmd.studio.studio import Studio
 from tmd.studio.view3d.playback import Reel
 from tmd.veil.demonstration import Demonstration
+from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import ClientHandle
@@ -35,6 +36,10 @@ class PanelContext(Protocol):
     reel: Reel
     cursor: int
     selected: str | None
+
+    @property
+    def wording(self) -> Wording:
+        """The words of the environment."""
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
         """A callback that tells what goes wrong."""

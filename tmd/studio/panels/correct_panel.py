@@ -186,7 +186,7 @@ class CorrectPanel:
         state = self._visitor.setting.world.task.init
         found = [] if name == NOTHING else groups.of(name, state, parts=True)
         offers = sorted(offer.instruction for group in (*found, *groups.anywhere(state)) for offer in group.offers)
-        self._insertable = {str(instruction): instruction for instruction in offers}
+        self._insertable = self._visitor.wording.by_words(offers)
         self._what.options = (NOTHING, *self._insertable)
 
     def _insert(self) -> None:
@@ -202,7 +202,7 @@ class CorrectPanel:
         with self._visitor.holding():
             added = self._going().repair()
             self._refresh()
-        said = ", ".join(str(instruction) for instruction in added)
+        said = "; ".join(map(self._visitor.wording.instruction, added))
         self._visitor.tell(f"Put in: {said}." if added else "Nothing is missing.")
 
     def _finish(self) -> None:
@@ -239,7 +239,6 @@ class CorrectPanel:
         marked = {broken.step: why} if broken else {}
         state = f"Step {broken.step} does not apply." if broken else "Every step applies." if steps else NO_STEPS
         said = f"<p role='status'>{state}</p>"
-        wording = visitor.studio.offers(visitor.setting.name).wording
-        words = [wording.instruction(step.instruction) for step in steps]
+        words = [visitor.wording.instruction(step.instruction) for step in steps]
         listed = step_list(lines, self._at, (), marked, of="correct", draggable=True, words=words)
         self._text.content = fragment(said) + listed

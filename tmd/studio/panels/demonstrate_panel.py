@@ -279,7 +279,7 @@ class DemonstratePanel:
             visitor.watch(self._reel, cursor, self, [step.instruction for step in session.steps])
             titles = [f"{number}: {piece.text}" for number, piece in enumerate(session.clauses, start=1)]
             change = session.changes(cursor) if cursor else None
-            wording = visitor.studio.offers(visitor.setting.name).wording
+            wording = visitor.wording
             gains = changed(change.added, change.removed, wording.fact) if change else []
             lines = [
                 (str(step.instruction), f"clause {step.clause + 1}" + (", marked" if step.marked else ""), False)
@@ -317,28 +317,29 @@ class DemonstratePanel:
                     self._offer(group)
             waiting = [offer.instruction for group in groups for offer in group.offers if not offer.applies]
             waiting.sort(key=lambda instruction: (instruction.args[:1] != (name,), instruction))
-            self._waiting = {str(instruction): instruction for instruction in waiting}
+            self._waiting = visitor.wording.by_words(waiting)
             options = (NOTHING, *self._waiting)
             if self._later.options != options:
                 self._later.options = options
-            self._reasons.content = fragment(refused(groups))
+            self._reasons.content = fragment(refused(groups, visitor.wording.instruction))
 
     def _offer(self, group: ActionGroup) -> None:
         gui, guarded = self._visitor.client.gui, self._visitor.guarded
         possible = [offer.instruction for offer in group.offers if offer.applies]
         whole = self._visitor.selected
         possible.sort(key=lambda instruction: (whole not in instruction.args, instruction))
-        for instruction in possible[:_FEW]:
+        told = [*self._visitor.wording.by_words(possible).items()]
+        for words, instruction in told[:_FEW]:
             self._numbered.append(instruction)
             number = len(self._numbered)
             icon = f"square-number-{number}" if number <= NUMBERED else None
-            words = self._visitor.studio.offers(self._visitor.setting.name).wording.instruction(instruction)
-            button = gui.add_button(str(instruction), icon=icon, hint=words)  # type: ignore[arg-type]  # icons are told by name
+            button = gui.add_button(words, icon=icon, hint=str(instruction))  # type: ignore[arg-type]  # icons are told by name
             button.on_click(guarded(lambda instruction=instruction: self.do(instruction)))  # type: ignore[misc]
             self._offered.append(button)
-        by_name = {str(instruction): instruction for instruction in possible[_FEW:]}
-        if by_name:
-            choice = gui.add_dropdown(f"More {group.action}", tuple(by_name))
-            button = gui.add_button(f"Do that {group.action}")
-            button.on_click(guarded(lambda: self.do(by_name[chosen(choice)])))
+        more = dict(told[_FEW:])
+        if more:
+            verb = told[0][0].split()[0].lower()
+            choice = gui.add_dropdown(f"More: {verb}", tuple(more))
+            button = gui.add_button(f"Do that: {verb}")
+            button.on_click(guarded(lambda: self.do(more[chosen(choice)])))
             self._offered += [choice, button]

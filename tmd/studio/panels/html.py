@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from html import escape
 
-from tmd.pddl.model import GroundAtom, Problem, State
+from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import holds
 from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.object_info import About
@@ -28,7 +28,7 @@ STYLE = """<style>
 white-space:nowrap}
 .tmd .plus{color:var(--tmd-added,#00664b);font-weight:600}.tmd .minus{color:var(--tmd-removed,#a34700);font-weight:600}
 .tmd [data-step]{cursor:pointer}.tmd [data-step]:hover{text-decoration:underline}
-.tmd .said{margin:.1rem 0;font-style:italic}.tmd .folded{list-style:none;opacity:.75}
+.tmd .said{margin:.1rem 0;opacity:.75}.tmd .folded{list-style:none;opacity:.75}
 .tmd h4{margin:.5rem 0 .15rem;font-size:.85rem}.tmd p{margin:.25rem 0}.tmd .quiet{opacity:.75}
 .tmd .notice{border-left:.3rem solid #0072b2;padding:.2rem .5rem;margin:.3rem 0}
 .tmd .fault{border-left:.3rem solid #d55e00;padding:.2rem .5rem;margin:.3rem 0}
@@ -77,7 +77,8 @@ def step_list(
         of: The panel whose steps they are; a click on one is told to it.
         folded: The numbers of steps that are not listed, but counted.
         draggable: Whether a step can be dragged to the place of another.
-        words: What each step does in words: on hover, and below the step that was taken last.
+        words: What each step does in words, which is what is listed; its instruction shows on hover, and below the
+            step that was taken last.
     """
     rows: list[str] = []
     hidden = 0
@@ -87,7 +88,8 @@ def step_list(
             continue
         rows += [_hidden(hidden)] if hidden else []
         hidden = 0
-        name = escape(instruction)
+        said, pddl = (words[number - 1] if number <= len(words) else ""), escape(instruction)
+        name = escape(said) or pddl
         if latent:
             name = f'<span class="latent">{name}</span>'
         if number == current:
@@ -95,12 +97,11 @@ def step_list(
         wrong = (faults or {}).get(number, ())
         if wrong:
             name = f'<span class="broken">{name}</span>'
-        said = escape(words[number - 1]) if number <= len(words) else ""
         notes = [*(escape(fault) for fault in wrong), *(gains if number == current else ())]
-        below = f"<p class='said'>{said}</p>" if said and number == current else ""
+        below = f"<p class='said'><code>{pddl}</code></p>" if said and number == current else ""
         below += f"<ul>{''.join(f'<li>{note}</li>' for note in notes)}</ul>" if notes else ""
         drag = ' draggable="true"' if draggable else ""
-        step = f'data-step="{number}" tabindex="0" role="link" title="{said}"{drag}'
+        step = f'data-step="{number}" tabindex="0" role="link" title="{pddl}"{drag}'
         rows.append(
             f'<li value="{number}"><span {step}>{name}</span><span class="tag">{escape(purpose)}</span>{below}</li>'
         )
@@ -166,21 +167,27 @@ def object_facts(known: About, said: Callable[[GroundAtom], str]) -> str:
     return f"<h4>{escape(known.name)}: {escape(known.kind or 'object')}{of}</h4>{parts}{''.join(blocks)}"
 
 
-def refused(groups: Iterable[ActionGroup]) -> str:
-    """Instructions that do not apply, by what they lack: the reason that most of them share first."""
-    reasons: dict[str, list[str]] = {}
+def refused(groups: Iterable[ActionGroup], said: Callable[[Instruction], str] = str) -> str:
+    """Instructions that do not apply, by what they lack: the reason that most of them share first.
+
+    Args:
+        groups: The instructions.
+        said: An instruction in words; PDDL is on hover.
+    """
+    reasons: dict[str, list[Instruction]] = {}
     for group in groups:
         for offer in group.offers:
             if not offer.applies:
-                reasons.setdefault(offer.why, []).append(str(offer.instruction))
+                reasons.setdefault(offer.why, []).append(offer.instruction)
     lines = [
-        f'<li>✗ {escape(why)}<br><small class="quiet">{escape(_some(names))}</small></li>'
-        for why, names in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
+        f'<li>✗ {escape(why)}<br><small class="quiet">{_some(instructions, said)}</small></li>'
+        for why, instructions in sorted(reasons.items(), key=lambda item: (-len(item[1]), item[0]))
     ]
     more = f"<p>… and {len(lines) - MOST} more reasons.</p>" if len(lines) > MOST else ""
     return f"<ul>{''.join(lines[:MOST])}</ul>{more}" if lines else "<p>Nothing is out of reach.</p>"
 
 
-def _some(names: Sequence[str]) -> str:
-    rest = len(names) - _NAMED
-    return ", ".join(names[:_NAMED]) + (f" and {rest} more" if rest > 0 else "")
+def _some(instructions: Sequence[Instruction], said: Callable[[Instruction], str]) -> str:
+    rest = len(instructions) - _NAMED
+    named = [f'<span title="{escape(str(each))}">{escape(said(each))}</span>' for each in instructions[:_NAMED]]
+    return "; ".join(named) + (f"; and {rest} more" if rest > 0 else "")

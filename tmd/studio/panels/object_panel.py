@@ -162,7 +162,7 @@ class ObjectPanel:
         world = visitor.setting.world
         now = reel.facts(step)
         before = reel.facts(step - 1) if step else now
-        said = visitor.studio.offers(visitor.setting.name).wording.fact
+        said = visitor.wording.fact
         came, went = (sorted(a for a in more if name in a.args) for more in (now - before, before - now))
         gains = changed(came, went, said)
         lines = "".join(f"<li>{line}</li>" for line in gains)

@@ -42,8 +42,8 @@ class PlayerPanel:
         if found:
             self._slider.max = self._last
             put(self._slider, step)
-        name = str(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
-        self.say(f"{step} / {self._last} {name}" if found else "")
+        done = self._visitor.wording.instruction(instructions[step - 1]) if 0 < step <= self._last else "the beginning"
+        self.say(f"{step} / {self._last} {done}" if found else "")
 
     @property
     def owner(self) -> Played | None:

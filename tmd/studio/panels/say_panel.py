@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from difflib import SequenceMatcher
 from html import escape
@@ -154,7 +154,7 @@ class SayPanel:
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
         self._which.on_update(guarded(lambda: self._choose(self._number())))
         self._goals = gui.add_html("")
-        self._fold = gui.add_checkbox("Fold away finding and going", False, visible=False)
+        self._fold = gui.add_checkbox("Main steps only", False, visible=False)
         self._fold.on_update(guarded(self._look))
         self._steps = gui.add_html("")
         self._more = gui.add_folder("Energies, and why the others lost", expand_by_default=False)
@@ -268,7 +268,7 @@ class SayPanel:
             grounded = self._again(demonstration)
             put(self._text, demonstration.text)
             self._show(grounded)
-            used = whether_used(demonstration.instructions, grounded)
+            used = whether_used(demonstration.instructions, grounded, visitor.wording.instruction)
             visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
@@ -284,7 +284,7 @@ class SayPanel:
             same = before is not None and before.parsed.text == grounded.parsed.text
             if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
                 self._show(grounded)
-            used = whether_used(saved.instructions, grounded)
+            used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
             said = " ".join(saved.text.split())
             visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
@@ -407,7 +407,7 @@ class SayPanel:
             return
         reel = self._reels[self._number()]
         gains: list[str] = []
-        wording = self._visitor.studio.offers(self._visitor.setting.name).wording
+        wording = self._visitor.wording
         if self._step:
             before, now = reel.facts(self._step - 1), reel.facts(self._step)
             gains = changed(sorted(now - before), sorted(before - now), wording.fact)
@@ -479,8 +479,8 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
     return [] if grounded is None else [plan.instructions for plan in grounded.plans]
 
 
-def whether_used(shown: Sequence[Instruction], grounded: Grounded) -> str:
-    """Whether the plans for a text are what was shown for it."""
+def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callable[[Instruction], str] = str) -> str:
+    """Whether the plans for a text are what was shown for it; ``said`` tells an instruction in words."""
     plans = _plans(grounded)
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
@@ -488,7 +488,7 @@ def whether_used(shown: Sequence[Instruction], grounded: Grounded) -> str:
         more = _beside(shown, plan)
         if more is None:
             continue
-        also = f", and does more: {', '.join(map(str, more))}" if more else ""
+        also = f", and does more: {'; '.join(map(said, more))}" if more else ""
         so = f"as plan {place} of {len(plans)}" if place > 1 else ""
         return f"The same sentence {'' if so else 'now '}gives what you showed{so and ' '}{so}{also}."
     return "The same sentence still gives another plan."
@@ -508,17 +508,18 @@ def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[I
 def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
     """The first plan beside each other one, step by step, and the difference of the states that they end in."""
     return "".join(
-        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan)}"
+        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan, wording)}"
         f"{_ends(plans[0], plan, number, world, wording)}</details>"
         for number, plan in enumerate(plans[1:], start=2)
     )
 
 
-def _beside_each_other(one: RankedPlan, other: RankedPlan) -> str:
+def _beside_each_other(one: RankedPlan, other: RankedPlan, wording: Wording) -> str:
     left, right = one.instructions, other.instructions
     rows: list[tuple[str, str]] = []
     for kind, a, b, c, d in SequenceMatcher(None, left, right, autojunk=False).get_opcodes():
-        sides = zip_longest(map(str, left[a:b]), map(str, right[c:d]), fillvalue="")
+        told = (map(wording.instruction, part) for part in (left[a:b], right[c:d]))
+        sides = zip_longest(*told, fillvalue="")
         rows += [(x, y) if kind == "equal" else (x and f"− {x}", y and f"+ {y}") for x, y in sides]
     body = "".join(f"<tr><td>{escape(x)}</td><td>{escape(y)}</td></tr>" for x, y in rows)
     return f"<table class='sides'><tbody>{body}</tbody></table>"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,6 +15,7 @@ from tmd.studio.environment_view import Look
 from tmd.studio.view3d.robot_mesh import Figure
 
 if TYPE_CHECKING:
+    from trimesh import Trimesh
     from viser import (
         FrameHandle,
         GlbHandle,
@@ -56,10 +57,12 @@ class Scenery:
         self._pointed = pointed
         self._frames: dict[str, FrameHandle] = {}
         self._links: dict[tuple[str, str], GlbHandle | MeshHandle] = {}
+        self._meshes: dict[tuple[str, str], Trimesh] = {}
         self._robot: dict[str, GlbHandle] = {}
         self._marks: list[LineSegmentsHandle | LabelHandle] = []
         self._named: list[LabelHandle] = []
-        self._shown: dict[object, object] = {}
+        self._poses: dict[str, Pose] = {}
+        self._colours: dict[tuple[str, str], tuple[float, ...]] = {}
         self._build()
         self.draw(look.first)
 
@@ -81,7 +84,8 @@ class Scenery:
                 else:
                     node = scene.add_glb(path, piece.glb())
                 node.on_click(lambda _, name=name: self._pointed(name))  # type: ignore[misc]
-                self._links[name, ROOT if piece.link == _ROOT else piece.link] = node
+                place = name, ROOT if piece.link == _ROOT else piece.link
+                self._links[place], self._meshes[place] = node, piece.mesh
         for piece in self._figure.pieces if self._figure else ():
             self._robot[piece.link] = scene.add_glb(f"/robot/{piece.link}", piece.glb())
 
@@ -119,9 +123,9 @@ class Scenery:
 
     def _move(self, node: SceneNodeHandle, pose: Pose) -> None:
         """Move a node, unless it is there: what does not move costs nothing."""
-        if self._shown.get(node.name) == pose:
+        if self._poses.get(node.name) == pose:
             return
-        self._shown[node.name] = pose
+        self._poses[node.name] = pose
         x, y, z, w = pose.orientation
         node.position = pose.position
         node.wxyz = (w, x, y, z)
@@ -129,9 +133,9 @@ class Scenery:
     def paint(self, place: tuple[str, str], colour: tuple[float, float, float, float]) -> None:
         """Give a link, named by its object and its own name, a colour; none where alpha is 0."""
         node = self._links.get(place)
-        if node is None or self._shown.get(("colour", place)) == colour:
+        if node is None or self._colours.get(place) == colour:
             return
-        self._shown["colour", place] = colour
+        self._colours[place] = colour
         node.visible = colour[3] > 0
         node.color = tuple(round(255 * part) for part in colour[:3])  # type: ignore[union-attr]
 
@@ -161,6 +165,23 @@ class Scenery:
             self._scene.add_line_segments(path, _edges(low, high), ORANGE, thickness=3.0, thickness_units="screen"),
             self._scene.add_label(f"/objects/{name}/name", name, position=(0.0, 0.0, high[2] + 0.08)),
         ]
+
+    def first_hit(self, eye: Sequence[float], ray: Sequence[float]) -> tuple[str, str] | None:
+        """The object, and the link of it, that is seen first from ``eye`` along ``ray``; the robot is looked through.
+
+        As clicks are: what is found is what a click there points at.
+        """
+        nearest, found = float("inf"), None
+        for (name, link), node in self._links.items():
+            frame, pose = self._poses.get(f"/objects/{name}"), self._poses.get(node.name)
+            if frame is None or pose is None or self._colours.get((name, link), (1.0,))[-1] == 0:
+                continue
+            back = (frame * pose).inverse()
+            start, way = np.array(back.apply(eye)), back.matrix() @ np.asarray(ray)
+            distance = _distance(self._meshes[name, link], start, way)
+            if distance < nearest:
+                nearest, found = distance, (name, link)
+        return found
 
     def eyes(self, picture: Picture) -> tuple[Vector, Vector]:
         """Where the robot's camera is, and what it looks at."""
@@ -202,6 +223,25 @@ class Scenery:
 def _vector(values: NDArray[np.float64]) -> Vector:
     x, y, z = values.tolist()
     return x, y, z
+
+
+def _distance(mesh: Trimesh, start: NDArray[np.float64], way: NDArray[np.float64]) -> float:
+    """How many times ``way`` it is from ``start`` to the surface; infinite where that is not met (Möller, Trumbore)."""
+    low, high = mesh.bounds
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ends = np.array([(low - start) / way, (high - start) / way])
+    if np.nanmax(ends.min(axis=0)) > np.nanmin(ends.max(axis=0)):  # it passes the box
+        return np.inf
+    corner, *others = (mesh.triangles[:, index] for index in range(3))
+    one, two = (other - corner for other in others)
+    across = np.cross(way, two)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scale = 1 / (one * across).sum(axis=1)
+        u = scale * ((start - corner) * across).sum(axis=1)
+        turned = np.cross(start - corner, one)
+        v, far = scale * (turned @ way), scale * (turned * two).sum(axis=1)
+        met = far[(u >= 0) & (v >= 0) & (u + v <= 1) & (far > 0)]
+    return float(met.min(initial=np.inf))
 
 
 def _edges(low: tuple[float, ...], high: tuple[float, ...]) -> NDArray[np.float64]:

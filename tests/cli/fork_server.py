@@ -1,0 +1,119 @@
+"""A process that has imported what commands import, and carries each command out in a fork of itself.
+
+What takes longest in a small command is to import numpy, numba and the rest; here that is done once. A fork is a
+process like any other, with arguments, directory, environment, streams and exit code of its own::
+
+    python -m tests.cli.fork_server SOCKET            answers
+    python -I -S fork_server.py SOCKET ARGUMENTS …    carries ``tmd ARGUMENTS …`` out, as a program for shells
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import socket
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+WARM = ("ground", "--environment", "kitchen1", "--text", "Take the cup.")
+PATIENCE = 240
+"""Seconds that a command may take."""
+
+
+def ask(
+    address: str, arguments: Sequence[str], cwd: str, environ: Mapping[str, str], streams: tuple[int, int, int]
+) -> int:
+    """Have a command carried out.
+
+    Returns:
+        Its exit code.
+
+    Raises:
+        TimeoutError: It has not ended.
+    """
+    with socket.socket(socket.AF_UNIX) as connection:
+        connection.settimeout(PATIENCE)
+        connection.connect(address)
+        request = json.dumps({"arguments": list(arguments), "cwd": cwd, "environ": dict(environ)}).encode()
+        socket.send_fds(connection, [len(request).to_bytes(8, "little")], streams)
+        connection.sendall(request)
+        answer = connection.recv(8)
+        return int(answer) if answer else -signal.SIGKILL
+
+
+def serve(address: str) -> None:
+    """Answer, until this process is killed."""
+    import threading
+    from contextlib import redirect_stderr, redirect_stdout, suppress
+
+    from tmd.cli.program import run
+
+    with socket.socket(socket.AF_UNIX) as server:
+        server.bind(address)
+        with Path(os.devnull).open("w") as nothing, redirect_stdout(nothing), redirect_stderr(nothing):
+            run(WARM)
+        assert threading.active_count() == 1, "a process with threads cannot be forked safely"
+        server.listen(64)
+        while True:
+            connection, _ = server.accept()
+            with suppress(ChildProcessError):
+                while os.waitpid(-1, os.WNOHANG)[0]:
+                    pass
+            if not os.fork():
+                server.close()
+                _answer(connection)
+            connection.close()
+
+
+def _answer(connection: socket.socket) -> None:
+    """Become the command, and say how it ended."""
+    head, streams, _, _ = socket.recv_fds(connection, 8, 3)
+    if not head:
+        os._exit(0)  # somebody looked whether we are here
+    size, body = int.from_bytes(head, "little"), b""
+    while len(body) < size:
+        body += connection.recv(size - len(body))
+    request = json.loads(body)
+    for number, stream in enumerate(streams):
+        os.dup2(stream, number)
+        os.close(stream)
+    # Python asks once whether a stream can be wound back, so those of the server will not do
+    sys.stdin = sys.__stdin__ = open(0, encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stdout = sys.__stdout__ = open(1, "w", encoding="utf-8", closefd=False)  # noqa: SIM115
+    sys.stderr = sys.__stderr__ = open(2, "w", 1, "utf-8", "backslashreplace", closefd=False)  # noqa: SIM115
+    os.chdir(request["cwd"])
+    os.environ.clear()
+    os.environ.update(request["environ"])
+    connection.sendall(str(_ended(request["arguments"])).encode())
+    os._exit(0)
+
+
+def _ended(arguments: Sequence[str]) -> int:
+    import atexit
+    import traceback
+    from contextlib import suppress
+
+    from tmd.cli import main
+
+    sys.argv = ["tmd", *arguments]
+    try:
+        main()
+        code = 0
+    except SystemExit as ended:
+        code = int(ended.code or 0)
+    except BaseException:
+        traceback.print_exc()
+        code = 1
+    atexit._run_exitfuncs()
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError, ValueError):
+            stream.flush()
+    return code
+
+
+if __name__ == "__main__":
+    if len(sys.argv) > 2:
+        sys.exit(ask(sys.argv[1], sys.argv[2:], str(Path.cwd()), os.environ, (0, 1, 2)))
+    serve(sys.argv[1])
