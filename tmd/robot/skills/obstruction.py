@@ -25,7 +25,7 @@ def named(counted: Counter[str], of: int = 0) -> str:
     most = sorted(counted.items(), key=lambda pair: (-pair[1], pair[0]))[:_NAMES]
     if not most:
         return ""
-    things = " and ".join(f"{name} (of {count} of {of})" if of > 1 else name for name, count in most)
+    things = " and ".join(f"{name} ({count} of {of} ways)" if of > 1 else name for name, count in most)
     return f"{things} {'is' if len(most) == 1 else 'are'} in the way"
 
 
