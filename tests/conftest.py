@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -41,7 +42,12 @@ DIGITS = 16
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Compile the searches first: the command that did so would say so, where its test expects nothing."""
+    """Let commands end by signals, and compile the searches: the command that did so would say so in its output."""
+    # what a shell or nohup had this process ignore, the commands that tests run would ignore as well
+    for name, default in (("SIGINT", signal.default_int_handler), ("SIGHUP", signal.SIG_DFL)):
+        ignored = getattr(signal, name, None)
+        if ignored is not None and signal.getsignal(ignored) is signal.SIG_IGN:
+            signal.signal(ignored, default)
     if hasattr(config, "workerinput") or os.environ.get("NUMBA_CACHE_DIR"):
         return
     if not list(

@@ -205,7 +205,7 @@ class Workspace:
 
     def run(self, case: Case, list_modules: Path | None = None, *, seconds: float | None = None) -> Outcome:
         """Run a case in a child of this process."""
-        before = self._files()
+        before, others = self._files(), _children()
         begun = time.monotonic()
         child = os.fork()
         if child == 0:  # never returns
@@ -217,13 +217,20 @@ class Workspace:
             finally:
                 os._exit(code)
         _, status = os.waitpid(child, 0)
-        return self.judged(case, os.waitstatus_to_exitcode(status), time.monotonic() - begun, before)
+        return self.judged(case, os.waitstatus_to_exitcode(status), time.monotonic() - begun, before, others)
 
-    def judged(self, case: Case, code: int, seconds: float, before: Mapping[str, tuple[int, int]]) -> Outcome:
-        """What is to be said of a case that has just ended."""
+    def judged(
+        self,
+        case: Case,
+        code: int,
+        seconds: float,
+        before: Mapping[str, tuple[int, int]],
+        others: frozenset[int] = frozenset(),
+    ) -> Outcome:
+        """What is to be said of a case that has just ended; ``before`` are the files, ``others`` the children then."""
         printed = (self.folder.parent / "stdout").read_bytes()
         told = (self.folder.parent / "stderr").read_bytes().decode("utf-8", "replace")
-        fault = _fault(case, code, printed, told) or _survivors() or self._left(case, before)
+        fault = _fault(case, code, printed, told) or _survivors(others) or self._left(case, before)
         return Outcome(code, seconds, fault, told)
 
     def _left(self, case: Case, before: Mapping[str, tuple[int, int]]) -> str:
@@ -245,6 +252,7 @@ class Workspace:
         What commands keep between calls is forgotten from case to case, but for what is part of tmd itself.
         """
         reading, writing = os.pipe()
+        others = _children()
         child = os.fork()
         if child == 0:  # never returns
             os.close(reading)
@@ -272,7 +280,7 @@ class Workspace:
             self.restore()
             _, case = make(done + 1)
             code_ = os.waitstatus_to_exitcode(status)
-            outcome = self.judged(case, code_ if code_ else _DIED, time.monotonic() - begun, self._files())
+            outcome = self.judged(case, code_ if code_ else _DIED, time.monotonic() - begun, self._files(), others)
             saved(done + 1, case, outcome)
             self.restore()
             yield done + 1, kind, outcome
@@ -376,23 +384,24 @@ def _spoilt(how: str) -> int:
     return os.open(os.devnull, os.O_RDWR)
 
 
-def _survivors() -> str:
-    """Whether a process outlived its command; it is ended."""
+def _children() -> frozenset[int]:
+    """The processes whose parent this one is."""
+    return frozenset(map(int, Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()))
+
+
+def _survivors(others: frozenset[int]) -> str:
+    """Whether a process outlived its command; it is ended. ``others`` are children that were there before."""
     deadline = time.monotonic() + PATIENCE
-    while True:
-        try:
-            number, _ = os.waitpid(-1, os.WNOHANG)
-        except ChildProcessError:
-            return ""
-        if number == 0 and time.monotonic() > deadline:
-            break
-        if number == 0:
-            time.sleep(0.01)
-    children = Path(f"/proc/{os.getpid()}/task/{os.getpid()}/children").read_text().split()
-    for child in children:  # all were started by the command, whose orphans come to us
-        os.kill(int(child), signal.SIGKILL)
-        os.waitpid(int(child), 0)
-    return f"{len(children)} processes alive after two seconds"
+    while children := _children() - others:
+        for child in children:  # all were started by the command, whose orphans come to us
+            if os.waitpid(child, os.WNOHANG) == (0, 0) and time.monotonic() > deadline:
+                for each in children:
+                    with contextlib.suppress(ProcessLookupError, ChildProcessError):
+                        os.kill(each, signal.SIGKILL)
+                        os.waitpid(each, 0)
+                return f"{len(children)} processes alive after two seconds"
+        time.sleep(0.01)
+    return ""
 
 
 def _fault(case: Case, code: int, printed: bytes, told: str) -> str:

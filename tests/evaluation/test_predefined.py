@@ -213,7 +213,7 @@ FAULTS = {
     "no verb": ("verb: take", "verb: []", "'verb' is empty", 4),
     "relation of one": ("[x]", "[x]\n    relation: on", "a relation is between two objects", 6),
     "unknown key": ("objects", "object", "unknown key", 5),
-    "not a word": ("[x]", "[1]", "valid string", 5),
+    "not a word": ("[x]", "[1]", "should be text", 5),
     "not YAML": ("[x]", "[x", "not YAML", 6),
 }
 

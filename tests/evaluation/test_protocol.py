@@ -135,7 +135,7 @@ def test_a_task_in_no_group_is_trained_with_all(tmp_path: Path) -> None:
         ("trained_together: [[ramn]]\n", "there is no task 'ramn'", 1),
         ("trained_together:\n  - [ramen]\n  - [coffee, ramen]\n", "stands here twice", 3),
         ("trained_togther: []\n", "unknown key", 1),
-        ("trained_together: [ramen]\n", "valid list", 1),
+        ("trained_together: [ramen]\n", "should be a list", 1),
         ("trained_together: [[\n", "not YAML", 2),
     ],
 )

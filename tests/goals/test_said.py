@@ -181,10 +181,10 @@ def test_another_flavour_is_another_thing() -> None:
 
 
 def test_what_was_shown_with_something_else_is_not_done_without_it() -> None:
-    assert steps(said("kitchen", "kitchen1", "Wash the mug in the sink."))[-2:] == [
-        "turn(sink1_handle, high)",
-        "turn(sink1_handle, off)",
-    ]
+    washed = steps(said("kitchen", "kitchen1", "Wash the mug in the sink."))
+    assert "turn(sink1_handle, high)" in washed
+    assert washed[-1] == "turn(sink1_handle, off)"
+    assert all("mug1" in step or "sink1" in step for step in washed)
     assert said("kitchen", "kitchen3", "Wash the mug in the sink.").refused is not None  # there is no sink
 
 
@@ -465,7 +465,8 @@ def test_what_was_cooked_is_meant_when_it_is_served() -> None:
 
 def test_hot_water_over_the_noodles_goes_where_they_are() -> None:
     grounded = said("kitchen", "kitchen1", "Boil the kettle. Put the ramen in a bowl. Pour the water over the noodles.")
-    assert {"(contains bowl1 water)", "(contains bowl1 ramen)"} <= end(grounded)
+    assert "(contains bowl1 water)" in end(grounded)
+    assert {"(contains bowl1 ramen)", "(contains bowl1 cooked_ramen)"} & end(grounded)  # hot water may cook them there
     assert not any("bowl1" in step for step in steps(grounded) if step.startswith("pour(bowl1"))
 
 

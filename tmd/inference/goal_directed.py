@@ -18,7 +18,7 @@ from tmd.goals.grounder import TRUE
 from tmd.goals.text_following import Context, Follower, GoalStep, Role, Target, TextConstraints
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
-from tmd.inference.proposers import PLANNER_SOURCE, Instructions, Proposal, Proposer, Situation
+from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Proposer, Situation
 from tmd.inference.ranking import Choice, Inferred, Path, PlanStep, RankedPlan, Refusal, StepGoal, why_lost
 from tmd.language.clause import PERSONS, Clause, Mood, Parsed, Quantifier
 from tmd.pddl.model import And, Formula, Instruction
@@ -181,6 +181,8 @@ class _Text:
             proposed = [(choice, end) for choice, end in proposed if self._touches_all(step, choice)]
             if not proposed:
                 return refused
+            # it is said to be done as it was shown, which the policy's own sequences were not
+            proposed = [each for each in proposed if each[0].source != POLICY_SOURCE] or proposed
         choices = proposed or [(_NOTHING, way.path.state)]
         return [way.taken(choice, end, way.context, noted) for choice, end in choices]
 

@@ -58,6 +58,8 @@ OURS = {
     "policy": "Extended model with a policy that proposes and judges",
     "goals": "The same, and the planner proposes what the clause states",
     "goals_learned": "The same with learned weights",
+    "bayes_risk": "The least expected loss, among plans and what the policy draws",
+    "bayes_risk_plans": "The least expected loss, among the plans of least energy alone",
     "empty": "Empty prediction",
 }
 """Titles of rows that the paper does not have."""
