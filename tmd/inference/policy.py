@@ -879,6 +879,8 @@ RIDGE = 3.0
 """Weight of the squared weights of the paper's baseline."""
 GROUNDED_RIDGE = 3.0
 """The same of a grounded policy for all but its words, chosen as those of its words were."""
+_MANY = 100
+"""Below so many demonstrations it is less, in proportion: what one or two of them show is imitated closely."""
 _COVER = 0.99
 """This share of the training sequences is not longer than what is searched."""
 
@@ -917,7 +919,8 @@ def learn_policy(
         certain: From which share on what went before counts as needed (``learn_syntax``).
         rounds: How often the training data are gone through.
         rate: Step size of the ascent.
-        ridge: Weight of the squared weights; by default :data:`RIDGE`, or :data:`GROUNDED_RIDGE` where it is grounded.
+        ridge: Weight of the squared weights; by default :data:`RIDGE`, or where it is grounded :data:`GROUNDED_RIDGE`,
+            less for few demonstrations.
         tell: Is told which share of the ascent, which takes the longest, is done.
     """
     lessons = study(demonstrations, world_of, lexicon)
@@ -931,7 +934,7 @@ def learn_policy(
             menus[lesson.things] = Menu(features, lesson.things, syntax.menu(lesson.things))
         data += steps_made(lesson, menus[lesson.things], grounded=grounded)
     if ridge is None:
-        ridge = GROUNDED_RIDGE if grounded else RIDGE
+        ridge = GROUNDED_RIDGE * min(1.0, len(lessons) / _MANY) if grounded else RIDGE
     theta = ascend(features, data, random, rounds=rounds, rate=rate, ridge=ridge, tell=tell)
     choices = max(sum(len(made.choices) for made in data), 1)
     before, after = (likelihood(features, weights, data) / choices for weights in (np.zeros_like(theta), theta))
