@@ -206,10 +206,18 @@ class Nouns:
         )
 
     def _called_after(self, noun: str) -> tuple[str, ...]:
-        """Objects with the noun in their names: *the peas* for ``pea_seeds``, where nothing is a pea."""
+        """Objects with the noun in their names: *the peas* for ``pea_seeds``, where nothing is a pea.
+
+        Where a compound is a class of the domain its first part alone is none: *coffee* is no coffee table.
+        """
         if any(m.how != WORDNET for m in self.world.mentions.ranked(noun)):
             return ()
-        return tuple(n for n in self.world.profiles.objects if noun in split_name(n)[:-1])
+        compounds = {kind for kind in self.world.mentions.classes if noun in split_name(kind)[:-1]}
+        return tuple(
+            n
+            for n in self.world.profiles.objects
+            if noun in split_name(n)[:-1] and not compounds.intersection(self._kinds(n))
+        )
 
     def is_group(self, noun: str) -> bool:
         """Whether a noun means all things of some classes."""

@@ -286,7 +286,7 @@ class Referents:
         among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and things == likely
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
-            objects, group = self._all_kinds(noun, objects, types, reading.state)
+            objects, group = self._all_kinds(noun, objects, types, reading.state, all_of_it=mode is Mode.ALL)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
         definite = phrase.definite and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
@@ -363,12 +363,16 @@ class Referents:
         return ()
 
     def _all_kinds(
-        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], state: Bits
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], state: Bits, *, all_of_it: bool = False
     ) -> tuple[tuple[str, ...], bool]:
-        """*All the lights*, where no class has that name, are the things of every class that the noun may mean."""
+        """*All the lights*, where no class has that name, are the things of every class that the noun may mean.
+
+        *Every lamp* is the floor lamp as well, which is called so; *every cup* is no bowl, which only stands in for one
+        where there is none.
+        """
         matches = self.world.mentions.of(noun, state)
         if len(objects) == 1 and noun in self.lexicon.nouns:
-            wider = set(self.lexicon.nouns[noun])
+            wider = {kind for kind in self.lexicon.nouns[noun] if not all_of_it or noun in split_name(kind)}
             kinds = self.world.mentions.kinds
             names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
             return (tuple(names), True) if len(names) > 1 else (objects, False)
