@@ -54,7 +54,9 @@ def main(copies: int) -> None:
         for name, place, library in (("library", world, large), ("objects", crowd, small)):
             size = len(library) / len(small) if name == "library" else len(crowd.profiles.objects)
             grown = utterance(place, library, reward, model)
-            print(f"{model:12}{name:10}{size:6.0f}: {base:.3f} s to {grown:.3f} s, {grown / base:.2f} times", flush=True)
+            print(
+                f"{model:12}{name:10}{size:6.0f}: {base:.3f} s to {grown:.3f} s, {grown / base:.2f} times", flush=True
+            )
     for name, library in (("as it is", small), ("copied", large)):
         data = library_to_json(library)
         text = __import__("json").dumps(data).encode()
@@ -86,7 +88,10 @@ def utterance(world: World, library: Library, reward: Reward, model: str) -> flo
     """The median over the texts of the seconds that one takes, everything compiled and read before."""
     taken = []
     for text in TEXTS:
-        times = [timed(lambda t=text: ground(t, world, library, reward=reward, config=PRESETS[model]))[0] for _ in range(REPEATS)]
+        times = [
+            timed(lambda t=text: ground(t, world, library, reward=reward, config=PRESETS[model]))[0]
+            for _ in range(REPEATS)
+        ]
         taken.append(min(times))
     return statistics.median(taken)
 

@@ -67,7 +67,7 @@ def decided(
     plans = {plan.instructions: plan for plan in inferred.plans}
     open_ended = not any(goal.source == "declared" for plan in inferred.plans for goal in plan.goals)
     if open_ended and config.drawn_candidates:
-        executor = _Executor(world, planner)
+        executor = Executor(world, planner)
         for sequence in dict.fromkeys(tuple(sequence) for sequence in drawn):
             plan = executor.plan(sequence)
             plans.setdefault(plan.instructions, plan)
@@ -90,19 +90,29 @@ def expected_losses(
     plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
 ) -> NDArray[np.float64]:
     """The mean loss of each plan against all sequences, from 0 to 1."""
+    similar, same = similarities(plans, people, world).mean(axis=2)
+    found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same)
+    return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
+
+
+def similarities(
+    plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
+) -> NDArray[np.float64]:
+    """IED and END of each plan with each sequence, from 0 to 1, under the planning rules: 2 x plans x people."""
     from rapidfuzz import process  # most models decide by energy
     from rapidfuzz.distance import Levenshtein
 
     codes = {i: chr(number) for number, i in enumerate(dict.fromkeys(i for s in (*plans, *people) for i in s), start=1)}
     mine, theirs = (["".join(codes[i] for i in sequence) for sequence in group] for group in (plans, people))
     similar = process.cdist(mine, theirs, scorer=Levenshtein.normalized_similarity, dtype=np.float64)
-    ends = {sequence: _changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
-    same = np.array([[_jaccard(ends[plan], ends[other]) for other in people] for plan in plans])
-    found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same).mean(axis=1)
-    return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
+    ends = {sequence: changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
+    same = np.array([[alike(ends[plan], ends[other]) for other in people] for plan in plans], dtype=np.float64)
+    shape = len(plans), len(people)
+    return np.stack([np.reshape(similar, shape), np.reshape(same, shape)])
 
 
-def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
+def changed(sequence: Sequence[Instruction], world: World) -> Bits:
+    """The atoms that are otherwise after a sequence, leaving out what is no instruction here."""
     state = world.task.init
     for instruction in sequence:
         operator = world.task.by_instruction.get(instruction)
@@ -110,12 +120,18 @@ def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
     return state ^ world.task.init
 
 
-def _jaccard(a: Bits, b: Bits) -> float:
+def alike(a: Bits, b: Bits) -> float:
+    """The share of the changes of either that both have, from 0 to 1; 1 where neither changes anything."""
     return (a & b).bit_count() / (a | b).bit_count() if a or b else 1.0
 
 
-class _Executor:
-    """Makes drawn sequences executable: what is missing is put in, and what cannot be done is left out."""
+class Executor:
+    """Makes sequences executable: what is missing is put in, and what cannot be done is left out.
+
+    Args:
+        world: The environment.
+        planner: Finds what an instruction needs.
+    """
 
     def __init__(self, world: World, planner: Planner) -> None:
         self.world = world

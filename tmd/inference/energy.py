@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
+from weakref import WeakKeyDictionary
 
 from tmd.diagnostics import Location, TmdError
 from tmd.inference.config import AKIN
@@ -96,8 +97,18 @@ class Statistics:
 _NOTHING = Frequencies()
 
 
+_COUNTED: WeakKeyDictionary[Library, tuple[int, Statistics]] = WeakKeyDictionary()
+
+
 def count(library: Library) -> Statistics:
-    """The tables of a library."""
+    """The tables of a library; what they are is remembered until it has more templates."""
+    known = _COUNTED.get(library)
+    if known is None or known[0] != len(library):
+        known = _COUNTED[library] = len(library), _counted(library)
+    return known[1]
+
+
+def _counted(library: Library) -> Statistics:
     found = Statistics()
     for verb in library.verbs():
         for template in library.templates(verb):

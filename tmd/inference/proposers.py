@@ -116,7 +116,7 @@ class TemplateProposer(Proposer):
     def propose(self, situation: Situation) -> Iterator[Proposal | Refusal]:
         """Each distinct trimmed instantiation, at its cheapest."""
         best: dict[tuple[Instructions, tuple[str, ...]], Proposal] = {}
-        for template in self.library.propose(situation.clause):
+        for template in self.library.distinct(situation.clause, self.world):
             for proposed in self._of_template(template, situation):
                 if isinstance(proposed, Refusal):
                     yield proposed
@@ -231,7 +231,7 @@ class PolicyProposer(Proposer):
         return {"words": surprise * self.trust}
 
     def _has_say(self, clause: Clause) -> bool:
-        verbs = dict.fromkeys(template.clause.verb for template in self.library.propose(clause))
+        verbs = dict.fromkeys(template.clause.verb for template in self.library.distinct(clause, self.world))
         return any(map(self.policy.knows, verbs)) if verbs else self.config.guess
 
 

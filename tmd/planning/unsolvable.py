@@ -68,8 +68,11 @@ class _Effect:
 
 @dataclass(frozen=True, slots=True)
 class _Action:
+    """``lost`` is for each effect what cannot survive the action where that effect happens."""
+
     precondition: Literals
     effects: tuple[_Effect, ...]
+    lost: tuple[Literals, ...]
 
 
 class Mutexes:
@@ -134,7 +137,9 @@ class Mutexes:
         for condition, (add, delete) in merged.items():
             makes = self._literals(Cube(add, delete & ~add))
             effects.append(_Effect(condition, makes, self._opposite(makes)))
-        return _Action(self._literals(operator.precondition), tuple(effects))
+        precondition = self._literals(operator.precondition)
+        lost = tuple(_lost(effects, precondition | effect.condition) for effect in effects)
+        return _Action(precondition, tuple(effects), lost)
 
     def _context(self, literals: Literals, within: Literals) -> Literals:
         """What may hold together with all of ``literals``; 0 where they exclude each other."""
@@ -157,39 +162,35 @@ class Mutexes:
                     *(self._context(effect.condition, context) for effect in action.effects[1:]),
                 )
                 if contexts != seen[number]:
+                    changed = self._apply(action, contexts, seen[number]) or changed
                     seen[number] = contexts
-                    changed = self._apply(action, contexts) or changed
 
-    def _apply(self, action: _Action, contexts: tuple[Literals, ...]) -> bool:
-        """Record the pairs after an action; whether any is new."""
+    def _apply(self, action: _Action, contexts: tuple[Literals, ...], before: tuple[Literals, ...] | None) -> bool:
+        """Record the pairs after an action; whether any is new.
+
+        What an effect leads to depends on its own context and on which effects may happen at all: where neither is
+        other than ``before``, there is nothing new.
+        """
         new = False
+        may = [bool(context) or not e.condition for e, context in zip(action.effects, contexts, strict=True)]
         live = [
-            (effect, context)
-            for effect, context in zip(action.effects, contexts, strict=True)
-            if context or not effect.condition
+            (effect.condition, effect.makes) for effect, happens in zip(action.effects, may, strict=True) if happens
         ]
-        for effect, context in live:
-            if not effect.makes:
+        same = before is not None and all(
+            bool(old) or not effect.condition or not happens
+            for effect, old, happens in zip(action.effects, before, may, strict=True)
+        )
+        for number, effect in enumerate(action.effects):
+            context = contexts[number]
+            if not may[number] or not effect.makes or (same and before is not None and before[number] == context):
                 continue
-            given = action.precondition | effect.condition
-            after = context & ~self._lost(action, given)
-            for other, _ in live:
-                if not other.condition & ~context:
-                    after |= other.makes
+            after = context & ~action.lost[number]
+            without = ~context
+            for condition, makes in live:
+                if not condition & without:
+                    after |= makes
             new = self._record(effect.makes, after | effect.makes) or new
         return new
-
-    @staticmethod
-    def _lost(action: _Action, given: Literals) -> Literals:
-        """The literals that cannot survive an action where ``given`` holds."""
-        lost = 0
-        for effect in action.effects:
-            missing = effect.condition & ~given
-            if not missing:
-                lost |= effect.kills
-            elif not missing & (missing - 1):
-                lost |= effect.kills & missing  # it is guarded by what it takes away
-        return lost
 
     def _record(self, made: Literals, after: Literals) -> bool:
         """Every literal of ``made`` may now hold together with every one of ``after``."""
@@ -203,6 +204,18 @@ class Mutexes:
                 self._reached |= 1 << literal
                 new = True
         return new
+
+
+def _lost(effects: Sequence[_Effect], given: Literals) -> Literals:
+    """The literals that cannot survive an action with ``effects`` where ``given`` holds."""
+    lost = 0
+    for effect in effects:
+        missing = effect.condition & ~given
+        if not missing:
+            lost |= effect.kills
+        elif not missing & (missing - 1):
+            lost |= effect.kills & missing  # it is guarded by what it takes away
+    return lost
 
 
 MOST_ATOMS = 6
@@ -416,8 +429,12 @@ def _integers(vector: Sequence[Fraction]) -> list[int]:
     return [value // shared for value in whole]
 
 
+_MOST_PAIRS = 2_000_000
+"""Pairs of effects, over all operators, that are looked at: a few seconds' work. A kitchen of 20 things has 40,000."""
+
+
 class Impossible:
-    """Recognises impossible goals of one task.
+    """Recognises impossible goals of one task. In a task of very many things it knows of none.
 
     What is derived from a state holds in every state reachable from it. It is derived from the task's initial
     state when first asked, and again from states that are out of its reach (forced instructions lead there).
@@ -429,9 +446,12 @@ class Impossible:
     def __init__(self, task: Task) -> None:
         self.task = task
         self._general: _Derived | None = None
+        self._too_large = sum((1 + len(o.conditional)) ** 2 for o in task.operators) > _MOST_PAIRS
 
     def reason(self, state: Bits, goal: Sequence[Cube]) -> str | None:
         """Why ``goal`` cannot be reached from ``state``; ``None`` where that is not known."""
+        if self._too_large:
+            return None
         if self._general is None:
             self._general = _Derived(self.task, self.task.init)
         derived = self._general if self._general.mutexes.covers(state) else _Derived(self.task, state)
@@ -439,7 +459,7 @@ class Impossible:
 
     def reason_from(self, state: Bits, goal: Sequence[Cube]) -> str | None:
         """As :meth:`reason`, derived from ``state`` itself: slower, and it sees more (what is used up)."""
-        return _Derived(self.task, state).reason(state, goal)
+        return None if self._too_large else _Derived(self.task, state).reason(state, goal)
 
 
 class _Derived:

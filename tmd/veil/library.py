@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from weakref import WeakKeyDictionary
 
 from tmd.language import parse
 from tmd.language.clause import Clause
@@ -12,13 +13,13 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.clause_alignment import split
 from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.template import Template, generalise
-from tmd.veil.world import World
+from tmd.veil.template import Template, generalise, resolved_relations
+from tmd.veil.world import Profile, World
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False, weakref_slot=True)
 class Library:
-    """Templates by verb. Verbs that the lexicon calls synonyms share their templates.
+    """Templates by verb. Verbs that the lexicon calls synonyms share their templates. Each is itself only.
 
     Attributes:
         lexicon: The words of the domain.
@@ -28,14 +29,46 @@ class Library:
     lexicon: Lexicon
     unaligned: list[tuple[str, str]] = field(default_factory=list)
     _by_verb: dict[str, list[Template]] = field(default_factory=dict)
+    _alike: dict[str, list[list[Template]]] = field(default_factory=dict, repr=False)
+    _distinct: WeakKeyDictionary[World, dict[str, tuple[Template, ...]]] = field(
+        default_factory=WeakKeyDictionary, repr=False
+    )
 
     def add(self, template: Template) -> None:
         """Take up one template."""
-        self._by_verb.setdefault(self.lexicon.canonical_verb(template.clause.verb), []).append(template)
+        verb = self.lexicon.canonical_verb(template.clause.verb)
+        self._by_verb.setdefault(verb, []).append(template)
+        self._alike.pop(verb, None)
+        self._distinct.clear()
 
     def propose(self, clause: Clause) -> Sequence[Template]:
         """D^(i): every template whose verb is the clause's, in the order of the corpus."""
         return self._by_verb.get(self.lexicon.canonical_verb(clause.verb), ())
+
+    def distinct(self, clause: Clause, world: World) -> Sequence[Template]:
+        """What :meth:`propose` gives, without those that cannot but propose in ``world`` what one before them does.
+
+        A large library shows the same again and again, with things of other names in other places. What that costs is
+        paid once for a library and an environment.
+        """
+        return self._distinct_of(self.lexicon.canonical_verb(clause.verb), world)
+
+    def _distinct_of(self, verb: str, world: World) -> tuple[Template, ...]:
+        known = self._distinct.setdefault(world, {})
+        if verb not in known:
+            if verb not in self._alike:
+                self._alike[verb] = _grouped(self._by_verb.get(verb, ()))
+            here = frozenset(world.profiles.objects)
+            order = {id(template): place for place, template in enumerate(self._by_verb.get(verb, ()))}
+            firsts: list[Template] = []
+            for group in self._alike[verb]:
+                # that a thing is here under the very name that it had there counts for a template
+                named: dict[tuple[str | None, ...], Template] = {}
+                for template in group:
+                    named.setdefault(tuple(n if n in here else None for n in template.grounding.values()), template)
+                firsts += named.values()
+            known[verb] = tuple(sorted(firsts, key=lambda template: order[id(template)]))
+        return known[verb]
 
     def without(self, environment: str) -> Library:
         """The library as it would be had nobody been in ``environment``: for learning as for testing."""
@@ -84,6 +117,39 @@ class WholeLibrary(Library):
     def propose(self, clause: Clause) -> Sequence[Template]:
         """Every template, verb by verb."""
         return [template for verb in self.verbs() for template in self.templates(verb)]
+
+    def distinct(self, clause: Clause, world: World) -> Sequence[Template]:
+        """The same without repetitions."""
+        return [template for verb in self.verbs() for template in self._distinct_of(verb, world)]
+
+
+def _grouped(templates: Iterable[Template]) -> list[list[Template]]:
+    """Templates that are alike but for who made them, where, and what the things were called there."""
+    numbers: dict[tuple[object, ...], int] = {}
+    profiles: dict[int, int] = {}
+    clauses: dict[int, tuple[object, ...]] = {}
+
+    def number(profile: Profile) -> int:
+        if id(profile) not in profiles:  # templates share their profiles: each is looked through once
+            profiles[id(profile)] = numbers.setdefault(tuple(profile.items()), len(numbers))
+        return profiles[id(profile)]
+
+    groups: dict[tuple[object, ...], list[Template]] = {}
+    for template in templates:
+        clause = template.clause
+        if id(clause) not in clauses:
+            clauses[id(clause)] = (clause.verb, clause.resolved(), *resolved_relations(clause))
+        key = (
+            clauses[id(clause)],
+            template.instructions,
+            tuple(template.classes.items()),
+            tuple(template.wanted.items()),
+            tuple(number(profile) for profile in template.profiles.values()),
+            tuple(sorted((pair, tuple(sorted(names))) for pair, names in template.links.items())),
+            tuple(template.mentions.items()),
+        )
+        groups.setdefault(key, []).append(template)
+    return list(groups.values())
 
 
 def whole(library: Library) -> WholeLibrary:

@@ -21,7 +21,7 @@ from tmd.goals.sources.demonstrations import learn_goals
 from tmd.goals.sources.table import GoalTable
 from tmd.ground import TaskPlanners
 from tmd.ground import infer as ground_clauses
-from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
+from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, POLICY, PRESETS, InferenceConfig
 from tmd.inference.energy import NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
 from tmd.inference.weight_learning import Journal, Learned, learn_weights
@@ -51,6 +51,22 @@ def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
     if (environment, cap) not in known:
         known[environment, cap] = make(IN_PROCESS, data.world(environment).task, cap=cap)
     return known[environment, cap]
+
+
+_POLICIES: WeakKeyDictionary[Worlds, dict[tuple[str | int, ...], InstructionTree]] = WeakKeyDictionary()
+"""The policies of a data set that were learned last, by the examples: several rows are trained on the same ones."""
+_KEPT = 4
+
+
+def _policy_of(examples: tuple[Example, ...], data: Worlds) -> InstructionTree:
+    known = _POLICIES.setdefault(data, {})
+    key = tuple(e.id for e in examples)
+    if key not in known:
+        if len(known) >= _KEPT:
+            del known[next(iter(known))]
+        # its own seed: a model that is restored has the same policy
+        known[key] = InstructionTree(grounded=True).fit(examples, data, np.random.default_rng(0))
+    return known[key]
 
 
 @dataclass(frozen=True, slots=True)
@@ -217,9 +233,7 @@ class Crf:
         return learn_goals(own, data.world, data.lexicon)
 
     def _policy(self, examples: Sequence[Example], data: Worlds) -> InstructionTree | None:
-        # its own seed: a model that is restored has the same policy
-        random = np.random.default_rng(0)
-        return InstructionTree(grounded=True).fit(examples, data, random) if self.config.policy else None
+        return _policy_of(tuple(examples), data) if self.config.policy else None
 
     def _plans(
         self,
@@ -331,6 +345,7 @@ ROWS: dict[str, Callable[[], Crf]] = {
     "full": Crf,
     "paper_extended_learned": partial(Crf, PAPER_EXTENDED),
     "goals_learned": partial(Crf, GOALS),
+    "policy_risk": partial(Crf, replace(POLICY, samples=64), learned=False),
     "bayes_risk_plans": partial(Crf, replace(BAYES_RISK, drawn_candidates=False), learned=False),
     **{name: partial(Crf, PRESETS[name], learned=False) for name in reversed(list(PRESETS))},
 }

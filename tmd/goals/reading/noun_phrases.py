@@ -23,6 +23,8 @@ PART_OF = frozenset({"of", "on", "in", "at", "from"})
 """Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
 _EVERYTHING = WHOLES | {"nothing", "thing"}
+_ANYTHING = frozenset({"item", "object", "thing", "stuff"})
+"""Nouns that say nothing of what a thing is."""
 
 
 class Mode(StrEnum):
@@ -186,6 +188,8 @@ class Nouns:
             if any(formula is not None for formula in said.values()):  # "the free hook"
                 now = tuple(n for n, formula in said.items() if formula and self.grounder.truth(formula, state))
                 return list(now)
+        if not now and split_name(noun)[-1] in _ANYTHING:  # "perishable items": nothing tells which of all things
+            return []
         # where names say which one of its kind a thing is ("red_block"), there is no yellow one
         contrary = set(modifiers) & section("keep_adjectives") and all(map(self._modified, names))
         return list(now) or ([] if contrary else names)

@@ -372,7 +372,8 @@ class Referents:
         """
         matches = self.world.mentions.of(noun, state)
         if len(objects) == 1 and noun in self.lexicon.nouns:
-            wider = {kind for kind in self.lexicon.nouns[noun] if not all_of_it or noun in split_name(kind)}
+            called = all_of_it and self._is_kind(noun, objects)
+            wider = {kind for kind in self.lexicon.nouns[noun] if not called or noun in split_name(kind)}
             kinds = self.world.mentions.kinds
             names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
             return (tuple(names), True) if len(names) > 1 else (objects, False)

@@ -22,6 +22,8 @@ WORD = 62
 """Bits of a state in one word; two fewer than 64, so that words are never negative."""
 
 Ints = list[int]
+FEW = 4
+"""How many words of a set there must be for each bit that it is quicker to take its bits one by one."""
 MANY = 32
 """Number of bits from which it is quicker to unpack a set than to take its bits one by one."""
 
@@ -72,6 +74,11 @@ class Tables(NamedTuple):
 
 def words_of(bits: Bits, words: int) -> Ints:
     """``bits`` as ``words`` words, lowest first."""
+    if bits.bit_count() * FEW < words:  # most effects change an atom or two of thousands
+        found = [0] * words
+        for number in ones(bits):
+            found[number // WORD] |= 1 << number % WORD
+        return found
     mask = (1 << WORD) - 1
     return [bits >> (WORD * i) & mask for i in range(words)]
 
