@@ -163,6 +163,27 @@ def test_everything_is_taken_off_a_table() -> None:
     }
 
 
+def test_every_one_is_of_the_class_that_is_named_where_there_is_one() -> None:
+    assert goals(said("kitchen", "kitchen1", "Put every cup in the sink.")) == ["(at cup1 sink1 in)"]  # and no bowl
+    switched = goals(said("living_room", "room5", "Turn off all the lamps."))
+    assert switched == ["(and (not (active lamp1)) (not (active floor_lamp1)))"]  # which is called a lamp as well
+
+
+def test_what_things_of_all_kinds_may_be_called_is_not_all_of_them() -> None:
+    refused = said("kitchen", "kitchen1", "Put the perishable items in the sink.")
+    assert refused.refused is not None and "nothing here is called 'perishable item'" in refused.reason
+
+
+def test_what_a_compound_begins_with_is_no_name_for_it() -> None:
+    refused = said("living_room", "room1", "Bring me a cup of coffee.")  # of a coffee table
+    assert refused.refused is not None and "nothing here is called 'coffee'" in refused.reason
+
+
+def test_what_one_asks_for_is_handed_over_though_it_lies_within_reach() -> None:
+    grounded = said("living_room", "room1", "Bring me the remote.")  # from the coffee table
+    assert steps(grounded)[-1] == "grasp(remote1)"
+
+
 def test_what_is_excepted_stays_where_it_is() -> None:
     cleared = said("kitchen", "kitchen2", "Clear the counter except for the sugar bowl.")
     assert "(at sugar_bowl1 counter1 on)" in end(cleared)

@@ -114,3 +114,13 @@ def test_null_space() -> None:
     assert null_space([], 2) == [[1, 0], [0, 1]]
     assert null_space([[1, 0], [0, 1]], 2) == []
     assert null_space([[1, 1, 0], [0, 2, 3]], 3) == [[3, -3, 2]]
+
+
+def test_a_task_of_very_many_things_is_not_looked_through(
+    any_kitchen: Kitchen, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    task = any_kitchen("kitchen1")
+    goal = [goal_of(task, "at mug1 table1 on", "at mug1 counter1 on")]
+    assert Impossible(task).reason(task.init, goal) is not None
+    monkeypatch.setattr("tmd.planning.unsolvable._MOST_PAIRS", 1_000)
+    assert Impossible(task).reason(task.init, goal) is None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import dataclasses
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -68,6 +70,34 @@ def test_every_template_of_the_corpus_gives_its_demonstration_back(kitchen: Corp
         rest = iter(shown[made.source])
         assert all(instruction in rest for instruction in replace(made.instructions, made.grounding))
         assert not any(name in kitchen.world(made.environment).profiles.constants for name in made.grounding)
+
+
+def test_what_was_shown_before_with_other_names_is_not_looked_at_again(kitchen: Corpus) -> None:
+    library = learn(kitchen.demonstrations(), kitchen.world, kitchen.lexicon)
+    copies = learn(kitchen.demonstrations(), kitchen.world, kitchen.lexicon)
+    for verb in library.verbs():
+        for made in library.templates(verb):
+            names = {variable: f"{name}_elsewhere" for variable, name in made.grounding.items()}
+            copies.add(dataclasses.replace(made, source=f"{made.source}-2", environment="elsewhere", grounding=names))
+    world = kitchen.world("kitchen4")
+    for verb in library.verbs():
+        clause = Clause(verb)
+        assert len(copies.propose(clause)) == 2 * len(library.propose(clause))
+        few, more = (each.distinct(clause, world) for each in (library, copies))
+        assert [made.source for made in more if not made.source.endswith("-2")] == [made.source for made in few]
+        # a copy is looked at only where the first one's things are here under the same names, and its own are not
+        assert all({*made.grounding.values()} - {*world.profiles.objects} for made in more if made not in few)
+        assert set(map(proposed_by(world), few)) == set(map(proposed_by(world), library.propose(clause)))
+
+
+def proposed_by(world: World) -> Callable[[Template], tuple[str, ...] | None]:
+    """What a template comes to in an environment, for a clause that says nothing but its verb."""
+
+    def come_to(made: Template) -> tuple[str, ...] | None:
+        found = instantiate(made, Clause(made.clause.verb), world, world.task.init)
+        return tuple(map(str, found.instructions)) if found is not None else None
+
+    return come_to
 
 
 def test_rule_1_a_shared_relation_maps_both_its_nouns(kitchen: Corpus) -> None:

@@ -13,6 +13,7 @@ from tmd.evaluation.models.instruction_tree import InstructionTree
 from tmd.evaluation.models.paper_models import ROWS, libraries
 from tmd.evaluation.models.predefined_templates import PredefinedTemplates
 from tmd.evaluation.models.prediction import Prediction, by_clause
+from tmd.evaluation.models.ranked import Ranked
 from tmd.evaluation.runs.dataset import Dataset, Example
 from tmd.inference.energy import delta_env, delta_nl
 from tmd.language import parse
@@ -113,6 +114,7 @@ MODELS: Mapping[str, Callable[[], Model]] = {
     "no_nl": ROWS["no_nl"],
     "nearest": NearestEnvironment,
     **{name: row for name, row in ROWS.items() if name != "no_nl"},
+    "ranked": Ranked,
 }
 """The rows by name, in the order of the table."""
 _RENAMED = {
