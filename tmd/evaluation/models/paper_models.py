@@ -21,7 +21,7 @@ from tmd.goals.sources.demonstrations import learn_goals
 from tmd.goals.sources.table import GoalTable
 from tmd.ground import TaskPlanners
 from tmd.ground import infer as ground_clauses
-from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, POLICY, PRESETS, InferenceConfig
+from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
 from tmd.inference.energy import NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
 from tmd.inference.weight_learning import Journal, Learned, learn_weights
@@ -345,7 +345,6 @@ ROWS: dict[str, Callable[[], Crf]] = {
     "full": Crf,
     "paper_extended_learned": partial(Crf, PAPER_EXTENDED),
     "goals_learned": partial(Crf, GOALS),
-    "policy_risk": partial(Crf, replace(POLICY, samples=64), learned=False),
     "bayes_risk_plans": partial(Crf, replace(BAYES_RISK, drawn_candidates=False), learned=False),
     **{name: partial(Crf, PRESETS[name], learned=False) for name in reversed(list(PRESETS))},
 }

@@ -60,7 +60,6 @@ OURS = {
     "goals_learned": "The same with learned weights",
     "bayes_risk": "The least expected loss, among plans and what the policy draws",
     "ranked": "Candidates of all proposers, ranked by weights that were learned on the metrics",
-    "policy_risk": "The least expected loss, without goals",
     "bayes_risk_plans": "The least expected loss, among the plans of least energy alone",
     "empty": "Empty prediction",
 }
