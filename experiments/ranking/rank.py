@@ -88,12 +88,13 @@ def squares(ridge: float) -> Learner:
     """A linear function of the features, nearest to the scores in least squares within each text."""
 
     def learn(texts: Sequence[Text]) -> Ranker:
-        return linear(_least_squares(texts, ridge))
+        return linear(least_squares(texts, ridge))
 
     return learn
 
 
-def _least_squares(texts: Sequence[Text], ridge: float) -> Floats:
+def least_squares(texts: Sequence[Text], ridge: float) -> Floats:
+    """The weights of :func:`squares`."""
     scale = _scale(texts)
     left, right = np.zeros((len(FEATURES), len(FEATURES))), np.zeros(len(FEATURES))
     for text in texts:
@@ -122,7 +123,7 @@ def expected_risk(temperature: float) -> Learner:
 def risk_weights(texts: Sequence[Text], temperature: float) -> Floats:
     """The weights, by gradient ascent from those of least squares."""
     scale = _scale(texts)
-    weights = _least_squares(texts, RIDGES[-2]) * scale
+    weights = least_squares(texts, RIDGES[-2]) * scale
     squared = np.full(len(weights), 1e-8)
     for _ in range(STEPS):
         gradient = -RISK_RIDGE * weights
@@ -213,9 +214,9 @@ def main(directory: Path) -> None:
             known = {key: text.known[key] for key in ("id", "environment", "text")}
             predictions.append(known | values | {"model": name})
     _print_differences(predictions)
-    temperature = TEMPERATURES[best_of([expected_risk(value) for value in TEMPERATURES], texts)]
-    print(f"\nWeights that all folds teach by expected risk, temperature {temperature}")
-    for name, weight in zip(FEATURES, risk_weights(texts, temperature).tolist(), strict=True):
+    ridge = RIDGES[best_of([squares(value) for value in RIDGES], texts)]
+    print(f"\nWeights that all folds teach by least squares, ridge {ridge}")
+    for name, weight in zip(FEATURES, least_squares(texts, ridge).tolist(), strict=True):
         print(f'    "{name}": {weight:.4f},')
 
 
@@ -237,7 +238,7 @@ def _print_differences(predictions: Sequence[dict[str, Any]]) -> None:
     found = compare(list(predictions), names, METRICS)
     table = {(pair["b"], pair["a"]): pair for pair in found["pairs"]}
     print("\nDifferences, with p of the sign-flip test by texts")
-    for later, earlier in [(b, a) for a, b in pairwise(names)] + [(names[-1], names[1]), (names[-1], names[0])]:
+    for later, earlier in [(b, a) for a, b in pairwise(names)] + [(names[-2], names[1]), (names[-2], names[0])]:
         pair = table[later, earlier]
         cells = [f"{metric} {-pair[metric]['difference']:+.2f} (p {pair[metric]['p']:.4f})" for metric in METRICS]
         print(f"  {later} - {earlier}: " + ", ".join(cells))

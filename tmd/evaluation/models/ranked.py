@@ -51,7 +51,25 @@ FEATURES = (
     "first of policy",
     "nearest neighbour",
 )
-WEIGHTS: Mapping[str, float] = {}
+WEIGHTS: Mapping[str, float] = {
+    "drawn IED": 0.7476,
+    "drawn END": 0.2011,
+    "neighbours IED": 0.2108,
+    "neighbours END": 0.0558,
+    "drawn IED squared": 0.0611,
+    "drawn END squared": 0.2787,
+    "drawn IED by END": -0.6061,
+    "length": 0.0303,
+    "length squared": -0.0090,
+    "empty": 0.0145,
+    "of goals": 0.0448,
+    "of policy": 0.0191,
+    "of drawn": -0.0018,
+    "of neighbours": 0.0145,
+    "first of goals": 0.0075,
+    "first of policy": 0.0046,
+    "nearest neighbour": -0.0370,
+}
 """The weights, learned by ``experiments/ranking/rank.py`` on VEIL-500's environments 1-8, all tasks of both worlds."""
 
 
