@@ -67,9 +67,9 @@ def decided(
     plans = {plan.instructions: plan for plan in inferred.plans}
     open_ended = not any(goal.source == "declared" for plan in inferred.plans for goal in plan.goals)
     if open_ended and config.drawn_candidates:
-        executor = Executor(world, planner)
+        completer = SequenceCompleter(world, planner)
         for sequence in dict.fromkeys(tuple(sequence) for sequence in drawn):
-            plan = executor.plan(sequence)
+            plan = completer.plan(sequence)
             plans.setdefault(plan.instructions, plan)
     people = [tuple(i for own in sequence for i in own) for sequence in drawn]
     losses = expected_losses(list(plans), people, world)
@@ -125,7 +125,7 @@ def alike(a: Bits, b: Bits) -> float:
     return (a & b).bit_count() / (a | b).bit_count() if a or b else 1.0
 
 
-class Executor:
+class SequenceCompleter:
     """Makes sequences executable: what is missing is put in, and what cannot be done is left out.
 
     Args:

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from tmd.evaluation.models.paper_models import Crf, planner_for
 from tmd.evaluation.models.prediction import Prediction
 from tmd.evaluation.runs.dataset import Dataset, Example
-from tmd.inference.bayes_risk import Executor, similarities
+from tmd.inference.bayes_risk import SequenceCompleter, similarities
 from tmd.inference.config import GOALS, POLICY
 from tmd.language import parse
 from tmd.pddl.model import Instruction
@@ -116,15 +116,15 @@ class Ranked:
     def candidates(self, example: Example, data: Dataset) -> Candidates:
         """What every proposer proposes for a text; the sequence of the example is not looked at."""
         world = data.world(example.environment)
-        executor = Executor(world, planner_for(data, example.environment, POLICY.cap))
+        completer = SequenceCompleter(world, planner_for(data, example.environment, POLICY.cap))
         tree = self._models["policy"].tree_
         policy = tree.policy(example.environment, example.world, data) if tree is not None else None
         clauses = parse(example.demonstration.text, data.lexicon).clauses
         drawn = policy.sample(clauses, DRAWN, np.random.default_rng(0)) if policy is not None and clauses else []
         near, likeness = self._neighbours(example)
         made = {name: [p.instructions for p in m.plans(example, data, top=PLANS)] for name, m in self._models.items()}
-        made["drawn"] = [executor.plan(tuple(sequence)).instructions for sequence in drawn]
-        made["neighbours"] = [executor.plan((other.gold,)).instructions for other in near]
+        made["drawn"] = [completer.plan(tuple(sequence)).instructions for sequence in drawn]
+        made["neighbours"] = [completer.plan((other.gold,)).instructions for other in near]
         plans = list(dict.fromkeys(plan for own in made.values() for plan in own)) or [()]
         number = {plan: place for place, plan in enumerate(plans)}
         proposed = {name: tuple(number[plan] for plan in dict.fromkeys(own)) for name, own in made.items()}
