@@ -259,7 +259,8 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     try:
         with cell.pushed(chosen.side, handle):
             follow(cell, chosen.side, (_rolled(beyond, roll),), ignore)
-            farthest(cell.sim)  # in the kinematic mode the joint goes along after others were told
+            if cell.robot.kinematic:
+                cell.sim.tick()  # the joint went along after others were told: all see it at its deepest
         touched = cell.robot.touches(chosen.side, handle.body, handle.index)
         cell.moment()
     finally:
