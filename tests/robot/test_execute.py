@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, State
+from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.semantics import apply
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Setbacks, without
 from tmd.robot.monitor.observation import Observer
@@ -214,6 +215,25 @@ def test_what_goes_on_by_itself_is_not_replanned(corpus: Corpus, demonstrations:
     assert sum(bool(step.mismatches) for step in done.steps) > MOST_REPAIRS
     assert (done.status, done.repairs) == (SkillStatus.RECOVERED, 0), done.reason
     assert set(wanted(corpus, long)) <= truth.state
+
+
+def test_a_tap_that_the_plan_turned_off_is_off_in_the_end(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """What ends as it began belongs to the plan as well, where the plan moves it."""
+    chosen = next(d for d in demonstrations if parse_instruction("turn(sink1_handle, off)") in d.instructions[:-1])
+    left = [len(chosen.instructions)]
+
+    def turned_on_again(truth: Truth, instruction: Instruction) -> bool:
+        left[0] -= 1
+        if left[0]:
+            return False
+        for done in (instruction, parse_instruction("turn(sink1_handle, high)")):
+            truth.state = apply(done, truth.state, truth.problem)
+        return True
+
+    done, truth, _ = run(corpus, chosen, turned_on_again)
+    assert done.status is SkillStatus.RECOVERED and done.repairs == 1
+    assert GroundAtom("set_to", ("sink1_handle", "off")) in truth.state
+    assert GroundAtom("active", ("sink1_tap",)) not in truth.state
 
 
 def wanted(corpus: Corpus, demonstration: Demonstration) -> list[GroundAtom]:

@@ -410,7 +410,7 @@ class Executor:
         if isinstance(way, str):
             return None
         after = _end(plain, task.init, way)
-        worked = {p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting")}
+        worked = self._worked()
         changed = {atom for atom in self._on_course ^ plain.decode(after) if atom.predicate in worked}
         again = frozenset(changed & self._on_course), frozenset(changed - self._on_course)
         back = _missing(IN_PROCESS, replace(plain, init=after), (), again)
@@ -424,13 +424,21 @@ class Executor:
         return None
 
     def _wanted(self, plan: Sequence[Instruction], state: State) -> _Wanted:
-        """What the plan is for: the facts that it brings about, and those that it ends."""
-        end = state
+        """What the plan is for: the facts that it brings about, and those that it ends.
+
+        Doors and knobs that it moves belong to it even if they end as they were: a tap that it turns on is off again.
+        """
+        end, moved, worked = state, set[GroundAtom](), self._worked()
         for instruction in plan:
-            end = apply(instruction, end, self.problem)
+            before, end = end, apply(instruction, end, self.problem)
+            moved |= {atom for atom in before ^ end if atom.predicate in worked}
         aside = self.observer.skills.confirmed
-        gained = frozenset(a for a in end - state if a.predicate not in aside and not self._aside(a))
-        return gained, frozenset(a for a in state - end if a.predicate not in aside and not self._aside(a))
+        concerned = [a for a in (state ^ end) | moved if a.predicate not in aside and not self._aside(a)]
+        return frozenset(a for a in concerned if a in end), frozenset(a for a in concerned if a not in end)
+
+    def _worked(self) -> frozenset[str]:
+        """The predicates of doors and knobs."""
+        return frozenset(p for p, sensor in self.observer.skills.seen.items() if sensor in ("joint", "setting"))
 
     def _stopped(self, reason: str, state: State) -> Execution:
         lasting = tuple(self.observer.lasting(self.problem.init, state, odd=True))
