@@ -1,19 +1,21 @@
 """What a large library and a crowded room cost: one utterance with 36,000 demonstrations, and among 400 objects.
 
 ``python experiments/bench/scale.py [COPIES]``: kitchen 1, with what the other kitchens teach. The library grows by
-copies (180, by default, make 36,000 demonstrations) in which demonstration, environment and objects have other names;
+copies (225, by default, make 36,000 demonstrations) in which demonstration, environment and objects have other names;
 the kitchen grows by spoons on its counter. Prints the time of one utterance beside that of the library and the kitchen
 as they are, then the time and the memory that learning takes with ten times the demonstrations.
 """
 
 from __future__ import annotations
 
+import json
 import statistics
 import sys
 import time
 import tracemalloc
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -30,10 +32,10 @@ from tmd.veil.template import Template
 from tmd.veil.world import World
 from tmd.world.folder import find_domain, find_root
 
-TEXTS = ("Fill the pot with water and put it on the stove.", "Make some ramen.", "Put the cup in the sink.")
 _T = TypeVar("_T")
+TEXTS = ("Fill the pot with water and put it on the stove.", "Make some ramen.", "Put the cup in the sink.")
 MODELS = ("goals", "bayes_risk", "paper")
-COPIES = 180
+COPIES = 225
 TENFOLD = 10
 CROWD = 400
 REPEATS = 3
@@ -58,9 +60,8 @@ def main(copies: int) -> None:
                 f"{model:12}{name:10}{size:6.0f}: {base:.3f} s to {grown:.3f} s, {grown / base:.2f} times", flush=True
             )
     for name, library in (("as it is", small), ("copied", large)):
-        data = library_to_json(library)
-        text = __import__("json").dumps(data).encode()
-        took, _ = timed(lambda text=text: library_from_json(text, corpus.lexicon))
+        text = json.dumps(library_to_json(library)).encode()
+        took, _ = timed(partial(library_from_json, text, corpus.lexicon))
         print(f"library {name}: {len(text) / 1e6:.1f} MB of JSON, read in {took:.2f} s")
     learning(demonstrations, corpus, seconds)
 
@@ -73,7 +74,7 @@ def policy(demonstrations: Sequence[Demonstration], corpus: Corpus) -> Reward:
 def learning(demonstrations: Sequence[Demonstration], corpus: Corpus, seconds: float) -> None:
     """Time and memory of learning from ten times as many."""
     more = [replace(d, id=f"{d.id}_{copy}") for copy in range(TENFOLD) for d in demonstrations]
-    took = {len(d): timed(lambda d=d: learn(d, corpus.world, corpus.lexicon))[0] for d in (demonstrations, more)}
+    took = {len(d): timed(partial(learn, d, corpus.world, corpus.lexicon))[0] for d in (demonstrations, more)}
     print("library: " + ", ".join(f"{count} demonstrations {value:.1f} s" for count, value in took.items()))
     many, _ = timed(lambda: policy(more, corpus))
     print(f"policy: {len(demonstrations)} demonstrations {seconds:.1f} s, {len(more)} {many:.1f} s")
@@ -88,11 +89,8 @@ def utterance(world: World, library: Library, reward: Reward, model: str) -> flo
     """The median over the texts of the seconds that one takes, everything compiled and read before."""
     taken = []
     for text in TEXTS:
-        times = [
-            timed(lambda t=text: ground(t, world, library, reward=reward, config=PRESETS[model]))[0]
-            for _ in range(REPEATS)
-        ]
-        taken.append(min(times))
+        act = partial(ground, text, world, library, reward=reward, config=PRESETS[model])
+        taken.append(min(timed(act)[0] for _ in range(REPEATS)))
     return statistics.median(taken)
 
 

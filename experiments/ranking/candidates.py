@@ -25,7 +25,7 @@ def collect(config: ExperimentConfig, fold: Fold, out: Path) -> None:
     if path.exists():
         return
     data = open_dataset(config)
-    row = Ranked({}).fit(fold.train, data, np.random.default_rng(0))
+    row = Ranked().fit(fold.train, data, np.random.default_rng(0))
     found = []
     for example in fold.test:
         candidates = row.candidates(example, data)

@@ -105,13 +105,13 @@ def similarities(
     codes = {i: chr(number) for number, i in enumerate(dict.fromkeys(i for s in (*plans, *people) for i in s), start=1)}
     mine, theirs = (["".join(codes[i] for i in sequence) for sequence in group] for group in (plans, people))
     similar = process.cdist(mine, theirs, scorer=Levenshtein.normalized_similarity, dtype=np.float64)
-    ends = {sequence: changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
-    same = np.array([[alike(ends[plan], ends[other]) for other in people] for plan in plans], dtype=np.float64)
+    ends = {sequence: _changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
+    same = np.array([[_alike(ends[plan], ends[other]) for other in people] for plan in plans], dtype=np.float64)
     shape = len(plans), len(people)
     return np.stack([np.reshape(similar, shape), np.reshape(same, shape)])
 
 
-def changed(sequence: Sequence[Instruction], world: World) -> Bits:
+def _changed(sequence: Sequence[Instruction], world: World) -> Bits:
     """The atoms that are otherwise after a sequence, leaving out what is no instruction here."""
     state = world.task.init
     for instruction in sequence:
@@ -120,7 +120,7 @@ def changed(sequence: Sequence[Instruction], world: World) -> Bits:
     return state ^ world.task.init
 
 
-def alike(a: Bits, b: Bits) -> float:
+def _alike(a: Bits, b: Bits) -> float:
     """The share of the changes of either that both have, from 0 to 1; 1 where neither changes anything."""
     return (a & b).bit_count() / (a | b).bit_count() if a or b else 1.0
 

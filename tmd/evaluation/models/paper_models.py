@@ -56,6 +56,7 @@ def planner_for(data: Worlds, environment: str, cap: int) -> Planner:
 _POLICIES: WeakKeyDictionary[Worlds, dict[tuple[str | int, ...], InstructionTree]] = WeakKeyDictionary()
 """The policies of a data set that were learned last, by the examples: several rows are trained on the same ones."""
 _KEPT = 4
+"""Each has some megabytes of weights; rows with the same training set come one after another."""
 
 
 def _policy_of(examples: tuple[Example, ...], data: Worlds) -> InstructionTree:

@@ -275,24 +275,24 @@ def _negative_state(tokens: list[Token]) -> list[Token]:
     So with *make sure … is not* and *neither … nor*.
     """
     words = [t.text for t in tokens]
-    ensured = [(i, n) for i in range(len(words)) for n in (3, 2, 1) if _ensures(words[i : i + n], n)]
+    starts = ((i, n) for i in range(len(words) - 1, -1, -1) for n in (1, 2, 3) if _ensures(words[i : i + n], n))
+    ensured = next(starts, None)
     for begin in (*(i + 1 for i in range(len(tokens) - 1, -1, -1) if tokens[i].kind in BREAKS), 0):
-        found = _negative_state_from(tokens, begin, words, ensured[-1:])
+        found = _negative_state_from(tokens, begin, words, ensured)
         if found is not None:
             return found
     return tokens
 
 
 def _negative_state_from(
-    tokens: list[Token], begin: int, words: list[str], ensures: list[tuple[int, int]]
+    tokens: list[Token], begin: int, words: list[str], ensures: tuple[int, int] | None
 ) -> list[Token] | None:
     """The same for the piece that begins at ``begin``; ``None`` if it says no such thing.
 
     ``ensures`` is where the last words such as *make sure* are, if there are any, and how many they are.
     """
     begin += words[begin : begin + 1] != [] and words[begin] in JOINTS
-    starts = [(at, lead) for at, lead in ensures if at >= begin]
-    begin, lead = starts[-1] if starts else (begin, 0)
+    begin, lead = ensures if ensures is not None and ensures[0] >= begin else (begin, 0)
     start = begin + lead + (words[begin + lead : begin + lead + 1] == ["that"])
     end = next((i for i in range(start, len(words)) if tokens[i].kind in BREAKS), len(words))
     for at in range(start + 1, end - 1):
