@@ -184,6 +184,18 @@ def test_what_one_asks_for_is_handed_over_though_it_lies_within_reach() -> None:
     assert steps(grounded)[-1] == "grasp(remote1)"
 
 
+def test_what_is_excepted_is_where_it_is_said_to_be() -> None:
+    every = "(and (at mug1 sink1 in) (at mug2 sink1 in))"
+    for where, goal in (("table", every), ("shelf", "(at mug1 sink1 in)")):  # mug2 is on the shelf
+        text = f"Put every mug except the one on the {where} into the sink."
+        assert goals(said("kitchen", "kitchen2", text)) == [goal]
+
+
+def test_an_idiom_is_not_what_its_first_word_is() -> None:
+    refused = said("living_room", "room5", "Get rid of the light, and shut the blind too.")  # to get it is no way
+    assert refused.refused is not None and "Get rid of the light" in refused.reason
+
+
 def test_what_is_excepted_stays_where_it_is() -> None:
     cleared = said("kitchen", "kitchen2", "Clear the counter except for the sugar bowl.")
     assert "(at sugar_bowl1 counter1 on)" in end(cleared)

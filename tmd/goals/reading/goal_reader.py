@@ -211,7 +211,8 @@ class GoalReader:
         plain = clause.verb.partition("_")[0]
         goals = {word for group in ("in", "on", "next_to", "to") for word in PREPOSITIONS[group]}
         goes = any(r.source in clause.direct and r.relation in goals for r in clause.relations)
-        if plain != clause.verb and (goes or not clause.verb.endswith(("_out", "_away", "_off", "_ready"))):
+        phrasal = clause.verb.count("_") == 1  # to take out is to take; to get rid of is not to get
+        if phrasal and (goes or not clause.verb.endswith(("_out", "_away", "_off", "_ready"))):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         found = self._by_tables(own, reading)
         if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:

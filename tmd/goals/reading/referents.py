@@ -425,12 +425,20 @@ class Referents:
         found: dict[str, None] = {}
         for relation, target in relations:
             if relation in EXCEPTING:
-                names = self.targets(target, reading)
+                names = self._where_it_was_said(target, self.targets(target, reading), reading)
                 phrase = reading.clause.phrase(target)
                 one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
                 wide = (n for noun in reading.clause.meant(target) for n in self.every_kind(noun, reading.state))
                 found.update(dict.fromkeys((*names, *(() if one else wide))))
         return tuple(found)
+
+    def _where_it_was_said(self, noun: str, names: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """Those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
+        for relation, place in self.relations_of(noun, reading.clause):
+            where = self.targets(place, reading)
+            if relation in _PLACES and where:
+                names = self.described(Referent(noun, names), relation, where, reading)
+        return names
 
     def _is_kind(self, noun: str, names: Iterable[str]) -> bool:
         """Whether things are of the very class that a noun names."""
