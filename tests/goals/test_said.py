@@ -184,6 +184,15 @@ def test_what_one_asks_for_is_handed_over_though_it_lies_within_reach() -> None:
     assert steps(grounded)[-1] == "grasp(remote1)"
 
 
+@pytest.mark.parametrize("lit", ["light the burner", "turn on the stove", "turn the stove on"])
+@pytest.mark.parametrize("kitchen", ["kitchen1", "kitchen2"])
+def test_of_several_burners_that_one_is_lit_on_which_something_was_put(kitchen: str, lit: str) -> None:
+    holds = end(said("kitchen", kitchen, f"Put the kettle on the stove and {lit}."))
+    (burner,) = (fact.split()[2] for fact in holds if fact.startswith("(at kettle1 ") and "burner" in fact)
+    assert f"(active {burner})" in holds
+    assert sum(fact.startswith("(active ") and "burner" in fact for fact in holds) == 1
+
+
 def test_what_is_excepted_is_where_it_is_said_to_be() -> None:
     every = "(and (at mug1 sink1 in) (at mug2 sink1 in))"
     for where, goal in (("table", every), ("shelf", "(at mug1 sink1 in)")):  # mug2 is on the shelf

@@ -35,7 +35,7 @@ from tmd.goals.sources.table import (
 from tmd.language.clause import PERSONS, Clause, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_one
-from tmd.pddl.model import Formula, Or, conjuncts
+from tmd.pddl.model import Atom, Formula, Or, conjuncts
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
@@ -359,7 +359,8 @@ class GoalReader:
             if isinstance(found, Refused):
                 return found
             formula, used = found
-            formulas.append(self._as_at_first(formula, reading))
+            formula = self._as_at_first(formula, reading)
+            formulas.append(self._where_spoken_of(formula, used, unit, reading))
         either = any(reading.clause.phrase(name).either for name in reading.clause.direct)
         none = all(reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct or ("",))
         return disjunction(formulas) if either or none else conjunction(formulas), used
@@ -370,6 +371,23 @@ class GoalReader:
             return formula
         then = [part for part in formula.parts if self.grounder.truth(part, reading.memory.first)]
         return disjunction(then) if then else formula
+
+    def _where_spoken_of(self, formula: Formula, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula:
+        """Of several things that *the* one may be the one where that is which was spoken of last.
+
+        *Put the pot on the stove. Light the burner*: the burner that the pot stands on.
+        """
+        said = reading.clause.phrase(unit.direct or "")
+        one = said.definite and not said.plural and said.quantifier is Quantifier.PLAIN
+        if not one or row.places or not isinstance(formula, Or) or not all(isinstance(p, Atom) for p in formula.parts):
+            return formula
+        for name in reading.memory.recent:
+            facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
+            joined = {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
+            near = [part for part in formula.parts if any(joined.intersection(a.args) for a in atoms_of(part))]
+            if near:
+                return disjunction(near)
+        return formula
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | None:
         """*Two spoons of coffee* is some coffee, where nothing can be said of the spoons."""
