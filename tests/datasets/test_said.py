@@ -48,6 +48,13 @@ def test_a_pot_on_the_stove_stands_on_a_burner(small: VeilData) -> None:
     assert burners & end(said(small, "kitchen", "Put the pot on the stove."))
 
 
+def test_of_the_burners_that_one_is_lit_that_the_pot_stands_on(small: VeilData) -> None:
+    holds = end(said(small, "kitchen", "Put the pot on the stove and turn the stove on."))
+    assert [n for n in (1, 2) if f"(at kettle stovefire_{n} on)" in holds] == [
+        n for n in (1, 2) if f"(lit stovefire_{n})" in holds
+    ]
+
+
 def test_what_goes_into_the_sink_stays_there_when_the_next_thing_does(small: VeilData) -> None:
     grounded = said(small, "kitchen", "Put the plate in the sink. Put the fork and the mug in the sink.")
     assert {"(at plate_1 sink on)", "(at fork_1 sink on)", "(at mug_1 sink on)"} <= end(grounded)
