@@ -193,6 +193,11 @@ def test_of_several_burners_that_one_is_lit_on_which_something_was_put(kitchen: 
     assert sum(fact.startswith("(active ") and "burner" in fact for fact in holds) == 1
 
 
+def test_what_is_put_back_is_not_what_something_else_was_put_into() -> None:
+    grounded = said("kitchen", "kitchen3", "Pour the milk into the cup. Put the milk back.")
+    assert "(at milk1 fridge1 in)" in end(grounded)
+
+
 def test_what_is_excepted_is_where_it_is_said_to_be() -> None:
     every = "(and (at mug1 sink1 in) (at mug2 sink1 in))"
     for where, goal in (("table", every), ("shelf", "(at mug1 sink1 in)")):  # mug2 is on the shelf

@@ -379,13 +379,13 @@ class GoalReader:
         """
         said = reading.clause.phrase(unit.direct or "")
         one = said.definite and not said.plural and said.quantifier is Quantifier.PLAIN
-        if not one or row.places or not isinstance(formula, Or) or not all(isinstance(p, Atom) for p in formula.parts):
+        if not one or row.places or not isinstance(formula, Or) or not _of_alternatives(formula.parts):
             return formula
         for name in reading.memory.recent:
             facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
             joined = {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
             near = [part for part in formula.parts if any(joined.intersection(a.args) for a in atoms_of(part))]
-            if near:
+            if near and not any(name in a.args for a in atoms_of(formula)):
                 return disjunction(near)
         return formula
 
@@ -705,3 +705,11 @@ class GoalReader:
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.world.task, self.grounder)
         return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")
+
+
+def _of_alternatives(parts: Sequence[Formula]) -> bool:
+    """Whether all say the same of several things: one predicate, and arguments that differ in one place."""
+    atoms = [(part.predicate, part.terms) for part in parts if isinstance(part, Atom)]
+    if len(atoms) < len(parts) or len({(predicate, len(terms)) for predicate, terms in atoms}) > 1:
+        return False
+    return sum(len(set(column)) > 1 for column in zip(*(terms for _, terms in atoms), strict=True)) == 1

@@ -221,6 +221,10 @@ class Referents:
                 self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
             )
         bound = reading.memory.bound.get(antecedent)
+        if bound is not None and bound.containers and self._puts_back(reading):
+            things = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
+            if things.names:
+                return things
         many = pronoun in ("them", "they", "these", "those", "both", "all") or self.nouns.is_group(antecedent)
         if bound is not None:
             names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
@@ -269,7 +273,8 @@ class Referents:
             spoken = [n for n in reading.memory.recent if self.grounder.is_a(n, types)]
             opened = [n for n in spoken if self.nouns.state_of(state_words("open"), n) is not None]
             things = tuple(opened or spoken)[:1]
-        inside = self._by_now_in(noun, types, reading) if phrase.quantifier is Quantifier.PLAIN else ()
+        plain = phrase.quantifier is Quantifier.PLAIN and not self._puts_back(reading)
+        inside = self._by_now_in(noun, types, reading) if plain else ()
         if inside and place:
             return Referent(noun, inside, definite=True)
         if inside and phrase.definite:
@@ -316,6 +321,11 @@ class Referents:
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
+
+    def _puts_back(self, reading: ClauseReading) -> bool:
+        """Whether things go where they were: the milk is its carton then, and not the cup that has some by now."""
+        verb = reading.clause.verb
+        return any(name.endswith("_back") for name in (verb, self.lexicon.canonical_verb(verb)))
 
     def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:
         """Those of some places where what the clause acts on is now."""
