@@ -193,6 +193,13 @@ def test_of_several_burners_that_one_is_lit_on_which_something_was_put(kitchen: 
     assert sum(fact.startswith("(active ") and "burner" in fact for fact in holds) == 1
 
 
+@pytest.mark.parametrize("flavour", ["vanilla", "chocolate"])
+def test_a_dish_with_something_has_that_in_it(flavour: str) -> None:
+    holds = end(said("kitchen", "kitchen3", f"Serve an affogato with {flavour} ice cream."))
+    (vessel,) = (fact.split()[1] for fact in holds if fact.endswith(f" {flavour}_ice_cream)") and "tub" not in fact)
+    assert f"(contains {vessel} coffee)" in holds
+
+
 def test_what_is_put_back_is_not_what_something_else_was_put_into() -> None:
     grounded = said("kitchen", "kitchen3", "Pour the milk into the cup. Put the milk back.")
     assert "(at milk1 fridge1 in)" in end(grounded)

@@ -554,6 +554,8 @@ class Requirements:
             for relation, target in leftover:
                 if relation == "without" or reading.clause.phrase(target).quantifier is Quantifier.NONE:
                     found.append(self._without(row, pairs, self.referents.targets(target, reading), reading))
+                elif relation == "with" and self.nouns.constants(target, ("object",), reading.state):
+                    reading.notes.append(f"'with {target.replace('_', ' ')}' says nothing here that could be checked")
         for variable, referent in pairs:
             # a pronoun goes by the name of what it stands for, and what was said of it is said of the direct object
             noun = direct if row.direct is not None and variable == row.direct.variable else referent.noun
