@@ -221,6 +221,8 @@ class BaseMotionParameters:
     """Searches, each without the moves that turned out to be blocked."""
     escape_points: int = 200
     """Points looked at from the start, to see whether one gets away from there at all."""
+    max_places: int = 8000
+    """Places of the grid, whatever the heading, that are looked at: a room of 80 square metres."""
     turn_cost: float = 0.35
     """Metres that turning by one radian costs."""
 

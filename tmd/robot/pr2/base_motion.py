@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from heapq import heappop, heappush
 from itertools import pairwise
-from math import hypot, pi, tau
+from math import hypot, inf, pi, tau
 from typing import Protocol
 
 import numpy as np
@@ -22,10 +22,12 @@ from tmd.robot.pr2.trajectory_following import JointGroup, exact
 from tmd.robot.pr2.urdf import BASE_JOINTS
 
 Base = tuple[float, float, float]
+Place = tuple[int, int]
 Cell = tuple[int, int, int]
 
 STRIDES = np.array([0.04, 0.04, 0.08])
 """How far the base may move between two checks."""
+_ALL_HEADINGS = sorted(range(-BASE_MOTION.grid_headings // 2, BASE_MOTION.grid_headings // 2), key=abs)
 _MOVES = [(dx, dy) for dx in (-1, 0, 1) for dy in (-1, 0, 1) if dx or dy]
 
 
@@ -119,6 +121,7 @@ class _Lattice:
         self._known: dict[Cell, bool] = {(0, 0, 0): True}
         self._screened: dict[Cell, bool] = {}
         self._blocked: set[tuple[Cell, Cell]] = set()
+        self._ways = _PlaceDistances(self)
 
     def pose(self, cell: Cell) -> Array:
         """x, y, theta; the heading is counted on, not wrapped."""
@@ -145,9 +148,12 @@ class _Lattice:
         """Corners from start to goal, (n, 3), or None."""
         if (path := self.straight()) is not None:
             return path
-        entries = {cell for cell in self._entries() if self._free(cell) and self._line(self._start, self.pose(cell))}
-        if self._enclosed(entries):  # wedged in: a search from the goal would look at the whole room in vain
+        entries = {cell for cell in self._entries() if self.free(cell) and self._line(self._start, self.pose(cell))}
+        # wedged in at either end: the search would look at the whole room in vain
+        if self._enclosed(entries, {(0, 0, 0)}) or self._enclosed({(0, 0, 0)}, entries):
             return None
+        for i, j, k in sorted(entries):
+            self._ways.add((i, j), float(np.hypot(*(self.pose((i, j, k)) - self._start)[:2])))
         # the search looks at points only; what lies between them is looked at once a way is found
         for _ in range(BASE_MOTION.max_attempts):
             cells = self._astar(entries, budget)
@@ -159,15 +165,15 @@ class _Lattice:
             self._blocked.update(bad, [(b, a) for a, b in bad])
         return None
 
-    def _enclosed(self, entries: set[Cell]) -> bool:
-        """Whether few points can be reached from the start, and the goal is none of them."""
-        reached, waiting = set(entries), sorted(entries)
+    def _enclosed(self, ends: set[Cell], others: set[Cell]) -> bool:
+        """Whether few points can be reached from the ones, and none of the others is among them."""
+        reached, waiting = set(ends), sorted(ends)
         while waiting and len(reached) < BASE_MOTION.escape_points:
             for neighbour, _ in self._neighbours(waiting.pop()):
-                if neighbour not in reached and self._free(neighbour):
+                if neighbour not in reached and self.free(neighbour):
                     reached.add(neighbour)
                     waiting.append(neighbour)
-        return not waiting and (0, 0, 0) not in reached
+        return not waiting and reached.isdisjoint(others)
 
     def _astar(self, entries: set[Cell], budget: int) -> list[Cell] | None:
         """From the goal back to a point next to the start, which is off the lattice; points in driving order."""
@@ -176,6 +182,8 @@ class _Lattice:
         closed: set[Cell] = set()
         heap = [(self._left((0, 0, 0)), 0, (0, 0, 0))]
         pushed = 0
+        if heap[0][0] == inf:
+            return None
         while heap and len(closed) < budget:
             _, _, cell = heappop(heap)
             if cell in closed:
@@ -191,7 +199,7 @@ class _Lattice:
                 total = best[cell] + price
                 if neighbour in closed or total >= best.get(neighbour, np.inf) - 1e-12:
                     continue
-                if (cell, neighbour) in self._blocked or not self._free(neighbour):
+                if (cell, neighbour) in self._blocked or not self.free(neighbour):
                     continue
                 best[neighbour] = total
                 before[neighbour] = cell
@@ -212,8 +220,8 @@ class _Lattice:
 
     def _left(self, cell: Cell) -> float:
         """A lower bound on the cost from a point to the start, slightly raised: fewer points, hardly longer ways."""
-        away = np.abs(self.pose(cell) - self._start)
-        return 1.2 * (hypot(away[0], away[1]) + BASE_MOTION.turn_cost * float(away[2]))
+        turn = abs(float(self.pose(cell)[2] - self._start[2]))
+        return 1.2 * (self._ways.to(cell[:2]) + BASE_MOTION.turn_cost * turn)
 
     @staticmethod
     def _neighbours(cell: Cell) -> Iterator[tuple[Cell, float]]:
@@ -224,7 +232,8 @@ class _Lattice:
             if abs(k + turn) <= BASE_MOTION.grid_headings:
                 yield (i, j, k + turn), BASE_MOTION.turn_cost * tau / BASE_MOTION.grid_headings
 
-    def _free(self, cell: Cell) -> bool:
+    def free(self, cell: Cell) -> bool:
+        """Whether the robot touches nothing there."""
         if cell not in self._known:
             if cell not in self._screened:
                 self._screen(cell)
@@ -244,3 +253,46 @@ class _Lattice:
 
     def _line(self, start: Array, end: Array) -> bool:
         return free_line(self._checker, start, end)
+
+
+class _PlaceDistances:
+    """How far it is from the start to a place if the heading is free to choose at each: a bound for the search.
+
+    It knows the ways round what is in between, where the straight distance leads into it. The search goes on from where
+    it was whenever a place is asked for (D. Silver, Cooperative Pathfinding, AIIDE 2005: reverse resumable A*).
+    """
+
+    def __init__(self, lattice: _Lattice) -> None:
+        self._lattice = lattice
+        self._best: dict[Place, float] = {}
+        self._closed: set[Place] = set()
+        self._heap: list[tuple[float, Place]] = []
+        self._passable: dict[Place, bool] = {}
+
+    def add(self, place: Place, distance: float) -> None:
+        """A way of so many metres leads to this place."""
+        if distance < self._best.get(place, inf) - 1e-12:
+            self._best[place] = distance
+            heappush(self._heap, (distance + self._ahead(place), place))
+
+    def to(self, place: Place) -> float:
+        """Metres; infinite where no way leads there, or where it is too far."""
+        while place not in self._closed and self._heap and len(self._closed) < BASE_MOTION.max_places:
+            _, here = heappop(self._heap)
+            if here in self._closed:
+                continue
+            self._closed.add(here)
+            for dx, dy in _MOVES:
+                there = here[0] + dx, here[1] + dy
+                if there not in self._closed and self._is_passable(there):
+                    self.add(there, self._best[here] + BASE_MOTION.grid_pitch * hypot(dx, dy))
+        return self._best[place] if place in self._closed else inf
+
+    def _ahead(self, place: Place) -> float:
+        """At least so far it is to the goal, from where the lattice's search comes."""
+        return BASE_MOTION.grid_pitch * hypot(*place)
+
+    def _is_passable(self, place: Place) -> bool:
+        if place not in self._passable:
+            self._passable[place] = any(self._lattice.free((*place, k)) for k in _ALL_HEADINGS)
+        return self._passable[place]

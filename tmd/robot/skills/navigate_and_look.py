@@ -120,6 +120,7 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
     clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
     places += [(base, here) for base, _ in zip(clear, range(BASE_MOTION.max_stances), strict=False)]
     for base, torso in places:
+        cell.look_on(f"the way to {name}")
         try:
             get_to(cell, base, torso)
         except SkillError as error:
