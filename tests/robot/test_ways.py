@@ -130,3 +130,19 @@ def test_a_door_is_seen_to_hit_what_the_other_hand_holds(cell: Cell) -> None:
 def test_nothing_is_dipped_through_a_lid(cell: Cell) -> None:
     with held(cell, "left", "spoon1"):
         assert dip_options(cell, "spoon1", "vanilla_tub1") == []
+
+
+def test_a_drawer_with_something_in_it_can_be_shut(cell: Cell) -> None:
+    """The hand at its end is where the thing stood before."""
+    handle, item = cell.scene.handle("drawer1"), "mug1"
+    assert handle is not None
+    home = cell.sim.pose(cell.scene.bodies[item])
+    cell.sim.set_joint(handle.body, handle.index, handle.open)
+    front = cell.scene.handle("drawer1")
+    assert front is not None
+    spots = [spot.pose for spot in cell.scene.support("drawer1", "in", item)]
+    cell.sim.set_pose(cell.scene.bodies[item], min(spots, key=lambda pose: pose.distance(front.grasp)))
+    cell.sim.step(1)
+    assert with_room(cell, swing_options(cell, "drawer1", [0.0]))
+    cell.sim.set_pose(cell.scene.bodies[item], home)
+    cell.sim.set_joint(handle.body, handle.index, handle.closed)

@@ -135,7 +135,8 @@ def swing_options(cell: Cell, name: str, goals: Sequence[float]) -> list[Option]
     """
     handle, hands = _handle(cell, name), cell.free()
     start = cell.sim.joint_position(handle.body, handle.index)
-    ignore: Links = frozenset({(handle.body, handle.index)})
+    # what is in a drawer is no longer there when the hand is where it was
+    ignore: Links = frozenset({(handle.body, handle.index), *((body, None) for body in cell.in_drawer(handle))})
     options = []
     for part in goals:
         goal = _end(handle, part)

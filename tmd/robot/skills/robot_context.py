@@ -361,13 +361,7 @@ class Cell:
     def _following(self, handle: Handle, tool: Callable[[], Pose]) -> Iterator[None]:
         start, at = tool(), self.sim.joint_position(handle.body, handle.index)
         frame = self.sim.pose(handle.body, handle.index)
-        inside = [
-            (self.scene.bodies[item], frame.inverse() * self.sim.pose(self.scene.bodies[item]))
-            for item in self.scene.items()
-            if handle.kind == "drawer"
-            and (place := self.scene.supported(item))
-            and self.scene.place(place[0])[0] == handle.body
-        ]
+        inside = [(body, frame.inverse() * self.sim.pose(body)) for body in self.in_drawer(handle)]
         low, high = sorted((handle.closed, handle.open, *handle.settings.values()))[:: max(1, len(handle.settings) + 1)]
 
         def follow(sim: Simulator) -> None:
@@ -381,6 +375,17 @@ class Cell:
             yield
         finally:
             self.sim.remove_watcher(follow)
+
+    def in_drawer(self, handle: Handle) -> list[int]:
+        """The bodies that move with a drawer because they are in it."""
+        if handle.kind != "drawer":
+            return []
+        places = {item: self.scene.supported(item) for item in self.scene.items()}
+        return [
+            self.scene.bodies[item]
+            for item, place in places.items()
+            if place is not None and self.scene.place(place[0])[0] == handle.body
+        ]
 
     def spring(self, name: str) -> None:
         """Let a door that has been unlatched swing open, for at most two seconds."""
