@@ -364,6 +364,8 @@ def of_options(workspace: Workspace, choose: Random) -> Case:
             arguments += [choose.choice(parameter.opts), value]
     if name == "experiment" and "--models" not in arguments:
         arguments += ["--models", "empty"]
+    if name == "experiment" and "--jobs" not in arguments:
+        arguments += ["--jobs", "1"]  # processes end with the program, and a child of ours does many cases
     if name == "learn":
         arguments.append("--no-weights")
     before: Sequence[str] = ()

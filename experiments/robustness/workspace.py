@@ -463,12 +463,12 @@ def save(workspace: Workspace, case: Case, outcome: Outcome, target: Path, name:
     if target.exists():
         return
     target.mkdir(parents=True)
-    for name in workspace.changed():
-        path = workspace.folder / name
+    for file in workspace.changed():
+        path = workspace.folder / file
         if path.is_file() and not path.is_symlink():
             try:
-                (target / name).parent.mkdir(parents=True, exist_ok=True)
-                (target / name).write_bytes(path.read_bytes())
+                (target / file).parent.mkdir(parents=True, exist_ok=True)
+                (target / file).write_bytes(path.read_bytes())
             except OSError as error:  # its name is too long where it goes to
                 if error.errno not in (errno.ENAMETOOLONG, errno.ENOTDIR):
                     raise

@@ -342,6 +342,22 @@ def test_the_disk_is_full(arguments: list[str]) -> None:
     assert done.stderr.startswith(b"error: output: No space left on device\n")
 
 
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        (["experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty", "--out", "run"], ExitCode.OK),
+        (["validate", "01_blocks", "nowhere.pddl", "nowhere.txt", "--json"], ExitCode.BAD_INPUT),
+    ],
+)
+def test_where_no_error_can_be_written_the_command_goes_on(arguments: list[str], code: int, tmp_path: Path) -> None:
+    with Path("/dev/full").open("wb") as full:
+        command = [sys.executable, "-m", "tmd", *arguments]
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=full, check=False, cwd=tmp_path)
+    assert done.returncode == code
+    assert done.stdout
+
+
 def test_every_code_is_provoked() -> None:
     """The codes of the table above and those that have a test of their own (NOT_EXECUTED in test_run.py)."""
     own = {

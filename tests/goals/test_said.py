@@ -548,3 +548,15 @@ def test_what_is_not_yet_done_right(where: str, text: str, facts: set[str] | Non
         assert grounded.plans == ()
     else:
         assert facts <= end(grounded)
+
+
+def test_everything_that_is_so_is_what_could_be_otherwise() -> None:
+    grounded = said("kitchen", "kitchen1", "Put everything that is empty in the sink.")
+    assert all("(at pot1 sink1 in)" in goal and "sugar_bowl1" not in goal for goal in goals(grounded))
+    refused = said("living_room", "room2", "Throw away everything on the floor that is empty.")  # a pillow, a book ...
+    assert not refused.plans
+
+
+def test_a_measure_of_what_comes_with_it_is_that() -> None:
+    grounded = said("kitchen", "kitchen1", "Serve coffee with two spoons of sugar.")
+    assert all("sugar)" in goal and "coffee)" in goal for goal in goals(grounded))

@@ -151,6 +151,7 @@ WRONG = {
     "a number for a class": ("library.json", b'"source":"', b'"source":1,"was":"'),
     "a profile that is none": ("library.json", b'"profiles":[', b'"profiles":[["at"],'),
     "a policy of words": ("policy.json", b'"longest":', b'"longest":"9","was":'),
+    "an action that is none": ("policy.json", b'"needs":', b'"needs":[["keep",0,["fly"]]],"was":'),
     "no number": ("policy.json", b'"before":', b'"before":1e999,"was":'),
     "a header that numpy cannot parse": ("policy.npy", b"{'descr'", b"{'descr("),
     "weights that overflow": ("policy.npy", b"", b""),

@@ -588,6 +588,27 @@ def test_a_long_text_gives_every_clause() -> None:
     assert len(parsed.clauses) == 2600
 
 
+@pytest.mark.parametrize("mark", ["(", "[", "- ", "and ", "water "])
+def test_of_a_sentence_without_end_the_beginning_is_read(mark: str) -> None:
+    parsed = parse("Take the cup. Fill the kettle " + mark * 50_000)
+    assert print_clause(parsed.clauses[0]) == "(take, [cup])"
+    assert "the sentence has more than 1,000 words" in {skipped.reason for skipped in parsed.skipped}
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("Wash everything on the bench that is dirty.", "everything"),
+        ("Wash all the brushes on the bench that are dirty.", "brush"),
+        ("Wash the brush on the bench that is dirty.", "bench"),
+        ("Put all the brushes on the bench that is dry.", "bench"),
+    ],
+)
+def test_a_relative_clause_is_about_the_noun_that_agrees(text: str, noun: str) -> None:
+    (clause,) = parse(text).clauses
+    assert [name for name in clause.objects if clause.phrase(name).attributes] == [noun]
+
+
 @pytest.mark.parametrize(
     ("text", "forbidden"),
     [

@@ -191,6 +191,8 @@ def test_a_port_in_use() -> None:
             free_port("127.0.0.1", taken.getsockname()[1])
     with pytest.raises(TmdError, match="cannot be listened at"):
         free_port("192.0.2.1", 0)
+    with pytest.raises(TmdError, match="cannot be listened at"):
+        free_port("\udcff", 0)
 
 
 def test_serving_ends(server: Server) -> None:

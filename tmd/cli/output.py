@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import sys
-from io import TextIOWrapper
+from contextlib import nullcontext, suppress
+from io import TextIOBase, TextIOWrapper
 
 from tmd.format.json_layout import lay_out
 
@@ -28,12 +29,32 @@ def open_closed_streams() -> None:
 
 
 def emit(text: str, *, error: bool = False) -> None:
-    """Write ``text`` to standard output or standard error."""
+    """Write ``text`` to standard output or standard error; where no error can be written, the command goes on."""
     stream = sys.stderr if error else sys.stdout
-    if isinstance(stream, TextIOWrapper):
-        stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-    stream.write(text)
-    stream.flush()
+    with suppress(OSError) if error else nullcontext():
+        if isinstance(stream, TextIOWrapper):
+            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+        stream.write(text)
+        stream.flush()
+
+
+class ErrorStream(TextIOBase):
+    """Standard error for libraries that write to a file: what cannot be written is dropped, as by :func:`emit`."""
+
+    encoding = "utf-8"
+
+    def write(self, text: str) -> int:
+        """Write it; its length."""
+        emit(text, error=True)
+        return len(text)
+
+    def isatty(self) -> bool:
+        """Whether somebody looks at it."""
+        return sys.stderr.isatty()
+
+    def fileno(self) -> int:
+        """Its number, for its width."""
+        return sys.stderr.fileno()
 
 
 def emit_json(value: object) -> None:

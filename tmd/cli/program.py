@@ -104,10 +104,7 @@ def _tell(fault: Fault, *, as_json: bool) -> ExitCode:
         sys.stdout.flush()
     except OSError:
         _silence()
-    try:
-        emit(fault.text(), error=True)
-    except OSError:
-        return code
+    emit(fault.text(), error=True)
     return code
 
 

@@ -224,6 +224,8 @@ def reward_from_json(data: bytes, weights: bytes) -> Reward:
     features = Features(
         record.words, record.properties, Syntax(tuple(record.shapes), needs, record.longest), record.facts
     )
+    if not {name for names in needs.values() for name in names} <= features.actions.keys():
+        raise ValueError("an action is needed that none of the sequences has")
     # what is saved is always of one form: numpy need not find out what an unknown header may mean
     header = io.BytesIO()
     np.lib.format.write_array_header_1_0(
@@ -284,8 +286,9 @@ class Progress:
     def _show(self, text: str) -> None:
         if text != self._shown:
             self._shown = text
-            sys.stderr.write(text)
-            sys.stderr.flush()
+            with suppress(OSError):  # a full disk, or nobody reads it any more: the work goes on
+                sys.stderr.write(text)
+                sys.stderr.flush()
 
 
 _ROOT = Path(__file__).resolve().parents[1]

@@ -66,7 +66,7 @@ def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
 
 
 def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
-    cut = tokenise(text)
+    cut = _of_bearable_length(tokenise(text))
     markup = [t for t in cut if t.note]
     kept, repeated = drop_repeats([t for t in cut if not t.note])
     kept, taken_back = drop_taken_back(kept)
@@ -98,6 +98,16 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
     constraints, understood = read_prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
     rest = [t for t in (*folded, *markup, *repeated, *taken_back, *headings) if t not in understood]
     return Parsed(text, clauses, _skipped(text, clauses, rest), constraints)
+
+
+def _of_bearable_length(tokens: list[Token]) -> list[Token]:
+    """The same; what is said in a sentence after so many words is noted to be too much, as rules look back and ahead."""
+    count = 0
+    for token in tokens:
+        count = 0 if token.kind is Kind.STOP else count + 1
+        if count > MAX_WORDS:
+            token.note = token.note or f"the sentence has more than {MAX_WORDS:,} words"
+    return tokens
 
 
 def short_enough(text: str) -> str:

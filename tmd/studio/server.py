@@ -161,10 +161,11 @@ def free_port(host: str, port: int) -> int:
         probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             probe.bind((host, port))
-        except OSError as error:
-            if error.errno == errno.EADDRINUSE:
+        except (OSError, TypeError) as error:  # a name that no host can have is a TypeError
+            if isinstance(error, OSError) and error.errno == errno.EADDRINUSE:
                 message, hint = f"port {port} is in use", "another studio may run already; name another: --port 8081"
             else:
-                message, hint = f"{host}:{port} cannot be listened at: {error.strerror or error}", "see --host, --port"
+                said = getattr(error, "strerror", None) or error
+                message, hint = f"{host}:{port} cannot be listened at: {said}", "see --host, --port"
             raise TmdError(message, hint=hint) from error
         return int(probe.getsockname()[1])

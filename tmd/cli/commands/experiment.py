@@ -7,11 +7,11 @@ import re
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import IO, TYPE_CHECKING, cast
 
 import click
 
-from tmd.cli.output import emit
+from tmd.cli.output import ErrorStream, emit
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
@@ -26,12 +26,7 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
 
-    class Screen(Console):
-        def on_broken_pipe(self) -> None:
-            """Where nobody reads it any more, the work goes on."""
-            self.quiet = True
-
-    bar = Progress(*columns, console=Screen(stderr=True))
+    bar = Progress(*columns, console=Console(file=cast(IO[str], ErrorStream())))
     task = bar.add_task(what, total=None)
 
     def tell(done: int, total: int) -> None:

@@ -500,7 +500,10 @@ class GoalReader:
                 # what holds already told which thing is meant, if the verb can do without it
                 held = self.grounder.truth(found, reading.state)
                 other = self._with_rows(shorter, unit, reading)
-                if not isinstance(other, Refused) and (held or not self.grounder.truth(other[0], reading.state)):
+                if isinstance(other, Refused):
+                    if other.why is Why.NO_SUCH_THING:  # "everything on the floor that is empty", where nothing is
+                        return other
+                elif held or not self.grounder.truth(other[0], reading.state):
                     return other
             if not isinstance(found, Refused):
                 return found, row

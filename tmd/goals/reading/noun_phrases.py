@@ -22,7 +22,7 @@ INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 PART_OF = frozenset({"of", "on", "in", "at", "from"})
 """Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
-_EVERYTHING = WHOLES | {"nothing", "thing"}
+EVERYTHING = WHOLES | {"nothing", "thing"}
 _ANYTHING = frozenset({"item", "object", "thing", "stuff"})
 """Nouns that say nothing of what a thing is."""
 
@@ -119,7 +119,7 @@ class Nouns:
         As a ``place`` a noun is not a group: rubbish goes in the trash, and is not what the trash is. With ``types`` it
         is the likeliest of the readings that fit them.
         """
-        if noun in _EVERYTHING:
+        if noun in EVERYTHING:
             return self.world.profiles.objects
         if noun.endswith("_thing"):
             whole, words = self.world.profiles.objects, split_name(noun)[:-1]
@@ -225,7 +225,7 @@ class Nouns:
 
     def is_group(self, noun: str) -> bool:
         """Whether a noun means all things of some classes."""
-        return noun in _EVERYTHING or noun in self.table.groups
+        return noun in EVERYTHING or noun in self.table.groups
 
     def _kinds(self, name: str) -> tuple[str, ...]:
         return (*self.world.mentions.types.get(name, ()), self.world.mentions.kinds.get(name, ""), name)
@@ -398,6 +398,10 @@ class Nouns:
                     unknown.append(word)
                 continue
             names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
+            if phrase.name in EVERYTHING:  # "everything that is empty": not the pillow, which nothing can fill
+                others = (self.attribute(word, name, moments) for name in self.world.profiles.objects)
+                if any(formula not in (None, TRUE, FALSE) for formula in others):
+                    names = tuple(n for n in names if said[n] != TRUE)
         return replace(referent, names=names), unknown
 
     def _modified(self, name: str) -> bool:

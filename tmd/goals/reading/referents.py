@@ -9,7 +9,7 @@ from typing import TypeAlias
 
 from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why, text_of
 from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, atoms_of, conjunction, disjunction
-from tmd.goals.reading.noun_phrases import INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.reading.noun_phrases import EVERYTHING, INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import (
     PREPOSITIONS,
     RELATION,
@@ -60,7 +60,8 @@ class Referents:
             found.append(("to", clause.setting.split()[-1]))
         contents = {r.source: r.target for r in clause.relations if r.relation == "of"}
         measures = words_of("measures")
-        found = [(r, contents.get(t, t) if t in measures and r != "of" else t) for r, t in found]
+        # "coffee with two spoons of sugar" is with sugar
+        found = [(r, contents.get(t, t) if r == "with" or (t in measures and r != "of") else t) for r, t in found]
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def units(self, reading: ClauseReading) -> list[Unit]:
@@ -305,7 +306,7 @@ class Referents:
         if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
             referent = replace(referent, names=())
         reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
-        referent = self._restricted(referent, relations, reading)
+        referent = self._restricted(referent, relations, reading, replace(referent, names=whole))
         if referent.mode is Mode.ALL and noun in reading.clause.direct:  # "all of it to the table, but leave the bowl"
             free = tuple(n for n in referent.names if n not in reading.memory.left)
             referent = replace(referent, names=free or referent.names)
@@ -401,8 +402,17 @@ class Referents:
         said = reading.clause.phrase(noun)
         return not (said.definite or said.plural or said.attributes or self.relations_of(noun, reading.clause))
 
-    def _restricted(self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading) -> Referent:
-        """The candidates that stand in the relations that were said, where some do; *except* takes some away."""
+    def _restricted(
+        self,
+        referent: Referent,
+        relations: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+        whole: Referent | None = None,
+    ) -> Referent:
+        """The candidates that stand in the relations that were said, where some do; *except* takes some away.
+
+        Where one of the ``whole`` does, which adjectives left out, none is meant: "the full cup on the table".
+        """
         for relation, target in relations:
             names = self.targets(target, reading)
             if relation in EXCEPTING and is_one(target) and self._any_one(target, reading) and referent.names:
@@ -426,7 +436,8 @@ class Referents:
             if relation in ("without", "for") or not names:
                 continue
             now = self.described(referent, relation, names, reading)
-            if now or relation in INVERSE or relation == "where":
+            left_out = whole is not None and bool(self.described(whole, relation, names, reading))
+            if now or left_out or relation in INVERSE or relation == "where":
                 referent = replace(referent, names=now)  # what stands on nothing has no burner under it
         return referent
 
@@ -506,9 +517,8 @@ class Referents:
         words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
         known = self.nouns.things(referent.noun, reading.state)
         if known and phrase.attributes:
-            return Refused(
-                Why.NO_SUCH_THING, f"no {referent.noun.replace('_', ' ')} here is {' and '.join(phrase.attributes)}"
-            )
+            what = "nothing" if referent.noun in EVERYTHING else f"no {referent.noun.replace('_', ' ')}"
+            return Refused(Why.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(phrase.attributes)}")
         if known:
             return Refused(
                 Why.NOT_UNDERSTOOD,

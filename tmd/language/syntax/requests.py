@@ -15,7 +15,7 @@ from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 
 HAVE, PUT = "have", "put"
 _WISHES = frozenset({"like", "love", "want", "wants", "prefer", "fancy", "fancies"})
-_NEEDS = frozenset({"need", "needs", "have"})
+_WISHED = _WISHES | {"need", "needs", "have", "get"}
 _MAY = frozenset({"can", "could", "may", "might"})
 _SPEAKERS = frozenset({"i", "we", "i'd", "we'd", "i'll", "we'll", "i'm", "we're", "me", "us"})
 _NOUN_PHRASE = frozenset({Kind.DET, Kind.NUM, Kind.ADJ, Kind.N, Kind.PRON})
@@ -141,8 +141,10 @@ def _wish(tokens: list[Token]) -> list[Token]:
         if joint and (wished or asked):
             return [*_wish(tokens[:cut]), *_wish(tokens[cut:])]
     for at, token in enumerate(tokens):
+        if token.text not in _WISHED or not _names_thing(tokens, at + 1):
+            continue
         lead = [t for t in tokens[:at] if t.kind not in (Kind.ADV, Kind.FILLER)]
-        if not lead or token.text not in _WISHES | _NEEDS | {"get"} or not _names_thing(tokens, at + 1):
+        if not lead:
             continue
         words = [t.text for t in lead]
         would = any(w in ("would", "'d") or w.endswith("'d") for w in words)

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Relation
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.syntax.attachment import ClauseDraft
+from tmd.language.syntax.attachment import ClauseDraft, Phrase
 from tmd.language.syntax.chunking import ALSO
 from tmd.language.syntax.pronouns import resolve_alone
 from tmd.language.syntax.tokens import Kind, Token, fold
@@ -689,13 +689,30 @@ def _add_relative(draft: ClauseDraft, token: Token, lexicon: Lexicon, read: Read
     ahead = [phrase for phrase in draft.mentions() if phrase.place < token.span.start]
     if not ahead:
         return
-    noun = max(ahead, key=lambda phrase: phrase.place)
+    noun = _described(draft, ahead, token)
     attributes, relations, clause = _read_relative(token, lexicon, read)
     noun.attributes += attributes
     for relation, target in relations:
         draft.relations.append(Relation(relation, noun.name, target))
         if clause is not None:
             draft.further[target] = clause.phrase(target)
+
+
+def _described(draft: ClauseDraft, ahead: Sequence[Phrase], token: Token) -> Phrase:
+    """The noun that a relative clause is about: the last, or the one of which the last says where it is.
+
+    That is so where only that one agrees with the verb ("the cups on the table that are clean"), or where all of them
+    are meant ("everything on the floor that is empty"), and where the place is none at which a thing is to be put.
+    """
+    last = max(ahead, key=lambda phrase: phrase.place)
+    if draft.verb.stem in section("placing"):
+        return last
+    placed = {r.source for r in draft.relations if r.target == last.name and r.relation in section("static")}
+    head = next((phrase for phrase in reversed(ahead) if phrase.name in placed), None)
+    if head is None or last.plural:
+        return last
+    plural = _condition_words(token)[1:2] in (["are"], ["were"], ["have"])
+    return head if head.plural is plural and (plural or head.said().quantifier is Quantifier.ALL) else last
 
 
 def read_prohibitions(
