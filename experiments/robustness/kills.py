@@ -53,7 +53,11 @@ def _tmd(*arguments: str, serves: bool = False, cluster: bool = False, rounds: b
 _PROBLEM = "problems/04_tea/p01-tea-pantry1.pddl"
 _RUN = ("experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty,chance,goals", "--out", "run")
 _SAVING = """
+import os
+import signal
 import sys
+
+signal.signal(signal.SIGINT, lambda *_: os._exit(130))  # as tmd: no traceback
 from pathlib import Path
 from tmd.diagnostics import TmdError
 from tmd.lock import locked
@@ -268,7 +272,7 @@ class Disturber:
             process.wait()
             return "does not end within 30 s of a signal"
         told = self._told()
-        return "a traceback" if "Traceback" in told else self._again(alive=self._survivors())
+        return f"a traceback: {told[-400:]}" if "Traceback" in told else self._again(alive=self._survivors())
 
     def _survivors(self) -> int:
         """How many processes live on two seconds later; they are ended."""

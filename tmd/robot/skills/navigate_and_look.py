@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import product
+from itertools import islice, product
 from math import atan2, cos, degrees, sin
 
 from tmd.robot.monitor.observation import REACH
@@ -116,9 +116,11 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
         )
     ]
     places: list[tuple[Base, float]] = [(c.base, c.torso) for c in found[attempt:]]
+    clear = _stances_before(cell, name, focus)
+    if not (places or clear) and cell.fold():  # one hand is at what the other holds
+        clear = _stances_before(cell, name, focus)
     here = cell.robot.torso()
-    clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
-    places += [(base, here) for base, _ in zip(clear, range(BASE_MOTION.max_stances), strict=False)]
+    places += [(base, here) for base in clear]
     for base, torso in places:
         cell.look_on(f"the way to {name}")
         try:
@@ -131,6 +133,12 @@ def drive(cell: Cell, name: str, attempt: int) -> str:
             return f"{name} is {cell.reach(name):.2f} m away"
         last = SkillError(SkillPhase.EFFECT, f"{name} is {cell.reach(name):.2f} m away")
     raise last
+
+
+def _stances_before(cell: Cell, name: str, focus: Pose) -> list[Base]:
+    """Where there is room to stand before a thing, as the arms are now; not all of them."""
+    clear = (b for b in stances(cell, focus, cell.front(name), _FARTHER) if not cell.robot.collides(base=b))
+    return list(islice(clear, BASE_MOTION.max_stances))
 
 
 def step_back(cell: Cell, door: str) -> None:
