@@ -25,6 +25,7 @@ _OWN = ("log.txt", "shown.log")
 """Files that tell the time, so that they differ from run to run."""
 _MARK = "TMD_ROBUSTNESS"
 _READY = "is open:"
+_STARTING = 0.3
 _LONGEST = 600.0
 """Seconds for a command that is not disturbed."""
 
@@ -263,8 +264,13 @@ class Disturber:
         """End it at a random moment, and run it again; what is wrong afterwards."""
         self._fresh()
         process = self._start()
-        time.sleep(choose.uniform(0, self.seconds))
-        process.send_signal(choose.choice((*[signal.SIGKILL] * 6, signal.SIGTERM, signal.SIGINT)))
+        moment, how = (
+            choose.uniform(0, self.seconds),
+            choose.choice((*[signal.SIGKILL] * 6, signal.SIGTERM, signal.SIGINT)),
+        )
+        # as long as Python itself starts, an interrupt ends with its own traceback, whatever the program
+        time.sleep(max(moment, _STARTING) if how is signal.SIGINT else moment)
+        process.send_signal(how)
         try:
             process.wait(30)
         except subprocess.TimeoutExpired:

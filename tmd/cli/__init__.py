@@ -22,10 +22,10 @@ def main() -> None:
     # we have no plugins of pydantic, and to look for some among all that is installed takes longer than a small file
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
     gc.set_threshold(ALLOCATIONS)
-    from tmd.cli.output import open_closed_streams
-
-    open_closed_streams()
     try:
+        from tmd.cli.output import open_closed_streams
+
+        open_closed_streams()
         from tmd.cli.program import run
 
         code = int(run(sys.argv[1:]))
