@@ -101,7 +101,7 @@ def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
 
 
 def _of_bearable_length(tokens: list[Token]) -> list[Token]:
-    """The same; what is said in a sentence after so many words is noted to be too much, as rules look back and ahead."""
+    """The same; words beyond the limit of a sentence are noted, for rules look back and ahead over all of one."""
     count = 0
     for token in tokens:
         count = 0 if token.kind is Kind.STOP else count + 1

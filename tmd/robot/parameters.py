@@ -91,8 +91,8 @@ class ArticulationParameters:
 
     approach: float = 0.09
     """Metres from which a hand goes straight to a handle or a button."""
-    button_overtravel: float = 0.0095
-    """Metres that a finger goes on beyond the surface of a button: less than that goes down."""
+    button_share: float = 0.79
+    """The part of its way that a finger pushes a button down."""
     lid_gap: float = 0.02
     """Metres from the fingers to the lid between them."""
     pressed_share: float = 0.5

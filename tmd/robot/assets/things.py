@@ -109,13 +109,18 @@ def strapped(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A remote control: its buttons are on top, pressed from above."""
-    block(model, Appearance("block", look.size, look.colour, look.colour, look.mass), Parts({}))
-    depth, _, height = look.size
+    """A remote control: taken by its near end, so that the other hand has room above the buttons at its far one."""
+    depth, width, height = look.size
+    model.slab((-depth / 2, -width / 2, 0.0), (depth / 2, width / 2, height), look.colour)
+    end = depth / 2 - 0.02
+    for steep in (0.7, 0.45, 0.9, 0.0):
+        approach = (-math.sqrt(1 - steep * steep), 0.0, -steep)
+        grasp(model, (end, 0.0, max(height / 2, _LOW)), approach, (0.0, 1.0, 0.0), width)
+    grasp(model, (end, 0.0, max(height - 0.012, _LOW)), (0.0, 0.0, -1.0), (0.0, 1.0, 0.0), width)
     buttons = parts.of("button")
     for index, (part, said) in enumerate(buttons):
         column, row = index % 2, index // 2
-        place = (depth * 0.36 - 0.035 * row, 0.013 * (2 * column - 1), height + 0.006)
+        place = (0.035 * row - depth * 0.36, 0.013 * (2 * column - 1), height + 0.006)
         model.link(
             part, part=part, kind="prismatic", origin=place, axis=(0.0, 0.0, -1.0), limits=(0.0, 0.003), spring=3.0,
             mass=0.003,

@@ -17,6 +17,8 @@ from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Accept, Base, Links, Option, follow, reach
 
 _PULLED, _PUSHED = 0, 1
+_ROLLS = (0.0, pi / 2)
+"""Radians by which the hand is turned about the way a finger points."""
 _SIDES = (
     Pose((0.0, 0.0, 0.0)),
     Pose((0.0, 0.0, 0.0), (0.5, 0.5, 0.5, 0.5)),
@@ -242,20 +244,29 @@ def push(cell: Cell, name: str, attempt: int) -> str:
     hands = cell.free()
     if not hands:
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
-    ignore: Links = frozenset({(handle.body, handle.index)})
-    touch = handle.grasp
-    before, beyond = (
-        touch * Pose((-ARTICULATION.approach, 0.0, 0.0)),
-        touch * Pose((ARTICULATION.button_overtravel, 0.0, 0.0)),
-    )
-    options = [
-        Option(side, (_rolled(before, roll), _rolled(touch, roll)), ignore) for roll in (0.0, pi / 2) for side in hands
-    ]
+    button: Links = frozenset({(handle.body, handle.index)})
+
+    def options() -> list[Option]:
+        touch = _handle(cell, name).grasp
+        before = touch * Pose((-ARTICULATION.approach, 0.0, 0.0))
+        return [
+            Option(side, (_rolled(before, roll), _rolled(touch, roll)), button, number)
+            for number, roll in enumerate(_ROLLS)
+            for side in hands
+        ]
+
     for side in hands:
         cell.robot.open_gripper(side, 0.0)
     farthest = _Farthest(handle)
-    chosen = reach(cell, name, options, touch, cell.front(name), attempt)
-    roll = 0.0 if chosen.poses[-1].angle(touch) < 0.1 else pi / 2
+    chosen = reach_for(cell, name, options, handle.grasp, attempt)
+    now = _handle(cell, name)  # what the other hand holds has come along
+    pressed = abs(cell.sim.joint_position(now.body, now.joint) - now.closed)
+    depth = ARTICULATION.button_share * abs(now.open - now.closed) - pressed
+    beyond = now.grasp * Pose((max(depth, 0.0), 0.0, 0.0))
+    held = cell.side_of(cell.whole(name)) is not None
+    # a finger tip is wider than the buttons of what fits into a hand
+    ignore: Links = button | {(handle.body, None)} if held else button
+    roll = _ROLLS[chosen.spot]
     cell.sim.add_watcher(farthest)
     try:
         with cell.pushed(chosen.side, handle):
