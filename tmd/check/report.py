@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from tmd.check.checker import Checker
+from tmd.check.checker import Checker, files_of
 from tmd.check.codes import Severity
 from tmd.check.diagnostic import Diagnostic
 from tmd.diagnostics import Location, TmdError
@@ -167,27 +167,50 @@ def check_paths(
     given = [path for path in chosen if not path.is_dir()]
     fixed: dict[Path, None] = {}
     for rounds in reversed(range(_MOST_ROUNDS + 1)):
+        stamps = {file: _stamp(file) for path in chosen for file in files_of(path)} if fix else {}
         checker = Checker(domains, domain, problems, given)
         for path in chosen:
             checker.check(path)
         checker.finish()
-        changed = _fix(checker) if fix and rounds else []
-        if not changed:
+        changed, stale = _fix(checker, stamps) if fix and rounds else ([], False)
+        if not (changed or stale):
             break
         fixed |= dict.fromkeys(changed)
     return CheckReport(tuple(checker.files), tuple(checker.findings.sorted()), tuple(fixed))
 
 
-def _fix(checker: Checker) -> list[Path]:
-    """Fix the files that were checked, each written whole; the files that changed."""
+def _stamp(file: Path) -> tuple[int, int, int] | None:
+    """What tells whether a file was written since; ``None`` where there is none."""
+    try:
+        status = file.stat()
+    except OSError:
+        return None
+    return status.st_ino, status.st_mtime_ns, status.st_size
+
+
+def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -> tuple[list[Path], bool]:
+    """Fix the files that were checked, each written whole.
+
+    Args:
+        checker: What was found.
+        stamps: The files as they were before that.
+
+    Returns:
+        The files that changed; and whether somebody else, an editor or another fix, wrote one meanwhile: what was found
+        is no longer where it was then, and the file is left alone.
+    """
     by_file: dict[Path, list[Diagnostic]] = {}
     for diagnostic in checker.findings.sorted():
         if diagnostic.code in FIXABLE:
             by_file.setdefault(Path(diagnostic.location.file), []).append(diagnostic)
-    changed = []
+    changed, stale = [], False
     for file, diagnostics in sorted(by_file.items()):
         text = fix_file(file, diagnostics)
-        if text is not None:
+        if text is None:
+            continue
+        if file in stamps and _stamp(file) != stamps[file]:
+            stale = True
+        else:
             write_text(file, text)
             changed.append(file)
-    return changed
+    return changed, stale

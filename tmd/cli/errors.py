@@ -128,6 +128,9 @@ def _system_fault(error: OSError) -> Fault:
         return Fault(ExitCode.CANNOT_WRITE, message, hint="make room, or write elsewhere")
     if error.filename:
         return Fault(ExitCode.BAD_INPUT, message, hint="check the path, and that you may read there")
+    if "No usable temporary directory" in str(error):  # as tempfile says that it could not write into any
+        message = f"no temporary file can be written in any of {str(error).partition('found in ')[2]}"
+        return Fault(ExitCode.CANNOT_WRITE, message, hint="make room, or name a directory that has some: TMPDIR=…")
     return _internal(error)
 
 

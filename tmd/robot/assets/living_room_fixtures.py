@@ -150,6 +150,10 @@ def window(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     side_board(model, x, -x, y1, right, sill, "oak")
 
 
+_LIFTED = math.radians(80)
+"""A stop: an arm in front of the bin does not get to a lid that leans back."""
+
+
 def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     """A bin, with or without a lid that is lifted by its rim, and a button in front of what runs in it."""
     depth, width, height = look.size
@@ -158,7 +162,7 @@ def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         x = depth / 2
         model.link(
             part, part=part, kind="revolute", origin=(-x, 0.0, height + 0.002), axis=(0.0, -1.0, 0.0),
-            limits=(0.0, 1.9), friction=1.6, mass=0.3,
+            limits=(0.0, _LIFTED), friction=1.6, mass=0.3,
         )  # fmt: skip
         model.slab((0.0, -width / 2, 0.0), (depth, width / 2, 0.015), said.colour, link=part)
         bar = depth + STAND_OFF
@@ -166,6 +170,6 @@ def bin_(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         for side in (-1, 1):
             model.box((depth + STAND_OFF / 2, side * 0.062, 0.0075), (STAND_OFF, BAR, 0.015), said.accent, link=part)
         tool = Frame((bar, 0.0, 0.0075), INTO, UP)
-        model.grips.append(Grip(part, "lid", part, tool, BAR + 0.04, 0.0, math.radians(100)))
+        model.grips.append(Grip(part, "lid", part, tool, BAR + 0.04, 0.0, _LIFTED))
     for part, said in parts.of("button"):
         button(model, part, said, (depth / 2, width / 2 - 0.1, height - 0.08))

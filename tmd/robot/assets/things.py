@@ -150,6 +150,7 @@ def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
         friction=0.06, mass=0.02,
     )  # fmt: skip
     model.slab((0.0, -y, 0.0), (2 * x, y, 0.01), look.colour, link="lid")
-    model.box((2 * x + 0.008, 0.0, 0.005), (0.016, 0.02, 0.01), look.accent, link="lid")
-    tool = Frame((2 * x + 0.008, 0.0, 0.005), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+    tab = 2 * x + TIP + 0.005  # the finger tips stand round it, and end before the flap
+    model.box(((2 * x + tab + 0.01) / 2, 0.0, 0.005), (tab + 0.01 - 2 * x, 0.02, 0.01), look.accent, link="lid")
+    tool = Frame((tab, 0.0, 0.005), (-1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
     model.grips.append(Grip("", "lid", "lid", tool, 0.04, 0.0, WIDE))
