@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -13,6 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import BLOCKS, ROOT, Ended, Tmd, heed_interrupts
+from tmd.cli.errors import fault_of
 from tmd.diagnostics import ExitCode
 
 DOMAIN, PROBLEM = BLOCKS / "domain.pddl", BLOCKS / "p01.pddl"
@@ -340,6 +342,12 @@ def test_the_disk_is_full(arguments: list[str]) -> None:
         done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, check=False)
     assert done.returncode == ExitCode.CANNOT_WRITE
     assert done.stderr.startswith(b"error: output: No space left on device\n")
+
+
+def test_where_no_temporary_file_can_be_written_the_disk_is_full() -> None:
+    fault = fault_of(FileNotFoundError(errno.ENOENT, "No usable temporary directory found in ['/tmp', '/var/tmp']"))
+    assert (fault.code, fault.hint is not None) == (ExitCode.CANNOT_WRITE, True)
+    assert fault.message == "no temporary file can be written in any of ['/tmp', '/var/tmp']"
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
