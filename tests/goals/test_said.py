@@ -560,3 +560,16 @@ def test_everything_that_is_so_is_what_could_be_otherwise() -> None:
 def test_a_measure_of_what_comes_with_it_is_that() -> None:
     grounded = said("kitchen", "kitchen1", "Serve coffee with two spoons of sugar.")
     assert all("sugar)" in goal and "coffee)" in goal for goal in goals(grounded))
+
+
+def test_it_goes_back_to_where_it_was() -> None:
+    poured = said("kitchen", "kitchen1", "Pour some milk in the bowl and put it back in the fridge.")
+    assert goals(poured)[-1] == "(at milk1 fridge1 in)"
+
+
+def test_in_the_room_is_everywhere() -> None:
+    assert goals(said("kitchen", "kitchen2", "Put all the mugs in the kitchen in the sink.")) == [
+        "(and (at mug1 sink1 in) (at mug2 sink1 in))"
+    ]
+    none = said("living_room", "room4", "Put every book in the room on the shelf except book1.")  # there is no other
+    assert "excepted" in none.reason

@@ -399,8 +399,8 @@ class Nouns:
                 continue
             names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
             if phrase.name in EVERYTHING:  # "everything that is empty": not the pillow, which nothing can fill
-                others = (self.attribute(word, name, moments) for name in self.world.profiles.objects)
-                if any(formula not in (None, TRUE, FALSE) for formula in others):
+                states = (self.attribute(word, name, moments) for name in self.world.profiles.objects)
+                if any(formula not in (None, TRUE, FALSE) for formula in states):
                     names = tuple(n for n in names if said[n] != TRUE)
         return replace(referent, names=names), unknown
 

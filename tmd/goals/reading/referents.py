@@ -21,7 +21,7 @@ from tmd.goals.sources.table import (
     state_words,
     words_of,
 )
-from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier
+from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.nouns import split_name
 from tmd.language.syntax.pronouns import is_one, is_pronoun
@@ -53,9 +53,8 @@ class Referents:
 
     def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
         """The relations in which a noun stands, each with what it is related to."""
-        found = [
-            (r.relation, r.target) for r in clause.relations if r.source == name or (r.source is None and not name)
-        ]
+        said = self._without_rooms(clause.relations)
+        found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
             found.append(("to", clause.setting.split()[-1]))
         contents = {r.source: r.target for r in clause.relations if r.relation == "of"}
@@ -63,6 +62,20 @@ class Referents:
         # "coffee with two spoons of sugar" is with sugar
         found = [(r, contents.get(t, t) if r == "with" or (t in measures and r != "of") else t) for r, t in found]
         return [(r, t) for r, t in found if t not in PERSONS]
+
+    def _without_rooms(self, relations: Iterable[Relation]) -> list[Relation]:
+        """All but those that say that a thing is in the room; "in the room on the shelf" is on the shelf."""
+        rooms = words_of("rooms")
+        inside = {
+            r.target: r.source
+            for r in relations
+            if r.relation in ("in", "inside") and r.target in rooms and not self.nouns.things(r.target, 0)
+        }
+        return [
+            r._replace(source=inside.get(r.source, r.source) if r.source else None)
+            for r in relations
+            if r.target not in inside
+        ]
 
     def units(self, reading: ClauseReading) -> list[Unit]:
         """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
@@ -176,8 +189,21 @@ class Referents:
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [(noun, False)]
         nouns = [(name, False) for name in clause.antecedents.get(noun, ())]
+        if self._puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
+            nouns.sort(key=lambda each: not self._was_there(each[0], noun, reading))
         seen = {n for name, _ in nouns for n in (memory.bound[name].names if name in memory.bound else ())}
         return [*nouns, *((name, True) for name in memory.recent if name not in seen)]
+
+    def _was_there(self, antecedent: str, pronoun: str, reading: ClauseReading) -> bool:
+        """Whether what was spoken of was, before anything was done, where the pronoun shall be put."""
+        things = Referent(antecedent, self.nouns.things(antecedent, reading.state))
+        return any(
+            self.nouns.related_now(
+                things, relation, self.targets(place, reading), reading.memory.first, reading.moments
+            )
+            for relation, place in self.relations_of(pronoun, reading.clause)
+            if relation in _PLACES
+        )
 
     def referents(
         self, noun: str, row: GoalRow, slot: Slot, relations: Iterable[tuple[str, str]], reading: ClauseReading
@@ -519,6 +545,8 @@ class Referents:
         if known and phrase.attributes:
             what = "nothing" if referent.noun in EVERYTHING else f"no {referent.noun.replace('_', ' ')}"
             return Refused(Why.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(phrase.attributes)}")
+        if known and any(r in EXCEPTING for r, _ in self.relations_of(referent.noun, reading.clause)):
+            return Refused(Why.NO_SUCH_THING, f"every '{words}' that is meant here is excepted")
         if known:
             return Refused(
                 Why.NOT_UNDERSTOOD,

@@ -94,7 +94,7 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
     between = section("particles") | section("prepositions")
     return replace(
         lexicon,
-        kinds=frozenset(words[-1] for words in named),
+        kinds=frozenset(words[-1] for words in named) - section("static"),  # "on" is a relation, and no thing
         compounds=frozenset(words for words in named if between & {*words[:-1]} and words[-1] not in between),
     )
 
