@@ -52,6 +52,7 @@ def _end(code: int) -> NoReturn:
     as it warms up) that aborts the whole process.
     """
     if any(thread.daemon for thread in threading.enumerate() if thread is not threading.main_thread()):
+        threading._shutdown()  # type: ignore[attr-defined] # in the order of Python's own end
         atexit._run_exitfuncs()
         for stream in (sys.stdout, sys.stderr):
             with suppress(OSError, ValueError):
