@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -101,6 +102,14 @@ def test_what_is_moved_is_seen_and_fetched_from_there() -> None:
     assert any(f"not (at ramen1 {there} on) was expected" in str(m) for line in record.steps for m in line.mismatches)
     assert seen(record) and not claimed_falsely(record)
     assert record.status == "recovered", record.reason
+
+
+def test_a_button_of_what_is_in_the_other_hand_goes_down_under_physics() -> None:
+    plan = [f"{name}(remote1)" for name in ("find", "moveto", "grasp")]
+    blank = case(*plan, "press(remote1_power_button)", environment="room1", physics=True)
+    record = run(replace(blank, domain="living_room"))
+    assert record.status == "done", record.reason
+    assert "went down" in record.steps[-1].evidence and record.false == ()
 
 
 def test_the_same_seed_gives_the_same_trajectory_to_the_byte() -> None:

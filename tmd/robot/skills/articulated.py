@@ -259,11 +259,12 @@ def push(cell: Cell, name: str, attempt: int) -> str:
         cell.robot.open_gripper(side, 0.0)
     farthest = _Farthest(handle)
     chosen = reach_for(cell, name, options, handle.grasp, attempt)
-    now = _handle(cell, name)  # what the other hand holds has come along
-    pressed = abs(cell.sim.joint_position(now.body, now.joint) - now.closed)
-    depth = ARTICULATION.button_share * abs(now.open - now.closed) - pressed
-    beyond = now.grasp * Pose((max(depth, 0.0), 0.0, 0.0))
     held = cell.side_of(cell.whole(name)) is not None
+    depth, touch = ARTICULATION.button_share * abs(handle.open - handle.closed), handle.grasp
+    if held:  # it has come along with the other hand, and may be pressed a little already
+        touch = _handle(cell, name).grasp
+        depth -= abs(cell.sim.joint_position(handle.body, handle.joint) - handle.closed)
+    beyond = touch * Pose((max(depth, 0.0), 0.0, 0.0))
     # a finger tip is wider than the buttons of what fits into a hand
     ignore: Links = button | {(handle.body, None)} if held else button
     roll = _ROLLS[chosen.spot]
