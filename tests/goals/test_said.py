@@ -573,3 +573,11 @@ def test_in_the_room_is_everywhere() -> None:
     ]
     none = said("living_room", "room4", "Put every book in the room on the shelf except book1.")  # there is no other
     assert "excepted" in none.reason
+
+
+def test_what_it_must_not_be_done_with_is_not_touched() -> None:
+    for text in ("Heat the milk, but not in the microwave.", "Heat some water on the stove, not in the microwave."):
+        heated = said("kitchen", "kitchen1", text)
+        assert heated.plans and not any("microwave" in step for step in steps(heated))
+    moved = said("kitchen", "kitchen1", "Put the mug on the counter, not on the table.")
+    assert goals(moved) == ["(at mug1 counter1 on)"]

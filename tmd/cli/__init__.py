@@ -6,13 +6,9 @@ Nothing heavy is imported before a command needs it: ``tmd --help`` is to be the
 
 from __future__ import annotations
 
-import atexit
 import gc
 import os
 import sys
-import threading
-from contextlib import suppress
-from typing import NoReturn
 
 ALLOCATIONS = 100_000
 """Number of new objects after which Python looks for cycles: parse trees grow quickly, and hold none."""
@@ -42,22 +38,6 @@ def main() -> None:
 
         sys.stderr.write("error: interrupted\n")
         code = ExitCode.INTERRUPTED
-    _end(code)
-
-
-def _end(code: int) -> NoReturn:
-    """End the process, in good order even where a thread in the background still works.
-
-    When Python takes itself down it ends such a thread wherever it is, and in a library of C++ (the compiler of numba,
-    as it warms up) that aborts the whole process.
-    """
-    if any(thread.daemon for thread in threading.enumerate() if thread is not threading.main_thread()):
-        threading._shutdown()  # type: ignore[attr-defined] # in the order of Python's own end
-        atexit._run_exitfuncs()
-        for stream in (sys.stdout, sys.stderr):
-            with suppress(OSError, ValueError):
-                stream.flush()
-        os._exit(code)
     sys.exit(code)
 
 

@@ -414,6 +414,9 @@ class Follower:
         )
         if isinstance(goal, Refused):
             return (Cube(0, 0), set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
+        means = self._means(clause, goal, state)
+        if means:
+            return Cube(0, 0), means, []
         added: Bits = 0
         deleted: Bits = 0
         kept: list[Kept] = []
@@ -433,6 +436,19 @@ class Follower:
             elif not stands and state & bit:
                 deleted |= bit
         return Cube(added, deleted), set(), kept
+
+    def _means(self, clause: Clause, goal: ClauseGoal, state: Bits) -> set[str]:
+        """What a thing must not be done with, or in, though it may be done: "heat the milk, but not in the microwave".
+
+        Nothing where the outcome is about that: "do not put the cup in the sink" is no matter of the sink's being used.
+        """
+        found: set[str] = set()
+        for target in {r.target for r in clause.relations if r.relation not in EXCEPTING}:
+            for name in self.reader.nouns.things(target, state):
+                if name not in self.reader.world.profiles.constants:
+                    found.update((name, *self.reader.grounder.relatives(name, 0)))
+        outcome = {name for atom in atoms_of(goal.formula) for name in atom.args}
+        return set() if found & outcome else found
 
     def _declared(self, verb: str) -> bool:
         return any(table.of(verb) for table in self.reader.tables)

@@ -33,6 +33,9 @@ _LOOK = 0.5
 _PATIENCE = 5.0
 """Seconds that a browser may take to say who it is."""
 
+_WARMING = 5.0
+"""Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded."""
+
 
 class Server:
     """Serves a studio.
@@ -70,7 +73,8 @@ class Server:
         name = LOCAL if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
         self.url = f"http://{name}:{port}/?{TOKEN}={self.token}"
         self._ended = Event()
-        Thread(target=studio.warm, daemon=True).start()
+        self._warming = Thread(target=studio.warm, daemon=True)
+        self._warming.start()
         Thread(target=self._follow, daemon=True).start()
         self._viser.on_client_connect(self._arrive)
         self._viser.on_client_disconnect(self._leave)
@@ -136,6 +140,8 @@ class Server:
         self.studio.teacher.close()
         with redirect_stdout(StringIO()):
             self._viser.stop()
+        # a thread that Python ends while it is in the compiler, which is C++, aborts the whole process
+        self._warming.join(_WARMING)
 
 
 def need_viser() -> ModuleType:
