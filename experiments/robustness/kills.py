@@ -26,6 +26,7 @@ _OWN = ("log.txt", "shown.log")
 _MARK = "TMD_ROBUSTNESS"
 _READY = "is open:"
 _STARTING = 0.3
+"""Seconds in which Python itself starts: an interrupt then ends with its own traceback, whatever the program."""
 _LONGEST = 600.0
 """Seconds for a command that is not disturbed."""
 
@@ -264,11 +265,8 @@ class Disturber:
         """End it at a random moment, and run it again; what is wrong afterwards."""
         self._fresh()
         process = self._start()
-        moment, how = (
-            choose.uniform(0, self.seconds),
-            choose.choice((*[signal.SIGKILL] * 6, signal.SIGTERM, signal.SIGINT)),
-        )
-        # as long as Python itself starts, an interrupt ends with its own traceback, whatever the program
+        moment = choose.uniform(0, self.seconds)
+        how = choose.choice((*[signal.SIGKILL] * 6, signal.SIGTERM, signal.SIGINT))
         time.sleep(max(moment, _STARTING) if how is signal.SIGINT else moment)
         process.send_signal(how)
         try:

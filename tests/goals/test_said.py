@@ -571,6 +571,7 @@ def test_in_the_room_is_everywhere() -> None:
     assert goals(said("kitchen", "kitchen2", "Put all the mugs in the kitchen in the sink.")) == [
         "(and (at mug1 sink1 in) (at mug2 sink1 in))"
     ]
+    assert not said("kitchen", "kitchen2", "Put the mug in the kitchen.").plans  # it is there, wherever it is
     none = said("living_room", "room4", "Put every book in the room on the shelf except book1.")  # there is no other
     assert "excepted" in none.reason
 
@@ -581,3 +582,8 @@ def test_what_it_must_not_be_done_with_is_not_touched() -> None:
         assert heated.plans and not any("microwave" in step for step in steps(heated))
     moved = said("kitchen", "kitchen1", "Put the mug on the counter, not on the table.")
     assert goals(moved) == ["(at mug1 counter1 on)"]
+
+
+def test_food_is_not_cooked_in_coffee() -> None:
+    cooked = said("kitchen", "kitchen4", "Prepare a bowl of ramen for me.")
+    assert "(contains bowl1 cooked_ramen)" in end(cooked) and "(contains bowl1 coffee)" not in end(cooked)

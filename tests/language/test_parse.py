@@ -602,6 +602,7 @@ def test_of_a_sentence_without_end_the_beginning_is_read(mark: str) -> None:
         ("Wash all the brushes on the bench that are dirty.", "brush"),
         ("Wash the brush on the bench that is dirty.", "bench"),
         ("Put all the brushes on the bench that is dry.", "bench"),
+        ("Put all the brushes on the bench that are dry in the shed.", "brush"),
     ],
 )
 def test_a_relative_clause_is_about_the_noun_that_agrees(text: str, noun: str) -> None:

@@ -12,7 +12,8 @@ from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, aims, combined
 from tmd.goals.grounder import TRUE, Moments, atoms_of
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory, Referent
-from tmd.goals.reading.referents import BE, EXCEPTING
+from tmd.goals.reading.referents import EXCEPTING
+from tmd.goals.reading.requirements import BE
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table, words_of
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier

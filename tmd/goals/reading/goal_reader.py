@@ -20,7 +20,8 @@ from tmd.goals.grounder import (
     why_impossible,
 )
 from tmd.goals.reading.noun_phrases import Memory, Mode, Referent, relations_said
-from tmd.goals.reading.referents import BE, Referents, Requirements, States
+from tmd.goals.reading.referents import Referents
+from tmd.goals.reading.requirements import BE, Requirements, States
 from tmd.goals.sources.table import (
     ACTIONS,
     PREPOSITIONS,

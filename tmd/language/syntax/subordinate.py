@@ -701,18 +701,18 @@ def _add_relative(draft: ClauseDraft, token: Token, lexicon: Lexicon, read: Read
 def _described(draft: ClauseDraft, ahead: Sequence[Phrase], token: Token) -> Phrase:
     """The noun that a relative clause is about: the last, or the one of which the last says where it is.
 
-    That is so where only that one agrees with the verb ("the cups on the table that are clean"), or where all of them
-    are meant ("everything on the floor that is empty"), and where the place is none at which a thing is to be put.
+    It is that one where only it agrees with the verb ("the cups on the table that are clean"), and where all of them
+    are meant ("everything on the floor that is empty") unless the place is where they are to be put.
     """
     last = max(ahead, key=lambda phrase: phrase.place)
-    if draft.verb.stem in section("placing"):
-        return last
     placed = {r.source for r in draft.relations if r.target == last.name and r.relation in section("static")}
     head = next((phrase for phrase in reversed(ahead) if phrase.name in placed), None)
     if head is None or last.plural:
         return last
-    plural = _condition_words(token)[1:2] in (["are"], ["were"], ["have"])
-    return head if head.plural is plural and (plural or head.said().quantifier is Quantifier.ALL) else last
+    if _condition_words(token)[1:2] in (["are"], ["were"], ["have"]):
+        return head if head.plural else last
+    whole = head.said().quantifier is Quantifier.ALL and not head.plural
+    return head if whole and draft.verb.stem not in section("placing") else last
 
 
 def read_prohibitions(

@@ -36,13 +36,11 @@ SETTLE = 240
 """Steps of physics before the scene is ready."""
 OVERLAP = 0.002
 """Metres that two things may be in each other."""
-_OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
-
-
 _LIDS_EVERY = 4
 """Ticks between two looks at where lids are."""
 _LID_MOVED = 0.01
 """Radians, or metres, that a lid has moved when somebody moved it."""
+_OPENED, _SET_TO, _CONTAINS = "opened", "set_to", "contains"
 
 
 class Scene(Inventory):
