@@ -14,6 +14,31 @@ DONE = [
     ("02_table/corner1", "Swap the cup and the book.", ["(and (at cup1 shelf1 on) (at book1 table1 on))"]),
     ("02_table/corner1", "Hide the cup on the shelf.", ["(at cup1 shelf1 on)"]),
     ("02_table/corner2", "Put everything but the cup on a table.", ["(or (at book1 table1 on) (at book1 table2 on))"]),
+    # several things in a place are in one place, whichever it is, where they have room
+    (
+        "02_table/corner2",
+        "Put the cup and the book on a table.",
+        ["(or (and (at cup1 table1 on) (at book1 table1 on)) (and (at cup1 table2 on) (at book1 table2 on)))"],
+    ),
+    (
+        "01_blocks/yard1",
+        "Put the red block and the blue block on a block.",
+        [
+            "(and (or (on red_block blue_block) (on red_block green_block))"
+            " (or (on blue_block green_block) (on blue_block red_block)))"
+        ],
+    ),
+    # everything that may be poured is what is in the things that were spoken of; what is added goes there too
+    (
+        "04_tea/pantry1",
+        "Put the tea bag in the kettle, add water and pour everything in the cup.",
+        [
+            "(contains kettle1 tea)",
+            "(contains kettle1 water)",
+            "(and (not (contains kettle1 tea)) (contains cup1 tea)"
+            " (not (contains kettle1 water)) (contains cup1 water))",
+        ],
+    ),
     # order
     (
         "02_table/corner1",
@@ -587,3 +612,22 @@ def test_what_it_must_not_be_done_with_is_not_touched() -> None:
 def test_food_is_not_cooked_in_coffee() -> None:
     cooked = said("kitchen", "kitchen4", "Prepare a bowl of ramen for me.")
     assert "(contains bowl1 cooked_ramen)" in end(cooked) and "(contains bowl1 coffee)" not in end(cooked)
+    both = said("kitchen", "kitchen5", "Boil the egg and the ramen together in the pot and serve everything in the bowl.")
+    contents = {fact for fact in end(both) if fact.startswith("(contains bowl1")}
+    assert contents >= {"(contains bowl1 boiled_egg)", "(contains bowl1 cooked_ramen)"}
+    assert contents <= {"(contains bowl1 boiled_egg)", "(contains bowl1 cooked_ramen)", "(contains bowl1 water)"}
+
+
+def test_what_is_mixed_is_in_one_mug() -> None:
+    facts = end(said("kitchen", "kitchen3", "Pour milk and coffee in a mug."))  # there are two mugs
+    assert any({f"(contains {mug} milk)", f"(contains {mug} coffee)"} <= facts for mug in ("mug1", "mug2"))
+
+
+def test_where_food_must_not_be_cooked_it_need_not_be_spoiled() -> None:
+    facts = end(said("kitchen", "kitchen2", "Make the noodles in the bowl, not in the pot."))
+    assert "(contains bowl1 cooked_ramen)" in facts and not any(fact.startswith("(contains pot1") for fact in facts)
+
+
+def test_both_bowls_are_served() -> None:
+    facts = end(said("kitchen", "kitchen3", "Make ramen for two: one packet in each bowl."))
+    assert {"(contains bowl1 cooked_ramen)", "(contains bowl2 cooked_ramen)"} <= facts

@@ -421,10 +421,13 @@ class Follower:
         added: Bits = 0
         deleted: Bits = 0
         kept: list[Kept] = []
+        some = any(cube.positive for cube in goal.cubes)
         for atom in sorted(atoms_of(goal.formula)):
             bit = 1 << self.task.index[atom]
             if final:
                 stands = any(cube.positive & bit for cube in goal.cubes)
+                if some and not stands and not state & bit:
+                    continue  # "noodles in the bowl, not in the pot": the pot need not have the milk that spoils them
                 kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
                 continue
             stands = any(cube.positive & bit for cube in goal.cubes)

@@ -319,7 +319,11 @@ class _Text:
             return GaveUp("the quick planner")
         if self.resort is None:
             self.resort = self.inference.resort(self.task)
-        answer = self.resort.fill(state, aim)
+        # what holds already is seldom undone on the way, and is much to look after for a planner: first without it
+        open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
+        answer = self.resort.fill(state, open_)
+        if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
+            answer = self.resort.fill(state, aim)
         if isinstance(answer, Filled):
             shorter = eliminate(answer.plan, self.task, state, aim)
             return Filled(shorter, self._simulated(state, shorter), len(shorter))

@@ -20,7 +20,7 @@ from tmd.goals.grounder import (
     why_impossible,
 )
 from tmd.goals.reading.noun_phrases import Memory, Mode, Referent, relations_said
-from tmd.goals.reading.referents import Referents
+from tmd.goals.reading.referents import PLACES, Referents
 from tmd.goals.reading.requirements import BE, Requirements, States
 from tmd.goals.sources.table import (
     ACTIONS,
@@ -38,6 +38,7 @@ from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_one
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
 from tmd.pddl.task import Bits
+from tmd.planning.unsolvable import Impossible
 from tmd.veil.world import World
 
 _PARTICLES = {"in": "in", "on": "on", "into": "in", "onto": "on"}
@@ -192,6 +193,7 @@ class GoalReader:
         self.fitting = Fitting(self.referents)
         self.grounder = self.referents.grounder
         self.nouns = self.referents.nouns
+        self.exclusions = Impossible(world.task)
 
     def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refused:
         """What ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
@@ -313,26 +315,55 @@ class GoalReader:
     def _by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refused:
         """The goal by the first rows that fit every thing the verb acts on."""
         parted = self._one_and_other(reading)
-        candidates = self.referents.targets(parted, reading) if parted is not None else ()
-        things = tuple(n for n in candidates if n not in self.world.profiles.constants)
-        candidates = things or candidates  # a bottle, not the beer
-        if parted is None or len(candidates) < 2:
-            found = self._of_units(rows, reading)
-            return found if isinstance(found, Refused) else self._finished(*found, reading)
+        shared = self._one_place(reading) if parted is None else None
         ways: list[Formula] = []
         used: GoalRow | None = None
         failure: Refused | None = None
-        for name in candidates:
-            reading.taken = {parted: name}
+        meant: dict[str, dict[str, None]] = {}
+        approaches: list[list[Formula]] = []
+        for noun, name in self._each_candidate(parted or shared, reading):
+            reading.taken, reading.meant, reading.approach = {noun: name}, {}, []
             found = self._of_units(rows, reading)
             if isinstance(found, Refused):
                 failure = failure or found
-            else:
-                ways.append(found[0])
-                used = found[1]
-        if not ways:
-            return failure or self._unknown(reading.clause)
-        return self._finished(disjunction(ways), used, reading)
+                continue
+            ways.append(found[0])
+            used = found[1]
+            approaches.append(reading.approach)
+            for said, names in reading.meant.items():
+                meant.setdefault(said, {}).update(dict.fromkeys(names))
+        reading.taken, reading.meant = {}, {said: tuple(names) for said, names in meant.items()}
+        reading.approach = [disjunction(parts) for parts in zip(*approaches, strict=False)]
+        if parted is not None and failure is not None and not ways:
+            return failure
+        if ways and (shared is None or not self._excluded(disjunction(ways), reading)):
+            return self._finished(disjunction(ways), used, reading)
+        reading.meant, reading.approach = {}, []
+        found = self._of_units(rows, reading)
+        return found if isinstance(found, Refused) else self._finished(*found, reading)
+
+    def _each_candidate(self, noun: str | None, reading: ClauseReading) -> list[tuple[str, str]]:
+        """A noun with each thing that it may mean, where those are several: a bottle, not the beer in it."""
+        candidates = self.referents.targets(noun, reading) if noun is not None else ()
+        things = tuple(n for n in candidates if n not in self.world.profiles.constants) or candidates
+        return [(noun, name) for name in things] if noun is not None and len(things) > 1 else []
+
+    def _one_place(self, reading: ClauseReading) -> str | None:
+        """The place where several things shall go: "milk and coffee in a mug" is one mug, whichever it is."""
+        clause = reading.clause
+        for noun, phrase in clause.phrases.items():
+            one = phrase.quantifier in (Quantifier.PLAIN, Quantifier.SOME) and not (phrase.plural or phrase.each)
+            sources = {r.source for r in clause.relations if r.target == noun and r.relation in PLACES}
+            if one and len(sources.intersection(clause.direct)) > 1 and not self.referents.points_back(noun):
+                return noun
+        return None
+
+    def _excluded(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Whether it is proven that something can never be: two pots on one burner."""
+        try:
+            return self.exclusions.reason(reading.state, self.grounder.cubes(formula)) is not None
+        except TmdError:  # too many conjunctions, which is told where the goal is finished
+            return False
 
     def _one_and_other(self, reading: ClauseReading) -> str | None:
         """The noun of which one thing is spoken of more than once: "tea in one of the cups and milk in the other".
@@ -478,7 +509,7 @@ class GoalReader:
             for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
                 reading.antecedent = number
                 found = self._with_rows(rows, unit, reading)
-                if not isinstance(found, Refused) and not (pronoun and is_object):
+                if not isinstance(found, Refused) and (not is_object if pronoun else found[1].places):
                     return found
             reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)

@@ -24,7 +24,8 @@ from tmd.language.syntax.pronouns import is_one, is_pronoun
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
-_PLACES = frozenset({"in", "into", "inside", "on", "onto", "to", "next_to", "under", "at"})
+PLACES = frozenset({"in", "into", "inside", "on", "onto", "to", "next_to", "under", "at"})
+"""Relations to where something is, or shall be."""
 EXCEPTING = frozenset({"except", "besides", "apart_from"})
 """Relations to what is left out."""
 
@@ -129,7 +130,7 @@ class Referents:
         for number, relation in enumerate(clause.relations):
             source = relation.source or ""
             hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
-            if relation.relation not in _PLACES or not hosts or source in clause.direct:
+            if relation.relation not in PLACES or not hosts or source in clause.direct:
                 continue
             target = self.targets(relation.target, reading)
             now = self.nouns.related_now(
@@ -199,7 +200,7 @@ class Referents:
                 things, relation, self.targets(place, reading), reading.memory.first, reading.moments
             )
             for relation, place in self.relations_of(pronoun, reading.clause)
-            if relation in _PLACES
+            if relation in PLACES
         )
 
     def referents(
@@ -303,9 +304,7 @@ class Referents:
             return Referent(noun, inside, definite=True)
         if inside and phrase.definite:
             things = tuple(n for n in things if n in inside) or things  # "until the water boils": the water in the pot
-        wanted_constants = self.nouns.constants(noun, types, reading.state)
-        if noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER:
-            wanted_constants = self._by_now(wanted_constants, types, reading)
+        wanted_constants = self._constants(noun, phrase, types, reading)
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
         group = self.nouns.is_group(noun) and not (place and noun in self.lexicon.nouns)
         if not objects and wanted_constants:
@@ -345,6 +344,21 @@ class Referents:
         if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
             return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
         return referent
+
+    def _constants(
+        self, noun: str, phrase: NounPhrase, types: tuple[str, ...], reading: ClauseReading
+    ) -> tuple[str, ...]:
+        """The constants that a noun names; *everything* is what is in the things that were spoken of, not all there is.
+
+        *Cook the noodles with an egg and serve everything in the bowl.*
+        """
+        if noun in EVERYTHING:
+            inside = (c for name in reading.memory.recent for c in self.nouns.contents(name, reading.state))
+            names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+        else:
+            names = self.nouns.constants(noun, types, reading.state)
+        spoken_of = noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER
+        return self._by_now(names, types, reading) if spoken_of else names
 
     def _puts_back(self, reading: ClauseReading) -> bool:
         """Whether things go where they were: the milk is its carton then, and not the cup that has some by now."""
@@ -481,7 +495,7 @@ class Referents:
         """Those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
         for relation, place in self.relations_of(noun, reading.clause):
             where = self.targets(place, reading)
-            if relation in _PLACES and where:
+            if relation in PLACES and where:
                 names = self.described(Referent(noun, names), relation, where, reading)
         return names
 
