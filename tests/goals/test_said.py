@@ -612,7 +612,8 @@ def test_what_it_must_not_be_done_with_is_not_touched() -> None:
 def test_food_is_not_cooked_in_coffee() -> None:
     cooked = said("kitchen", "kitchen4", "Prepare a bowl of ramen for me.")
     assert "(contains bowl1 cooked_ramen)" in end(cooked) and "(contains bowl1 coffee)" not in end(cooked)
-    both = said("kitchen", "kitchen5", "Boil the egg and the ramen together in the pot and serve everything in the bowl.")
+    together = "Boil the egg and the ramen together in the pot and serve everything in the bowl."
+    both = said("kitchen", "kitchen5", together)
     contents = {fact for fact in end(both) if fact.startswith("(contains bowl1")}
     assert contents >= {"(contains bowl1 boiled_egg)", "(contains bowl1 cooked_ramen)"}
     assert contents <= {"(contains bowl1 boiled_egg)", "(contains bowl1 cooked_ramen)", "(contains bowl1 water)"}
