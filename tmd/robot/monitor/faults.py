@@ -241,6 +241,11 @@ def _lower(cell: Cell, body: int) -> None:
             return
 
 
+def _is_within(sim: Simulator, body: int, others: Sequence[int]) -> bool:
+    """Whether a body is in another one by more than what touches is."""
+    return any(c.distance < -_FALL for other in others for c in sim.closest(body, other, 0.0))
+
+
 # stuck
 
 
@@ -323,7 +328,7 @@ class _Shift:
             by = before[0].rotate((0.0, way, 0.0))
             for body, pose in zip(bodies, before, strict=True):
                 sim.set_pose(body, _beside(pose, by))
-            if not any(sim.closest(bodies[0], other, 0.0) for other in sim.bodies() if other not in bodies):
+            if not _is_within(sim, bodies[0], [other for other in sim.bodies() if other not in bodies]):
                 sim.wake()
                 text = f"{whole} was shifted by {100 * abs(way):.0f} cm when the finger was almost at {self.name}"
                 self.log.append(Happening(sim.ticks, text))
@@ -374,7 +379,7 @@ def _move(cell: Cell, item: str, rng: Generator) -> str:
         for spot in _roomy(cell, item, cell.scene.support(target, "on", item))[:3]:
             cell.sim.set_pose(body, spot.pose)
             others = [other for other in cell.sim.bodies() if other != body]
-            if any(c.distance < -_FALL for other in others for c in cell.sim.closest(body, other, 0.0)):
+            if _is_within(cell.sim, body, others):
                 continue
             cell.sim.wake()
             cell.settle()

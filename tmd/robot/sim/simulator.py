@@ -199,6 +199,8 @@ class Bodies(Engine):
         return [link for link in links if bullet.getCollisionShapeData(body, link, physicsClientId=self.client)]
 
 
+_LEAST_DISTANCE = 1e-6
+"""Metres. Asked for 0, Bullet uses other algorithms, which find nothing between most bodies that are in each other."""
 _QUERY_WORK = 18
 """Microseconds of asking what touches or is near, about."""
 WELD_FORCE = 500.0
@@ -389,8 +391,9 @@ class Simulator(Bodies):
     def closest(
         self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None
     ) -> list[Contact]:
-        """What is not farther away than ``distance`` now; no step is needed."""
-        return self._contacts(self._bullet.getClosestPoints, {"distance": distance}, body, other, link, other_link)
+        """What is not farther away than ``distance`` now; no step is needed. With 0, what touches or is in the other."""
+        options = {"distance": max(distance, _LEAST_DISTANCE)}
+        return self._contacts(self._bullet.getClosestPoints, options, body, other, link, other_link)
 
     def _contacts(
         self,
