@@ -52,6 +52,11 @@ def steps(grounded: Grounded) -> list[str]:
     return [str(instruction) for instruction in grounded.plans[0].instructions]
 
 
+def hot(grounded: Grounded) -> set[str]:
+    """What is hot when the first plan is done."""
+    return {fact.strip("()").split()[1] for fact in end(grounded) if fact.startswith("(hot ")}
+
+
 def end(grounded: Grounded) -> set[str]:
     """The facts that hold when the first plan is done."""
     assert grounded.verdicts[0].valid

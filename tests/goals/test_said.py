@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.goals.conftest import end, goals, said, steps
+from tests.goals.conftest import end, goals, hot, said, steps
 from tmd.goals.reading.goal_reader import Why
 
 # environment, text, the goals of the steps, the steps
@@ -560,7 +560,6 @@ def test_nothing_is_handled_for_nothing(kitchen: str) -> None:
 WRONG = [
     ("02_table/corner1", "Put the book under the table.", None),
     ("03_drawer/study1", "Put the pen in the drawer and leave it open.", {"(opened desk1_drawer)"}),
-    ("04_tea/pantry1", "Boil some water in the kettle without using the stove.", None),
 ]
 
 
@@ -607,6 +606,46 @@ def test_what_it_must_not_be_done_with_is_not_touched() -> None:
         assert heated.plans and not any("microwave" in step for step in steps(heated))
     moved = said("kitchen", "kitchen1", "Put the mug on the counter, not on the table.")
     assert goals(moved) == ["(at mug1 counter1 on)"]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Heat the milk without using the stove.",
+        "Without using the stove, heat the milk.",
+        "Heat the milk without the stove.",
+        "Heat the milk. Don't use the stove.",
+        "Heat the milk, no stove please.",
+        "Use the microwave to heat the milk.",
+        "Use the microwave, not the stove, to heat the milk.",
+        "Don't use the stove to heat the milk, use the microwave.",
+        "Heat the milk using the microwave.",
+    ],
+)
+def test_what_shall_be_used_is_and_what_shall_not_is_left_alone(text: str) -> None:
+    heated = said("kitchen", "kitchen1", text)
+    assert any(step.startswith("press(microwave1") for step in steps(heated))
+    assert not any("stove1" in step for step in steps(heated))
+    assert any(fact.endswith(" milk)") and fact.split()[1] in hot(heated) for fact in end(heated))
+
+
+def test_what_nothing_else_can_do_is_refused() -> None:
+    for text in ("Heat the milk with neither the stove nor the microwave.", "Without using the sink, fill the pot."):
+        assert not said("kitchen", "kitchen1", text).plans
+    assert not said("04_tea", "pantry1", "Boil some water in the kettle without using the stove.").plans
+    assert not said("kitchen", "kitchen4", "Heat the milk using the microwave.").plans  # there is none
+
+
+def test_a_pot_that_is_used_is_the_one_that_is_meant() -> None:
+    assert "pot1" in hot(said("kitchen", "kitchen1", "Use the pot to boil water."))
+    filled = said("kitchen", "kitchen5", "Use the dispenser, not the tap, to fill the glass.")
+    assert not any("sink1_handle" in step for step in steps(filled)) and "(contains glass1 water)" in end(filled)
+
+
+def test_milk_is_heated_by_itself() -> None:
+    facts = end(said("kitchen", "kitchen2", "Heat some milk in a mug."))
+    vessel = next(fact.split()[1] for fact in facts if fact.endswith(" milk)") and "mug" in fact)
+    assert [fact for fact in facts if fact.startswith(f"(contains {vessel} ")] == [f"(contains {vessel} milk)"]
 
 
 def test_food_is_not_cooked_in_coffee() -> None:

@@ -629,6 +629,37 @@ def test_what_is_forbidden_is_no_instruction(text: str, forbidden: str) -> None:
     assert all(c.mood is Mood.AVOID for c in parsed.constraints)
 
 
+@pytest.mark.parametrize(
+    ("text", "done", "forbidden"),
+    [
+        ("Cut the rope without using the axe.", ["(cut, [rope])"], "(use, [axe])"),
+        ("Without using the axe, cut the rope.", ["(cut, [rope])"], "(use, [axe])"),
+        ("Use the saw, not the axe, to cut the rope.", ["(use, [saw])", "(cut, [rope])"], "(use, [axe])"),
+        ("Use the saw and not the axe to cut the rope.", ["(use, [saw])", "(cut, [rope])"], "(use, [axe])"),
+        ("Use the saw instead of the axe to cut the rope.", ["(use, [saw])", "(cut, [rope])"], "(use, [axe])"),
+        ("Don't use the axe to cut the rope, use the saw.", ["(use, [saw])", "(cut, [rope])"], "(use, [axe])"),
+        ("Don't use the axe or the knife to cut the rope.", [], "(use, [axe, knife])"),
+        ("Cut the rope. Don't use the axe to cut it.", ["(cut, [rope])"], "(use, [axe])"),
+        ("Cut the rope using the saw, not the axe.", ["(cut, [rope, saw], using: rope -> saw)"], "(use, [axe])"),
+        (
+            "Put the saw, not the axe, in the shed and close the door.",
+            ["(put, [saw, shed], in: saw -> shed)", "(close, [door])"],
+            "(put, [axe, shed], in: axe -> shed)",
+        ),
+        ("Take the red box, not the blue one.", ["(take, [red_box])"], "(take, [blue_box])"),
+        (
+            "Pour the oil in the jug, not the bottle.",
+            ["(pour, [oil, jug], in: oil -> jug)"],
+            "(pour, [oil, bottle], in: oil -> bottle)",
+        ),
+    ],
+)
+def test_what_is_used_or_meant_and_what_is_not(text: str, done: list[str], forbidden: str) -> None:
+    parsed = parse(text)
+    assert [print_clause(c) for c in parsed.clauses] == done
+    assert [print_clause(c) for c in parsed.constraints] == [forbidden]
+
+
 @pytest.mark.parametrize("text", ["You needn't oil the saw.", "You don't have to oil the saw."])
 def test_what_need_not_be_done_is_neither_done_nor_forbidden(text: str) -> None:
     parsed = parse(text)

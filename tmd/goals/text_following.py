@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
@@ -16,7 +16,7 @@ from tmd.goals.reading.referents import EXCEPTING
 from tmd.goals.reading.requirements import BE
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table, words_of
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_pronoun
 from tmd.language.syntax.subordinate import REMINDER
@@ -170,7 +170,8 @@ def _steps(clause: Clause, number: int) -> Iterator[GoalStep]:
                 )
 
 
-_NEVER = frozenset({"use", "touch"})
+_USE = "use"
+_NEVER = frozenset({_USE, "touch"})
 """To do this to a thing is to handle it in whatever way."""
 
 _COMPLETE = frozenset({"done", "ready", "finished", "complete", "over"})
@@ -252,7 +253,27 @@ class Follower:
         if isinstance(constraints, Refused):
             return constraints
         memory = replace(memory, left=constraints.left)
-        return in_order(parsed.clauses), Context(memory, constraints.kept), constraints
+        return in_order(self._with_instruments(parsed)), Context(memory, constraints.kept), constraints
+
+    def _with_instruments(self, parsed: Parsed) -> tuple[Clause, ...]:
+        """The clauses, those beside a *use* of the same sentence done with that: *use the pot to boil water*.
+
+        The clause behind it, or where there is none, the one before it: *heat the milk, use the microwave*.
+        """
+        clauses = list(parsed.clauses)
+        for number, clause in enumerate(parsed.clauses):
+            alone = clause.verb == _USE and clause.mood is Mood.DO and len(clause.direct) == 1 and not clause.relations
+            if not alone or self._leaves_a_trace(_USE):
+                continue
+            for other in (number + 1, number - 1):
+                if not 0 <= other < len(clauses) or not _same_sentence(parsed, clause, clauses[other]):
+                    continue
+                done = clauses[other]
+                told = any(r.relation in ("using", "with") for r in done.relations)
+                if done.mood is Mood.DO and done.verb != _USE and done.direct and not told:
+                    clauses[other] = _using(done, clause)
+                    break
+        return tuple(clauses)
 
     def target(self, step: GoalStep, context: Context, state: Bits) -> tuple[Target, Context] | Refused:
         """What a step asks for in ``state``."""
@@ -389,6 +410,7 @@ class Follower:
             names |= found[1]
             kept += found[2]
         for number, clause in enumerate(parsed.clauses):
+            names |= self._done_without(clause, state)
             other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
             if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions or other):
                 preserved = self._preserved(clause, number, state, memory)
@@ -402,13 +424,11 @@ class Follower:
 
     def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
         """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
-        if clause.verb in _NEVER and not self._declared(clause.verb):
+        if clause.verb in _NEVER and not self._leaves_a_trace(clause.verb):
             names = {n for noun in clause.direct for n in self._kept_things(clause, noun, state)}
             if not names:
                 return self.reader.referents.not_there(clause)
-            for name in tuple(names):
-                names.update(self.reader.grounder.relatives(name, 0))
-            return Cube(0, 0), names, []
+            return Cube(0, 0), self._with_parts(names), []
         final = clause.implied or bool(clause.result)
         goal = self.reader.read(
             replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
@@ -450,12 +470,31 @@ class Follower:
         for target in {r.target for r in clause.relations if r.relation not in EXCEPTING}:
             for name in self.reader.nouns.things(target, state):
                 if name not in self.reader.world.profiles.constants:
-                    found.update((name, *self.reader.grounder.relatives(name, 0)))
+                    found.add(name)
+        found = self._with_parts(found)
         outcome = {name for atom in atoms_of(goal.formula) for name in atom.args}
         return set() if found & outcome else found
 
-    def _declared(self, verb: str) -> bool:
-        return any(table.of(verb) for table in self.reader.tables)
+    def _done_without(self, clause: Clause, state: Bits) -> set[str]:
+        """What a clause shall be done without: "heat the milk without the stove", and no contents: "without sugar"."""
+        nouns = self.reader.nouns
+        found: set[str] = set()
+        none = {noun for noun in clause.objects if clause.phrase(noun).quantifier is Quantifier.NONE}
+        none = none if set(clause.direct) - none else set()  # "heat the milk, no stove please", but not "touch no cup"
+        for target in none | {r.target for r in clause.relations if r.relation == "without"}:
+            if not nouns.constants(target, ("object",), state):
+                found.update(nouns.things(target, state))
+        return self._with_parts(found)
+
+    def _with_parts(self, names: Iterable[str]) -> set[str]:
+        """Things, their parts, and the parts of others that work them: a tap, and its handle."""
+        profiles = self.reader.world.profiles
+        own = {other for name in names for other in (name, *self.reader.grounder.relatives(name, 0))}
+        return own | {tail for tail, head in profiles.links if head in own and tail in profiles.wholes}
+
+    def _leaves_a_trace(self, verb: str) -> bool:
+        """Whether the domain says what a verb leaves behind; nobody sees afterwards that something was used."""
+        return any(not row.traceless for table in self.reader.tables[:1] for row in table.of(verb))
 
     def _kept_things(self, clause: Clause, noun: str, state: Bits) -> tuple[str, ...]:
         """The things that a noun, or a pronoun with what was said of it, names."""
@@ -498,6 +537,22 @@ class Follower:
             if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
                 found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
         return found
+
+
+def _same_sentence(parsed: Parsed, one: Clause, other: Clause) -> bool:
+    first, second = sorted((one, other), key=lambda clause: clause.span)
+    return not set(parsed.text[first.span.end : second.span.start]) & set(".!?;")
+
+
+def _using(done: Clause, use: Clause) -> Clause:
+    """A clause, done with what another one says is to be used."""
+    tool = use.direct[0]
+    if tool in done.objects:
+        return done
+    relations = (*done.relations, *(Relation("using", direct, tool) for direct in done.direct))
+    phrases = {**done.phrases, tool: use.phrase(tool)}
+    meant = {noun: tuple(n for n in names if n != tool) or names for noun, names in done.antecedents.items()}
+    return replace(done, objects=(*done.objects, tool), relations=relations, phrases=phrases, antecedents=meant)
 
 
 def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:

@@ -166,7 +166,7 @@ _NEVER_OTHERWISE = Or((FALSE,))
 _DEAD = (FALSE, _NEVER_OTHERWISE)
 _MOST_CHOICES = 200
 """Maximum number of ways of choosing two of many things."""
-_NAMING = frozenset({"with", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
+_NAMING = frozenset({"with", "using", "of", "in", "into", "on", "onto", "from", "out_of", "off", "under", "next_to"})
 """Relations whose nouns must name something."""
 _ELIDED = ("in", "on", "to")
 """The places that a verb may leave to what was spoken of."""

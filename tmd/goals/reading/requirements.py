@@ -82,7 +82,7 @@ class Requirements:
                     continue
                 never = self._never(referent, relation, names, reading)
                 tool = (noun == direct or never) and relation in ("with", "using", "via", "through")
-                if tool and self._tool(names, reading):
+                if tool and self._tool(row, variable, referent, (relation, names), reading):
                     continue
                 if noun == direct and relation not in _RESTRICTING:
                     inside = relation in (*PREPOSITIONS["in"], *PREPOSITIONS["on"])
@@ -144,17 +144,32 @@ class Requirements:
     ) -> None:
         """Do it there, or with that: a place or a tool that no slot takes; a substance is where its vessel is."""
         relation, names = said
+        self._on_the_way(self._beside_it(row, variable, referent, (relation,), names, reading), reading)
+        reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
+
+    def _beside_it(
+        self,
+        row: GoalRow,
+        variable: str,
+        referent: Referent,
+        relations: Sequence[str],
+        names: Sequence[str],
+        reading: ClauseReading,
+    ) -> Formula:
+        """That what is meant, or the vessel that a substance is in, stands in a relation to one of ``names``."""
         substance = self._is_substance(referent)
         carriers = self._vessels(row, variable, referent, reading) if substance else self._filled(referent, reading)
-        formula = disjunction(
+        return disjunction(
             conjunction((held, self.nouns.related(relation, name, target, reading.moments)))
             for name, held in carriers
             for target in names
             if name != target
+            for relation in relations
         )
+
+    def _on_the_way(self, formula: Formula, reading: ClauseReading) -> None:
         if formula not in (FALSE, TRUE):
             reading.approach.append(formula)
-        reading.meant.setdefault(f"{relation} {names[0]}", tuple(names))
 
     def _filled(self, referent: Referent, reading: ClauseReading) -> list[tuple[str, Formula]]:
         """The things meant, each with what must be in it: *a mug of water* is one with the water in it."""
@@ -207,13 +222,22 @@ class Requirements:
 
         return goal
 
-    def _tool(self, names: Sequence[str], reading: ClauseReading) -> bool:
-        """Whether things are said to be used: they are taken first, where they can be."""
+    def _tool(
+        self, row: GoalRow, variable: str, referent: Referent, said: tuple[str, Sequence[str]], reading: ClauseReading
+    ) -> bool:
+        """Whether things are said to be used: they are taken first; what cannot be taken is where it is done.
+
+        *Heat the milk using the microwave*: its cup is in there on the way.
+        """
+        relation, names = said
         if any(name in self.world.profiles.constants for name in names):
             return False
         contents = [n for n in names if self.nouns.contents(n, reading.state)]
         held = [self.nouns.state_of(results("hold"), name) for name in names]
         formula = disjunction(f for f in held if f is not None)
+        if formula in (FALSE, TRUE) and relation != "with":
+            whole = [other for name in names for other in (name, *self.grounder.relatives(name, 0))]
+            self._on_the_way(self._beside_it(row, variable, referent, ("in", "on"), whole, reading), reading)
         if formula in (FALSE, TRUE):
             return not contents
         reading.approach.append(formula)

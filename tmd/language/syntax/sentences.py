@@ -6,6 +6,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.language.lexicon.lexicon import builtin, section
+from tmd.language.syntax.contrast import CONTRASTS
 from tmd.language.syntax.idioms import (
     BREAKS,
     IDIOMS,
@@ -536,6 +537,7 @@ def _complement(tokens: list[Token]) -> int:
 
 _SENTENCES = (
     Idiom(_passive_question, frozenset({"be"})),
+    *CONTRASTS,
     *IDIOMS,
     Idiom(_absent, frozenset({"nothing", "no", "none"})),
     Idiom(_negative_state),

@@ -149,7 +149,7 @@ class _Folder:
         return at + 1
 
     def _preposition(self, at: int) -> int:
-        manner = self._kind(at + 1) is Kind.ING
+        manner = self._kind(at + 1) is Kind.ING or [t.text for t in self.tokens[at + 1 : at + 2]] == ["using"]
         if manner and self.tokens[at].text == "without":
             return self._fold(at, self.boundary(at + 1), Kind.MOD, "manner")
         return self._drop(at) if manner and self.tokens[at].text == "by" else self._keep(at)
@@ -901,6 +901,8 @@ def _read_prohibition(
         rest = rest[1:]
     if not rest:
         return ()
+    if rest[0] == "using":  # "without using the stove"
+        rest = ["use", *rest[1:]]
     found = lexicon.verb(rest[0])
     if any(w in _BE for w in rest[1:]):
         return _said(["any", *rest] if parts[at] in ("no", "neither") else rest, lexicon, read)

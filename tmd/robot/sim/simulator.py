@@ -391,7 +391,7 @@ class Simulator(Bodies):
     def closest(
         self, body: int, other: int, distance: float, link: int | None = None, other_link: int | None = None
     ) -> list[Contact]:
-        """What is not farther away than ``distance`` now; no step is needed. With 0, what touches or is in the other."""
+        """What is not farther away than ``distance`` now, with 0 what touches; no step is needed."""
         options = {"distance": max(distance, _LEAST_DISTANCE)}
         return self._contacts(self._bullet.getClosestPoints, options, body, other, link, other_link)
 
