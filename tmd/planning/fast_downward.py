@@ -177,7 +177,7 @@ class FirstPlan:
         seconds: The limit for one question.
     """
 
-    def __init__(self, task: Task, seconds: float = 10.0) -> None:
+    def __init__(self, task: Task, seconds: float = 20.0) -> None:
         self.task = task
         self.seconds = seconds
 

@@ -232,7 +232,7 @@ def untouched(
     reached: Callable[[Sequence[Instruction]], bool],
     counted: Bits,
 ) -> tuple[Instruction, ...]:
-    """The plan without the objects that it handles for nothing.
+    """The plan without the objects that it handles for nothing, and without what it changes for nothing.
 
     Args:
         plan: The plan.
@@ -249,6 +249,13 @@ def untouched(
         fewer = ((end ^ state) & counted).bit_count() <= ((before ^ state) & counted).bit_count()
         if len(rest) < len(kept) and fewer and reached(shorter):
             kept = shorter
+    at = len(kept)
+    while at:
+        at -= 1
+        shorter, end = _executable((*kept[:at], *kept[at + 1 :]), task, state)
+        before = _executable(kept, task, state)[1]
+        if ((end ^ state) & counted).bit_count() < ((before ^ state) & counted).bit_count() and reached(shorter):
+            kept, at = shorter, min(at, len(shorter))
     return kept
 
 

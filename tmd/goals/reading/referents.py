@@ -321,7 +321,11 @@ class Referents:
         referent = Referent(noun, objects, mode, number, definite, group, phrase.each)
         whole = referent.names
         referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
-        if whole and not referent.names and any(relation == "of" for relation, _ in relations):
+        if (
+            whole
+            and not referent.names
+            and any(r.source == noun and r.relation == "of" for r in reading.clause.relations)
+        ):
             # "a hot cup of coffee": the cup shall be so, with what is in it
             reading.wanted[noun] = phrase.attributes
             referent = replace(referent, names=whole)
