@@ -69,6 +69,10 @@ class GraspParameters:
     """Metres round a spot where something could not be done, in which things are not put down again."""
     widest: float = 0.078
     """Metres that the fingers get round."""
+    level: float = 0.5
+    """Sine of the angle to the ground up to which a side counts as level."""
+    steep: float = 0.6
+    """Cosine of the angle to straight down within which a hand comes from above."""
     above_ground: float = 0.006
     """Metres that the finger tips keep from what a thing lies on."""
     bar: float = 0.05

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
-from math import degrees, pi
+from math import degrees, hypot, pi
 
 import numpy as np
 
@@ -21,6 +21,8 @@ _OPEN = 0.08
 """Metres between the fingers of a hand that is about to take something."""
 _ALONG = 0.7
 """Fingers that open less than this (cosine) along the y axis of a thing with a bar are above and below the bar."""
+_LEANS = (0.0, 0.6, -0.6, 1.1, -1.1)
+"""Angles to straight down at which what lies is taken."""
 _ALIKE = (0.03, 0.5)
 """Metres and radians between grips that count as one."""
 
@@ -68,7 +70,7 @@ def pick_options(cell: Cell, item: str) -> list[Option]:
     ordered = sorted(cell.scene.grasps(item), key=lambda g: upright * abs(round(g.tool.approach[2], 3)))
     poses = [here * grasp.tool.pose() for grasp in ordered]
     if cell.tilt(item) > CONTACT.upright:
-        poses = _lying(cell, item, poses)
+        poses = [_above_ground(cell, item, tool) for tool in _lying(cell, item, poses)]
     poses.sort(key=lambda tool: _held_badly(cell, item, here.inverse() * tool))
     entry = _sideways(cell, item)
     return [
@@ -83,6 +85,14 @@ def _held_badly(cell: Cell, item: str, grip: Pose) -> bool:
     """Whether it was held like this when something could not be done with it."""
     known = cell.unfit_grips.get(item, ())
     return any(grip.distance(other) < _ALIKE[0] and grip.angle(other) < _ALIKE[1] for other in known)
+
+
+def _above_ground(cell: Cell, item: str, tool: Pose) -> Pose:
+    """A way to take from above what lies, so high that the finger tips do not reach into what it lies on."""
+    x, y, z = tool.position
+    lowest = max(cell.sim.extents(cell.scene.bodies[item])[0][2], 0.0) + TIP + GRASP.above_ground
+    down = tool.rotate((1.0, 0.0, 0.0))[2] < -GRASP.steep
+    return Pose((x, y, max(z, lowest)), tool.orientation) if down else tool
 
 
 def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
@@ -103,7 +113,8 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
             for share in (0.5, 0.35, 0.65, 0.2, 0.8):
                 x, y, z = here.apply((0.0, 0.0, low[2] + share * (high[2] - low[2])))
                 down = Frame((x, y, max(z, floor)), DOWN, (ax, ay, az)).pose()
-                found += [down * Pose.about((0.0, 1.0, 0.0), angle) for angle in (0.0, 0.6, -0.6, 1.1, -1.1)]
+                found += [down * Pose.about((0.0, 1.0, 0.0), angle) for angle in _LEANS]
+    found += _across(cell, item)
     turns = [number * pi / 4 for number in range(8)]
     bars = [here * grasp.tool.pose() for grasp in cell.scene.grasps(item) if _of_bar(grasp)]
     length = here.rotate((1.0, 0.0, 0.0))
@@ -115,6 +126,30 @@ def _lying(cell: Cell, item: str, usual: Sequence[Pose]) -> list[Pose]:
     found += [tool * Pose.about((0.0, 1.0, 0.0), angle) for tool in (*usual, *rolled) for angle in turns]
     kept = [tool for tool in found if tool.rotate((1.0, 0.0, 0.0))[2] < 0.3]
     return sorted(kept, key=lambda tool: round(tool.rotate((1.0, 0.0, 0.0))[2], 1))[: GRASP.most_lying]
+
+
+def _across(cell: Cell, item: str) -> list[Pose]:
+    """Tool poses from above across each level side of a thing that the fingers get round, its middle first."""
+    here = cell.sim.pose(cell.scene.bodies[item])
+    low, high = cell.scene.size(item)
+    middle = [(a + b) / 2 for a, b in zip(low, high, strict=True)]
+    spans = [b - a for a, b in zip(low, high, strict=True)]
+    sides = [here.rotate(unit) for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))]
+    level = [side for side in range(3) if abs(sides[side][2]) < GRASP.level]
+    found = []
+    for side in level:
+        if spans[side] > GRASP.widest:
+            continue
+        x, y, _ = sides[side]
+        length = hypot(x, y)
+        along = [other for other in level if other != side]
+        for share in (0.0, -0.15, 0.15, -0.3, 0.3) if along else (0.0,):
+            at = list(middle)
+            if along:
+                at[along[0]] += share * spans[along[0]]
+            down = Frame(here.apply((at[0], at[1], at[2])), DOWN, (x / length, y / length, 0.0)).pose()
+            found += [down * Pose.about((0.0, 1.0, 0.0), angle) for angle in _LEANS]
+    return found
 
 
 def _of_bar(grasp: Grasp) -> bool:
