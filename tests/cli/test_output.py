@@ -261,3 +261,18 @@ def test_closed_streams_are_as_good_as_nothing(tmp_path: Path, command: str, clo
     assert done.returncode == code
     told = (done.stdout + done.stderr).decode()
     assert "Traceback" not in told and "internal error" not in told
+
+
+def test_an_experiment_shows_its_bar_on_a_terminal(tmp_path: Path) -> None:
+    """With FORCE_COLOR every stream counts as one."""
+    command = [sys.executable, "-m", "tmd", "experiment", "--task", "tea", "--domain", "04_tea", "--models", "empty"]
+    done = subprocess.run(
+        [*command, "--out", str(tmp_path / "run"), "--jobs", "1"],
+        env={**os.environ, "FORCE_COLOR": "1"},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 0
+    assert "3/3" in done.stderr

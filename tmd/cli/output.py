@@ -6,6 +6,7 @@ import os
 import sys
 from contextlib import nullcontext, suppress
 from io import TextIOBase, TextIOWrapper
+from typing import TextIO
 
 from tmd.format.json_layout import lay_out
 
@@ -30,31 +31,42 @@ def open_closed_streams() -> None:
 
 def emit(text: str, *, error: bool = False) -> None:
     """Write ``text`` to standard output or standard error; where no error can be written, the command goes on."""
-    stream = sys.stderr if error else sys.stdout
     with suppress(OSError) if error else nullcontext():
-        if isinstance(stream, TextIOWrapper):
-            stream.reconfigure(encoding="utf-8", errors="backslashreplace")
-        stream.write(text)
-        stream.flush()
+        _write(sys.stderr if error else sys.stdout, text)
+
+
+def _write(stream: TextIO, text: str) -> None:
+    if isinstance(stream, TextIOWrapper):
+        stream.reconfigure(encoding="utf-8", errors="backslashreplace")
+    stream.write(text)
+    stream.flush()
 
 
 class ErrorStream(TextIOBase):
-    """Standard error for libraries that write to a file: what cannot be written is dropped, as by :func:`emit`."""
+    """Standard error for libraries that write to a file: what cannot be written is dropped, as by :func:`emit`.
+
+    It is the one of the time it was made: a bar on a terminal puts itself in the place of ``sys.stderr``, and would
+    write to itself for ever.
+    """
 
     encoding = "utf-8"
 
+    def __init__(self) -> None:
+        self._stream = sys.stderr
+
     def write(self, text: str) -> int:
         """Write it; its length."""
-        emit(text, error=True)
+        with suppress(OSError):
+            _write(self._stream, text)
         return len(text)
 
     def isatty(self) -> bool:
         """Whether somebody looks at it."""
-        return sys.stderr.isatty()
+        return self._stream.isatty()
 
     def fileno(self) -> int:
         """Its number, for its width."""
-        return sys.stderr.fileno()
+        return self._stream.fileno()
 
 
 def emit_json(value: object) -> None:
