@@ -2,26 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
 from weakref import WeakKeyDictionary
 
-from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, aims, combined, keep, without_operators
-from tmd.goals.grounder import TRUE, Moments, atoms_of
+from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, aims, combined, keep
+from tmd.goals.grounder import TRUE
 from tmd.goals.reading.goal_reader import GoalReader
-from tmd.goals.reading.noun_phrases import Bound, Memory, Referent
-from tmd.goals.reading.referents import EXCEPTING
+from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.requirements import BE
 from tmd.goals.sources.actions import rows_of_actions
-from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table, words_of
-from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, Relation
+from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table
+from tmd.goals.text_constraints import USE, ConstraintReader, TextConstraints
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.syntax.pronouns import is_pronoun
 from tmd.language.syntax.subordinate import REMINDER
 from tmd.pddl.model import Domain
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Cube
 from tmd.veil.world import World
 
 SOURCES = (DECLARED, LEARNED, ACTIONS)
@@ -170,10 +169,6 @@ def _steps(clause: Clause, number: int) -> Iterator[GoalStep]:
                 )
 
 
-_USE = "use"
-_NEVER = frozenset({_USE, "touch"})
-"""To do this to a thing is to handle it in whatever way."""
-
 _COMPLETE = frozenset({"done", "ready", "finished", "complete", "over"})
 """What is said of something only to say when: the clause before has brought it about."""
 
@@ -185,7 +180,7 @@ class Context:
     Attributes:
         memory: What nouns turned out to mean.
         kept: What must not be undone.
-        guards: For the sentence so far, whether its condition held.
+        guard: For the sentence so far, whether its condition held; ``None`` where it has none.
     """
 
     memory: Memory
@@ -214,23 +209,6 @@ class Target:
     ways: tuple[tuple[Cube, ...], ...] = ()
 
 
-@dataclass(frozen=True)
-class TextConstraints:
-    """What must not happen, and what must stay as it is.
-
-    Attributes:
-        task: The task without the operators that are forbidden.
-        kept: What must hold at the end of every step.
-        notes: What could not be taken into account.
-        left: The things that must stay where they are, or not be touched.
-    """
-
-    task: Task
-    kept: tuple[Kept, ...] = ()
-    notes: tuple[str, ...] = ()
-    left: tuple[str, ...] = ()
-
-
 class Follower:
     """Follows a text in one environment.
 
@@ -241,6 +219,7 @@ class Follower:
     def __init__(self, reader: GoalReader) -> None:
         self.reader = reader
         self.task = reader.world.task
+        self.constraints = ConstraintReader(reader)
 
     def begin(self, parsed: Parsed, state: Bits) -> tuple[tuple[GoalStep, ...], Context, TextConstraints] | Refused:
         """The steps of a text, what is known before the first, and what holds throughout."""
@@ -249,7 +228,7 @@ class Follower:
             message = f"'{' '.join(unread[0].text.split())}' {REMINDER}"
             return Refused(Why.NOT_UNDERSTOOD, message, "say what shall be done with it")
         memory = Memory(first=state)
-        constraints = self._constraints(parsed, state, memory)
+        constraints = self.constraints.read(parsed, state, memory)
         if isinstance(constraints, Refused):
             return constraints
         memory = replace(memory, left=constraints.left)
@@ -262,15 +241,15 @@ class Follower:
         """
         clauses = list(parsed.clauses)
         for number, clause in enumerate(parsed.clauses):
-            alone = clause.verb == _USE and clause.mood is Mood.DO and len(clause.direct) == 1 and not clause.relations
-            if not alone or self._leaves_a_trace(_USE):
+            alone = clause.verb == USE and clause.mood is Mood.DO and len(clause.direct) == 1 and not clause.relations
+            if not alone or self.constraints.leaves_a_trace(USE):
                 continue
             for other in (number + 1, number - 1):
                 if not 0 <= other < len(clauses) or not _same_sentence(parsed, clause, clauses[other]):
                     continue
                 done = clauses[other]
                 told = any(r.relation in ("using", "with") for r in done.relations)
-                if done.mood is Mood.DO and done.verb != _USE and done.direct and not told:
+                if done.mood is Mood.DO and done.verb != USE and done.direct and not told:
                     clauses[other] = _using(done, clause)
                     break
         return tuple(clauses)
@@ -289,7 +268,7 @@ class Follower:
             note = "the condition does not hold" if not step.otherwise else "the condition before it held"
             return Target(step, None, note=note), context
         if step.clause.mood is Mood.KEEP:
-            preserved = self._preserved(step.clause, step.number, state, context.memory)
+            preserved = self.constraints.preserved(step.clause, step.number, state, context.memory)
             if isinstance(preserved, Refused):
                 return preserved
             return Target(step, None, note="it stays as it is"), replace(context, kept=(*context.kept, *preserved))
@@ -394,150 +373,6 @@ class Follower:
             spoken.update((n, None) for names in goal.meant.values() for n in names if n in objects)
         return truth != condition.negated
 
-    # ------------------------------------------------------------------ constraints
-
-    def _constraints(self, parsed: Parsed, state: Bits, memory: Memory) -> TextConstraints | Refused:
-        """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
-        forbidden = Cube(0, 0)
-        names: set[str] = set()
-        left: set[str] = set()
-        kept: list[Kept] = []
-        for clause in parsed.constraints:
-            found = self._avoided(clause, state, memory)
-            if isinstance(found, Refused):
-                return found
-            forbidden = Cube(forbidden.positive | found[0].positive, forbidden.negative | found[0].negative)
-            names |= found[1]
-            kept += found[2]
-        for number, clause in enumerate(parsed.clauses):
-            names |= self._done_without(clause, state)
-            other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
-            if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions or other):
-                preserved = self._preserved(clause, number, state, memory)
-                if isinstance(preserved, Refused):
-                    return preserved
-                kept += preserved
-                if not clause.result:
-                    left.update(n for noun in clause.direct for n in self._kept_things(clause, noun, state))
-        task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
-        return TextConstraints(task, tuple(kept), left=tuple(sorted(left | names)))
-
-    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
-        """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
-        if clause.verb in _NEVER and not self._leaves_a_trace(clause.verb):
-            names = {n for noun in clause.direct for n in self._kept_things(clause, noun, state)}
-            if not names:
-                return self.reader.referents.not_there(clause)
-            return Cube(0, 0), self._with_parts(names), []
-        final = clause.implied or bool(clause.result)
-        goal = self.reader.read(
-            replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
-        )
-        if isinstance(goal, Refused):
-            return (Cube(0, 0), set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
-        means = self._means(clause, goal, state)
-        if means:
-            return Cube(0, 0), means, []
-        added: Bits = 0
-        deleted: Bits = 0
-        kept: list[Kept] = []
-        some = any(cube.positive for cube in goal.cubes)
-        for atom in sorted(atoms_of(goal.formula)):
-            bit = 1 << self.task.index[atom]
-            if final:
-                stands = any(cube.positive & bit for cube in goal.cubes)
-                if some and not stands and not state & bit:
-                    continue  # "noodles in the bowl, not in the pot": the pot need not have the milk that spoils them
-                kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
-                continue
-            stands = any(cube.positive & bit for cube in goal.cubes)
-            if (
-                stands
-                and not state & bit
-                and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes)
-            ):
-                added |= bit
-            elif not stands and state & bit:
-                deleted |= bit
-        return Cube(added, deleted), set(), kept
-
-    def _means(self, clause: Clause, goal: ClauseGoal, state: Bits) -> set[str]:
-        """What a thing must not be done with, or in, though it may be done: "heat the milk, but not in the microwave".
-
-        Nothing where the outcome is about that: "do not put the cup in the sink" is no matter of the sink's being used.
-        """
-        found: set[str] = set()
-        for target in {r.target for r in clause.relations if r.relation not in EXCEPTING}:
-            for name in self.reader.nouns.things(target, state):
-                if name not in self.reader.world.profiles.constants:
-                    found.add(name)
-        found = self._with_parts(found)
-        outcome = {name for atom in atoms_of(goal.formula) for name in atom.args}
-        return set() if found & outcome else found
-
-    def _done_without(self, clause: Clause, state: Bits) -> set[str]:
-        """What a clause shall be done without: "heat the milk without the stove", and no contents: "without sugar"."""
-        nouns = self.reader.nouns
-        found: set[str] = set()
-        none = {noun for noun in clause.objects if clause.phrase(noun).quantifier is Quantifier.NONE}
-        none = none if set(clause.direct) - none else set()  # "heat the milk, no stove please", but not "touch no cup"
-        for target in none | {r.target for r in clause.relations if r.relation == "without"}:
-            if not nouns.constants(target, ("object",), state):
-                found.update(nouns.things(target, state))
-        return self._with_parts(found)
-
-    def _with_parts(self, names: Iterable[str]) -> set[str]:
-        """Things, their parts, and the parts of others that work them: a tap, and its handle."""
-        profiles = self.reader.world.profiles
-        own = {other for name in names for other in (name, *self.reader.grounder.relatives(name, 0))}
-        return own | {tail for tail, head in profiles.links if head in own and tail in profiles.wholes}
-
-    def _leaves_a_trace(self, verb: str) -> bool:
-        """Whether the domain says what a verb leaves behind; nobody sees afterwards that something was used."""
-        return any(not row.traceless for table in self.reader.tables[:1] for row in table.of(verb))
-
-    def _kept_things(self, clause: Clause, noun: str, state: Bits) -> tuple[str, ...]:
-        """The things that a noun, or a pronoun with what was said of it, names."""
-        nouns = self.reader.nouns
-        meant = clause.antecedents.get(noun, ())[: clause.together.get(noun, 1)] if is_pronoun(noun) else (noun,)
-        names = tuple(dict.fromkeys(n for one in meant for n in nouns.things(one, state)))
-        for relation in clause.relations:
-            if relation.source == noun and relation.relation in EXCEPTING:
-                meant = clause.meant(relation.target)
-                left = {n for one in meant for n in self.reader.referents.every_kind(one, state)}
-                names = tuple(n for n in names if n not in left)
-            elif relation.source == noun and relation.relation != "where":
-                targets = nouns.things(relation.target, state)
-                referent = Referent(noun, names)
-                names = nouns.related_now(referent, relation.relation, targets, state, Moments(state, state)) or names
-        said, _ = nouns.narrowed(Referent(noun, names), clause.phrase(noun), state, Moments(state, state))
-        return said.names
-
-    def _preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
-        """*Leave the door open* keeps that; *leave the cup where it is* keeps where it is."""
-        if clause.result and clause.result not in ("alone",):
-            goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
-            if isinstance(goal, Refused):
-                parts = clause.direct != () and all(noun in words_of("parts") for noun in clause.direct)
-                return [] if parts else goal  # "leave the lid open": that of what will have been spoken of
-            held = [cube for cube in goal.cubes if cube.holds(state)]
-            return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
-        names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
-        if not names and any(r.relation in EXCEPTING for r in clause.relations):
-            return []  # "the rest stays there", of what else was spoken of with "every empty thing"
-        if not names:
-            return (
-                self.reader.referents.not_there(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
-            )
-        constants = self.reader.world.profiles.constants
-        found = []
-        for atom in self.task.names(state):
-            things = [a for a in atom.args if a not in constants]
-            everything = clause.verb != "keep" and len(atom.args) > 1  # to keep a bowl is not to keep what is in it
-            if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
-                found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
-        return found
-
 
 def _same_sentence(parsed: Parsed, one: Clause, other: Clause) -> bool:
     first, second = sorted((one, other), key=lambda clause: clause.span)
@@ -580,14 +415,3 @@ def bindings_of(goal: ClauseGoal, cube: Cube, reader: GoalReader, memory: Memory
     recent.update(dict.fromkeys(a for a in mentioned if a not in constants))
     recent.update(dict.fromkeys(memory.recent))
     return replace(memory, bound=bound, recent=tuple(recent))
-
-
-def _single(cube: Cube) -> list[Cube]:
-    """The literals of a cube."""
-    found = []
-    for bits, positive in ((cube.positive, True), (cube.negative, False)):
-        while bits:
-            low = bits & -bits
-            found.append(Cube(low, 0) if positive else Cube(0, low))
-            bits ^= low
-    return found

@@ -15,7 +15,8 @@ from itertools import islice
 
 from tmd.goals.clause_goal import Refused, Why, passing_predicates, text_of
 from tmd.goals.grounder import TRUE
-from tmd.goals.text_following import Context, Follower, GoalStep, Role, Target, TextConstraints
+from tmd.goals.text_constraints import TextConstraints
+from tmd.goals.text_following import Context, Follower, GoalStep, Role, Target
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy
 from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Proposer, Situation

@@ -316,37 +316,41 @@ class GoalReader:
         """The goal by the first rows that fit every thing the verb acts on."""
         parted = self._one_and_other(reading)
         shared = self._one_place(reading) if parted is None else None
-        ways: list[Formula] = []
-        used: GoalRow | None = None
-        failure: Refused | None = None
-        meant: dict[str, dict[str, None]] = {}
+        found = self._with_one(parted or shared, rows, reading)
+        if shared is not None and (isinstance(found, Refused) or (found and self._excluded(found[0], reading))):
+            # two pots on a burner: one each
+            found, reading.meant, reading.approach = None, {}, []
+        if found is None:
+            found = self._of_units(rows, reading)
+        return found if isinstance(found, Refused) else self._finished(*found, reading)
+
+    def _with_one(
+        self, noun: str | None, rows: Sequence[GoalRow], reading: ClauseReading
+    ) -> tuple[Formula, GoalRow | None] | Refused | None:
+        """The goal with one thing for all that is said of a noun, whichever it is; ``None`` where none is left open."""
+        candidates = self.referents.targets(noun, reading) if noun is not None else ()
+        things = tuple(n for n in candidates if n not in self.world.profiles.constants) or candidates
+        if noun is None or len(things) < 2:  # a bottle, not the beer in it
+            return None
+        ways: list[tuple[Formula, GoalRow | None]] = []
         approaches: list[list[Formula]] = []
-        for noun, name in self._each_candidate(parted or shared, reading):
+        meant: dict[str, dict[str, None]] = {}
+        failure: Refused | None = None
+        for name in things:
             reading.taken, reading.meant, reading.approach = {noun: name}, {}, []
             found = self._of_units(rows, reading)
             if isinstance(found, Refused):
                 failure = failure or found
                 continue
-            ways.append(found[0])
-            used = found[1]
+            ways.append(found)
             approaches.append(reading.approach)
             for said, names in reading.meant.items():
                 meant.setdefault(said, {}).update(dict.fromkeys(names))
         reading.taken, reading.meant = {}, {said: tuple(names) for said, names in meant.items()}
         reading.approach = [disjunction(parts) for parts in zip(*approaches, strict=False)]
-        if parted is not None and failure is not None and not ways:
+        if not ways:
             return failure
-        if ways and (shared is None or not self._excluded(disjunction(ways), reading)):
-            return self._finished(disjunction(ways), used, reading)
-        reading.meant, reading.approach = {}, []
-        found = self._of_units(rows, reading)
-        return found if isinstance(found, Refused) else self._finished(*found, reading)
-
-    def _each_candidate(self, noun: str | None, reading: ClauseReading) -> list[tuple[str, str]]:
-        """A noun with each thing that it may mean, where those are several: a bottle, not the beer in it."""
-        candidates = self.referents.targets(noun, reading) if noun is not None else ()
-        things = tuple(n for n in candidates if n not in self.world.profiles.constants) or candidates
-        return [(noun, name) for name in things] if noun is not None and len(things) > 1 else []
+        return disjunction(formula for formula, _ in ways), ways[-1][1]
 
     def _one_place(self, reading: ClauseReading) -> str | None:
         """The place where several things shall go: "milk and coffee in a mug" is one mug, whichever it is."""

@@ -149,7 +149,8 @@ class _Folder:
         return at + 1
 
     def _preposition(self, at: int) -> int:
-        manner = self._kind(at + 1) is Kind.ING or [t.text for t in self.tokens[at + 1 : at + 2]] == ["using"]
+        following = self.tokens[at + 1] if at + 1 < len(self.tokens) else None
+        manner = following is not None and (following.kind is Kind.ING or following.text == "using")
         if manner and self.tokens[at].text == "without":
             return self._fold(at, self.boundary(at + 1), Kind.MOD, "manner")
         return self._drop(at) if manner and self.tokens[at].text == "by" else self._keep(at)
