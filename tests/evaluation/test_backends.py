@@ -182,6 +182,24 @@ def test_an_interruption_is_one_line_and_loses_nothing(tmp_path: Path, serial: d
     assert {p: p.stat().st_mtime_ns for p in times} == times
 
 
+def blocked(number: int) -> tuple[int, bool]:
+    """Whether this process is deaf to interruptions, and which it is; it waits, so that another has a turn as well."""
+    time.sleep(0.2)
+    return os.getpid(), signal.SIGINT in signal.pthread_sigmask(signal.SIG_BLOCK, ())
+
+
+@needs_signals
+def test_workers_never_hear_of_interruptions() -> None:
+    """In a new process, where nothing has started yet that workers need."""
+    script = (
+        "from tests.evaluation.test_backends import blocked\n"
+        "from tmd.evaluation.runs.backends import in_processes\n"
+        "print(sorted(deaf for _, deaf in in_processes(blocked, [(n,) for n in range(6)], 2)), blocked(0)[1])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stdout == f"{[True] * 6} False\n", done.stderr
+
+
 @needs_signals
 def test_a_killed_run_goes_on(tmp_path: Path, serial: dict[str, bytes]) -> None:
     out = tmp_path / "out"
