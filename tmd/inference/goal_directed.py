@@ -134,6 +134,7 @@ class _Text:
         self.planner = inference.planner(self.task)
         self.resort: Planner | None = None
         self.far = True
+        self.far_answers: dict[tuple[Bits, tuple[Cube, ...]], Answer] = {}
         self.top = top
         self.refusals: dict[Refusal, None] = {}
 
@@ -279,6 +280,8 @@ class _Text:
             found = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
             if isinstance(answer, GaveUp) and not found:
                 answer = self._far(state, aim)
+                if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
+                    continue
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
             if isinstance(answer, Filled):
@@ -314,10 +317,23 @@ class _Text:
                 yield aim, answer
         yield last, least
 
+    def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
+        """Whether what a plan keeps of earlier clauses costs no more than people would give for it."""
+        if self.far_answers.get((state, tuple(least))) is answer:
+            return True
+        bare = self._far(state, least)
+        return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _KEPT_AT_MOST
+
     def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:
         """The answer of the planner that goes further than the quick one."""
         if not (self.far and self.inference.config.last_resort):
             return GaveUp("the quick planner")
+        asked = state, tuple(aim)
+        if asked not in self.far_answers:
+            self.far_answers[asked] = self._further(state, aim)
+        return self.far_answers[asked]
+
+    def _further(self, state: Bits, aim: Sequence[Cube]) -> Answer:
         if self.resort is None:
             self.resort = self.inference.resort(self.task)
         # what holds already is seldom undone on the way, and is much to look after for a planner: first without it

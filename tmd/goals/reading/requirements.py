@@ -72,7 +72,8 @@ class Requirements:
                     continue
                 if relation == "of" and self._never(referent, relation, names, reading):
                     names = (*names, *self.nouns.substances(target))  # a jar of coffee holds powder, not the drink
-                beside = self.nouns.constants(target, ("object",), reading.state)
+                meant = reading.clause.meant(target)[:1]  # "coffee with it", of the water
+                beside = tuple(n for noun in meant for n in self.nouns.constants(noun, ("object",), reading.state))
                 supplied = any(n in self.world.profiles.constants for n in names) or all(map(self._is_supply, names))
                 if relation in ("with", "and") and beside and supplied and self._is_substance(referent):
                     both = reading.clause.phrase(target).quantifier is Quantifier.ALL  # "with both syrups"
