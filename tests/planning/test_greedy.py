@@ -10,7 +10,7 @@ from hypothesis import given, settings
 
 from tmd.diagnostics import TmdError
 from tmd.pddl.task import Bits, Cube, Task
-from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, InTurn, last_resort, make
+from tmd.planning.backends import IN_PROCESS, IN_PROCESS_FIRST, EachAlone, InTurn, last_resort, make
 from tmd.planning.gap_filler import eliminate
 from tmd.planning.result import Answer, Filled, GaveUp, Unreachable
 from tmd.planning.search.greedy import ENTRY, put, take
@@ -86,6 +86,24 @@ def test_who_is_asked_next_is_asked_only_where_the_one_before_gave_up(any_kitche
     with pytest.raises(TmdError, match="nobody"):
         InTurn((gives_up, Refusing())).fill(task.init, goal)
     assert isinstance(InTurn((gives_up,)).fill(task.init, goal), GaveUp)
+
+
+def test_each_alternative_is_asked_for_alone(any_kitchen: Callable[[str], Task]) -> None:
+    task = any_kitchen("kitchen1")
+    first = make(IN_PROCESS_FIRST, task)
+    answers = {(Cube(1 << atom),): first.fill(task.init, (Cube(1 << atom),)) for atom in range(0, len(task.atoms), 7)}
+    ways = sorted((a.cost, goal) for goal, a in answers.items() if isinstance(a, Filled) and a.cost)
+    never = (Cube(1, 1),)  # true and false at once
+    assert isinstance(first.fill(task.init, never), Unreachable)
+    (cheap, (near,)), (dear, (far,)) = ways[0], ways[-1]
+    assert cheap < dear
+    alone = EachAlone(first)
+    assert alone.fill(task.init, (far, *never, near)) == answers[near,]
+    assert isinstance(alone.fill(task.init, never), Unreachable)
+    assert isinstance(alone.fill(task.init, (*never, *never)), Unreachable)
+    assert isinstance(EachAlone(make(IN_PROCESS_FIRST, task, cap=1)).fill(task.init, (far, *never)), GaveUp)
+    holding = (far, Cube(0, 0))
+    assert alone.fill(task.init, holding) == Filled((), task.init, 0)
 
 
 class Refusing:

@@ -10,6 +10,7 @@ from tmd.goals.grounder import Moments, atoms_of
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory, Referent
 from tmd.goals.reading.referents import EXCEPTING
+from tmd.goals.reading.requirements import LEAVING
 from tmd.goals.sources.table import words_of
 from tmd.language.clause import Clause, Mood, Parsed, Quantifier
 from tmd.language.syntax.pronouns import is_pronoun
@@ -53,6 +54,8 @@ class ConstraintReader:
         left: set[str] = set()
         kept: list[Kept] = []
         for clause in parsed.constraints:
+            if is_of_the_end(clause):
+                continue
             found = self._avoided(clause, state, memory)
             if isinstance(found, Refused):
                 return found
@@ -168,8 +171,9 @@ class ConstraintReader:
         if clause.result and clause.result not in ("alone",):
             goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
             if isinstance(goal, Refused):
-                parts = clause.direct != () and all(noun in words_of("parts") for noun in clause.direct)
-                return [] if parts else goal  # "leave the lid open": that of what will have been spoken of
+                # "leave the lid open", "leave it open": of what will have been spoken of
+                later = bool(clause.direct) and all(n in words_of("parts") or is_pronoun(n) for n in clause.direct)
+                return [] if later else goal
             held = [cube for cube in goal.cubes if cube.holds(state)]
             return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
@@ -187,6 +191,12 @@ class ConstraintReader:
             if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
                 found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
         return found
+
+
+def is_of_the_end(clause: Clause) -> bool:
+    """Whether a prohibition is about how things are left that are known only then: *and don't leave it open*."""
+    left = clause.verb in LEAVING and clause.result and clause.direct
+    return bool(left) and all(map(is_pronoun, clause.direct))
 
 
 def _single(cube: Cube) -> list[Cube]:

@@ -15,9 +15,10 @@ from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.requirements import BE
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table
-from tmd.goals.text_constraints import USE, ConstraintReader, TextConstraints
+from tmd.goals.text_constraints import USE, ConstraintReader, TextConstraints, is_of_the_end
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
 from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.syntax.pronouns import is_pronoun
 from tmd.language.syntax.subordinate import REMINDER
 from tmd.pddl.model import Domain
 from tmd.pddl.task import Bits, Cube
@@ -132,11 +133,19 @@ def in_order(clauses: Sequence[Clause]) -> tuple[GoalStep, ...]:
     return tuple(step for number, clause in ordered for step in _steps(clause, number))
 
 
+def _with_end(steps: Sequence[GoalStep], clause: Clause, number: int) -> tuple[GoalStep, ...]:
+    """The steps, and after those of a clause what must not be left so: *put it in the drawer, don't leave it open*."""
+    place = max((at for at, step in enumerate(steps, 1) if step.number == number), default=len(steps))
+    other = replace(clause, mood=Mood.DO, result=f"not_{clause.result}")
+    return (*steps[:place], GoalStep(other, number, Role.LATER), *steps[place:])
+
+
 def _steps(clause: Clause, number: int) -> Iterator[GoalStep]:
     guards = tuple(c for c in clause.conditions if c.word in GUARDS)
     if clause.mood is Mood.KEEP:
         if clause.result and clause.result != "alone":
-            yield GoalStep(replace(clause, verb="be", mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
+            verb = clause.verb if all(map(is_pronoun, clause.direct)) else BE
+            yield GoalStep(replace(clause, verb=verb, mood=Mood.DO), number, Role.MAIN, guards, clause.otherwise)
         elif guards:
             yield GoalStep(
                 clause, number, Role.MAIN, guards, clause.otherwise
@@ -232,7 +241,11 @@ class Follower:
         if isinstance(constraints, Refused):
             return constraints
         memory = replace(memory, left=constraints.left)
-        return in_order(self._with_instruments(parsed)), Context(memory, constraints.kept), constraints
+        steps = in_order(self._with_instruments(parsed))
+        for clause in filter(is_of_the_end, parsed.constraints):
+            before = [n for n, other in enumerate(parsed.clauses) if other.span.start < clause.span.start]
+            steps = _with_end(steps, clause, before[-1] if before else 0)
+        return steps, Context(memory, constraints.kept), constraints
 
     def _with_instruments(self, parsed: Parsed) -> tuple[Clause, ...]:
         """The clauses, those beside a *use* of the same sentence done with that: *use the pot to boil water*.

@@ -97,7 +97,34 @@ def last_resort(task: Task) -> Planner:
     """
     if find_spec("up_fast_downward") is None:
         return make(IN_PROCESS_FIRST, task)
-    return InTurn((make(IN_PROCESS_FIRST, task, cap=SOON), FirstPlan(task)))
+    return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), FirstPlan(task)))
+
+
+class EachAlone:
+    """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
+
+    What leads to one alternative leads away from another: of all at once, a first plan is about none of them.
+
+    Args:
+        planner: Who is asked.
+    """
+
+    MOST = 8
+    """Maximum number of alternatives that are asked for one by one."""
+
+    def __init__(self, planner: Planner) -> None:
+        self._planner = planner
+
+    def fill(self, state: Bits, goal: Sequence[Cube]) -> Answer:
+        """The cheapest plan, the first one among equals; without any, why there is none, or that it gave up."""
+        if len(goal) > self.MOST or any(cube.holds(state) for cube in goal):
+            return self._planner.fill(state, goal)
+        answers = [self._planner.fill(state, (cube,)) for cube in goal]
+        plans = [answer for answer in answers if isinstance(answer, Filled)]
+        if plans:
+            return min(plans, key=lambda answer: answer.cost)
+        gave_up = (answer for answer in answers if isinstance(answer, GaveUp))
+        return next(gave_up, None) or self._planner.fill(state, goal)  # the reason of all together
 
 
 class InTurn:

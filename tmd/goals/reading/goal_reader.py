@@ -432,6 +432,10 @@ class GoalReader:
             return None
         others = [(r, t) for r, t in unit.relations if r != "of"]
         clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.state, reading.moments)
+        few = measure.quantifier is Quantifier.NUMBER and 0 < len(held) < (measure.number or 1)
+        if few and all(map(self.nouns.is_supply, held)):
+            return None  # two packets, where there is one
         if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
             counted = replace(
                 clause.phrase(inner), quantifier=measure.quantifier, number=measure.number, plural=measure.plural
@@ -738,7 +742,8 @@ class GoalReader:
     ) -> Refused:
         short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
         if short is not None:
-            message = f"there are only {len(short.names)} of '{short.noun.replace('_', ' ')}' here, not {short.number}"
+            called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
+            message = f"only {called} called '{short.noun.replace('_', ' ')}', not {short.number}"
             return Refused(Why.NO_SUCH_THING, message)
         said = next((names for names in relations.values() if names), ("",))
         binding = {variable: referent.names[0] for variable, referent in pairs}

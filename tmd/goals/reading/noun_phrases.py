@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
@@ -199,6 +199,14 @@ class Nouns:
         names = tuple(m.name for m in self.world.mentions.of(noun, state) if self.guess or m.how != WORDNET)
         return self.related_now(Referent(noun, names), "of", tuple(contents), state, moments)
 
+    def too_few(self, phrase: NounPhrase, substances: Collection[str], state: Bits) -> tuple[str, ...]:
+        """The things called so that hold ``substances``, where more were counted: *two eggs*, and there is one."""
+        called = [
+            m.name for m in self.world.mentions.of(phrase.name, state) if m.how == NAME and self.is_supply(m.name)
+        ]
+        holding = tuple(n for n in called if not set(substances).isdisjoint(self.contents(n, state)))
+        return holding if phrase.quantifier is Quantifier.NUMBER and len(holding) < (phrase.number or 1) else ()
+
     def _siblings(self, noun: str) -> tuple[str, ...]:
         """For a guess: where there is no kettle, but the domain knows what one is, other vessels."""
         declared = {t.name: t.parent for t in self.world.task.problem.domain.types}
@@ -273,6 +281,13 @@ class Nouns:
             if pair and atom.predicate in changing and self.grounder.holds(atom, state):
                 found[atom.args[1]] = None
         return tuple(found)
+
+    def is_supply(self, thing: str) -> bool:
+        """Whether a thing has what it contains from the start, and never anything else: a bottle of syrup."""
+        constants = self.world.profiles.constants
+        facts = [a for a in self.facts_about(thing) if len(a.args) == 2 and a.args[0] == thing]
+        inside = {a.args[1] for a in facts if a.args[1] in constants}
+        return len(inside) == 1 and set(self.contents(thing, self.world.task.init)) == inside
 
     def attribute(self, word: str, name: str, moments: Moments) -> Formula | None:
         """That ``name`` is as an adjective says; ``None`` for an adjective that nothing here explains."""

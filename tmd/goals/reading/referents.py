@@ -305,11 +305,15 @@ class Referents:
         if inside and phrase.definite:
             things = tuple(n for n in things if n in inside) or things  # "until the water boils": the water in the pot
         wanted_constants = self._constants(noun, phrase, types, reading)
+        for target in (target for relation, target in relations if relation == "of"):
+            inside = self.nouns.constants(target, types, reading.state)  # "a bottle of raspberry syrup": of all bottles
+            wanted_constants = tuple(c for c in wanted_constants if c in inside) or wanted_constants
         objects = tuple(n for n in things if n not in self.world.profiles.constants)
         group = self.nouns.is_group(noun) and not (place and noun in self.lexicon.nouns)
         if not objects and wanted_constants:
-            mode, number = mode_of(phrase, group=False, thing=False)
-            return Referent(noun, wanted_constants, mode, number, phrase.definite)
+            few = self.nouns.too_few(phrase, wanted_constants, reading.state)
+            mode, number = mode_of(phrase, group=False, thing=bool(few))
+            return Referent(noun, few or wanted_constants, mode, number, phrase.definite)
         mode, number = mode_of(phrase, group=group, thing=True, place=place)
         among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and things == likely
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)

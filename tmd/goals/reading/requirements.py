@@ -74,7 +74,9 @@ class Requirements:
                     names = (*names, *self.nouns.substances(target))  # a jar of coffee holds powder, not the drink
                 meant = reading.clause.meant(target)[:1]  # "coffee with it", of the water
                 beside = tuple(n for noun in meant for n in self.nouns.constants(noun, ("object",), reading.state))
-                supplied = any(n in self.world.profiles.constants for n in names) or all(map(self._is_supply, names))
+                supplied = any(n in self.world.profiles.constants for n in names) or all(
+                    map(self.nouns.is_supply, names)
+                )
                 if relation in ("with", "and") and beside and supplied and self._is_substance(referent):
                     both = reading.clause.phrase(target).quantifier is Quantifier.ALL  # "with both syrups"
                     found += [self._beside(row, variable, part) for part in (zip(beside) if both else (beside,))]
@@ -197,13 +199,6 @@ class Requirements:
     def _is_substance(self, referent: Referent) -> bool:
         return bool(referent.names) and all(name in self.world.profiles.constants for name in referent.names)
 
-    def _is_supply(self, thing: str) -> bool:
-        """Whether a thing has what it contains from the start, and never anything else: a bottle of syrup."""
-        constants = self.world.profiles.constants
-        facts = [a for a in self.nouns.facts_about(thing) if len(a.args) == 2 and a.args[0] == thing]
-        inside = {a.args[1] for a in facts if a.args[1] in constants}
-        return len(inside) == 1 and set(self.nouns.contents(thing, self.world.task.init)) == inside
-
     def _beside(self, row: GoalRow, variable: str, names: Sequence[str]) -> Requirement:
         """*Coffee with milk*: what the goal says of the one shall hold of the other as well, of the same thing."""
 
@@ -291,6 +286,8 @@ class Requirements:
 
 BE = "be"
 """The verb of a state."""
+LEAVING = frozenset({"leave", "keep"})
+"""The verbs of a state that something is in by then: *leave it open* is about what is open."""
 
 
 class States:
@@ -328,16 +325,31 @@ class States:
             return self._substance_state(noun, constants, relations, reading)
         row = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
         failure: Refused | None = None
+        found: list[tuple[Formula, Referent]] = []
         for referent in self.referents.referents(noun, row, row.slots[0], excepted, reading):
             if not referent.names:
                 failure = failure or self.referents.missing(referent, reading)
                 continue
-            found = self._thing_state(referent, relations, reading)
-            if not isinstance(found, Refused):
-                reading.meant[referent.noun] = referent.names
-                return found
-            failure = failure or found
+            said = self._thing_state(referent, relations, reading)
+            if isinstance(said, Refused):
+                failure = failure or said
+            else:
+                found.append((said, referent))
+        if found:
+            formula, referent = self._likeliest(found, reading) if is_pronoun(noun) else found[0]
+            reading.meant[referent.noun] = referent.names
+            return formula
         return failure or self.referents.missing(Referent(noun or "it", ()), reading)
+
+    def _likeliest(self, found: Sequence[tuple[Formula, Referent]], reading: ClauseReading) -> tuple[Formula, Referent]:
+        """Of what a pronoun may mean what can be so and otherwise; and where it is to be left so, what is by now."""
+        fitting = [each for each in found if each[0] not in (TRUE, FALSE)] or found
+        clause = reading.clause
+        if clause.verb in LEAVING:
+            so = not (clause.result or "").startswith("not_")
+            by_now = [each for each in fitting if self.grounder.truth(each[0], reading.state) == so]
+            fitting = by_now or fitting
+        return fitting[0]
 
     def _substance(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         """The constants that a noun names where it names no object."""
