@@ -611,6 +611,26 @@ def test_how_something_is_left_is_about_what_can_be_so(where: str, text: str, fa
     assert "(opened milk1)" not in facts or "milk" not in text
 
 
+def test_what_boils_by_then_is_not_boiled_again() -> None:
+    grounded = said("kitchen", "kitchen2", "Fill the pot with water and boil it. Break the egg into it once it boils.")
+    assert "(contains pot1 raw_egg)" in goals(grounded)[-1] and "(hot pot1)" in end(grounded)
+
+
+def test_a_jar_of_coffee_is_one_with_what_coffee_is_made_of() -> None:
+    """Though this one could be filled with the drink."""
+    assert "(at coffee_jar1 fridge1 in)" in end(said("kitchen", "kitchen2", "Put the jar of coffee in the fridge."))
+
+
+def test_what_is_to_stay_so_stays_so_whatever_is_asked_next() -> None:
+    refused = said("kitchen", "kitchen5", "Leave the microwave door open and start the microwave like that.")
+    assert not refused.plans and refused.refused and refused.refused[1].why is Why.IMPOSSIBLE
+
+
+def test_nothing_of_what_is_not_there_is_no_matter() -> None:
+    facts = end(said("kitchen", "kitchen4", "Serve vanilla ice cream in the bowl, no raspberry."))
+    assert "(contains bowl1 vanilla_ice_cream)" in facts
+
+
 def test_what_is_emptied_into_a_vessel_is_in_it() -> None:
     facts = end(said("kitchen", "kitchen4", "Empty the coffee pot into the mug."))
     assert {"(contains mug1 coffee)", "(hot mug1)"} <= facts and "(filled coffee_pot1)" not in facts

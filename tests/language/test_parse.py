@@ -652,12 +652,46 @@ def test_what_is_forbidden_is_no_instruction(text: str, forbidden: str) -> None:
             ["(pour, [oil, jug], in: oil -> jug)"],
             "(pour, [oil, bottle], in: oil -> bottle)",
         ),
+        (
+            "Don't pour any oil in the jug, just water.",
+            ["(pour, [jug, water], in: water -> jug)"],
+            "(pour, [oil, jug], in: oil -> jug)",
+        ),
+        (
+            "Never open the shed, only the gate, and take the saw.",
+            ["(open, [gate])", "(take, [saw])"],
+            "(open, [shed])",
+        ),
     ],
 )
 def test_what_is_used_or_meant_and_what_is_not(text: str, done: list[str], forbidden: str) -> None:
     parsed = parse(text)
     assert [print_clause(c) for c in parsed.clauses] == done
     assert [print_clause(c) for c in parsed.constraints] == [forbidden]
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("I'm freezing, a hot bath would be lovely.", ["(have, [bath])"]),
+        ("A hot bath would be lovely, and close the gate.", ["(have, [bath])", "(close, [gate])"]),
+        ("I'm freezing, I would like a hot bath.", ["(have, [bath])"]),
+        ("oil in the jug, then shake it", ["(have, [oil, jug], in: oil -> jug)", "(shake, [it])"]),
+        ("the oil in the jug then shake it", ["(shake, [it])"]),
+        (
+            "Serve tea with neither milk nor sugar.",
+            ["(serve, [tea, milk, sugar], without: tea -> milk, without: tea -> sugar)"],
+        ),
+    ],
+)
+def test_what_else_is_said_around_a_wish_takes_nothing_away(text: str, wanted: list[str]) -> None:
+    assert clauses(text) == wanted
+
+
+def test_a_pronoun_said_twice_in_a_sentence_is_one_thing() -> None:
+    last = parse("Fill the jug and heat it. Break the stone into it once it boils.").clauses[-1]
+    (condition,) = last.conditions
+    assert last.meant("it")[0] == condition.clauses[0].meant("it")[0] == "jug"
 
 
 @pytest.mark.parametrize("text", ["You needn't oil the saw.", "You don't have to oil the saw."])

@@ -154,7 +154,8 @@ def _steps(clause: Clause, number: int) -> Iterator[GoalStep]:
     for condition in clause.conditions:
         if condition.word in EARLIER and not condition.negated:
             for inner in condition.clauses:
-                awaited = inner.verb == "be"
+                # "once it boils" is about what boils by then, if that is what is meant
+                awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
                 yield GoalStep(inner, number, Role.EARLIER, guards, clause.otherwise, optional=True, awaited=awaited)
     yield GoalStep(clause, number, Role.MAIN, guards, clause.otherwise, optional=clause.heading)
     if clause.duration and not clause.verb.startswith("wait"):
@@ -316,7 +317,8 @@ class Follower:
         memory = bindings_of(target.goal, cube, self.reader, context.memory)
         task = self.task
         number = target.step.number
-        fresh = keep(cube, number, task)
+        hard = {k.ways[0] for k in context.kept if k.hard}
+        fresh = tuple(k for k in keep(cube, number, task) if k.ways[0] not in hard)
         literals = {k.ways[0] for k in fresh}
         still = tuple(
             k for k in context.kept if (any(way.holds(end) for way in k.ways) or k.hard) and k.ways[0] not in literals

@@ -594,6 +594,8 @@ class GoalReader:
             return None
         for relation, target in leftover:
             named = not self.referents.points_back(target) and target not in reading.clause.quantities
+            if reading.clause.phrase(target).quantifier is Quantifier.NONE:
+                continue  # "no raspberry", where there is none
             if named and relation in _NAMING and not self.referents.targets(target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None

@@ -257,8 +257,9 @@ class Nouns:
 
     def substances(self, noun: str) -> tuple[str, ...]:
         """All constants that a noun may mean by its name or by the words of the domain."""
-        ranked = self.world.mentions.ranked(noun)
-        return tuple(m.name for m in ranked if m.name in self.world.profiles.constants and m.how in (NAME, ALIAS))
+        called = [m.name for m in self.world.mentions.ranked(noun) if m.how in (NAME, ALIAS)]
+        names = (*called, *self.world.mentions.lexicon.nouns.get(noun, ()))
+        return tuple(name for name in dict.fromkeys(names) if name in self.world.profiles.constants)
 
     def facts_about(self, name: str) -> tuple[GroundAtom, ...]:
         """The atoms that may hold in which ``name`` stands."""

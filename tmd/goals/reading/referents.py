@@ -88,6 +88,10 @@ class Referents:
         for unit in units if len(none) and none != direct else ():
             unit.relations += [("without", name) for name in none if name not in direct]
         for unit in units:
+            # "in the bowl, no raspberry": joined to a place, and no place
+            places = {r for r, t in unit.relations if clause.phrase(t).quantifier is not Quantifier.NONE}
+            joined = (clause.phrase(t).quantifier is Quantifier.NONE and r in places for r, t in unit.relations)
+            unit.relations = [("without" if no else r, t) for (r, t), no in zip(unit.relations, joined, strict=True)]
             measured = next((t for r, t in unit.relations if r == "of"), None)
             if unit.direct in words_of("measures") and measured is not None:
                 unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.relations_of(measured, clause)

@@ -70,7 +70,7 @@ class Requirements:
                     continue
                 if not names or set(names) <= set(referent.names):
                     continue
-                if relation == "of" and self._never(referent, relation, names, reading):
+                if relation == "of" and self._of_another_kind(referent, names, target, reading):
                     names = (*names, *self.nouns.substances(target))  # a jar of coffee holds powder, not the drink
                 meant = reading.clause.meant(target)[:1]  # "coffee with it", of the water
                 beside = tuple(n for noun in meant for n in self.nouns.constants(noun, ("object",), reading.state))
@@ -107,6 +107,16 @@ class Requirements:
             if referent.noun in reading.wanted:
                 found.append(self._state_wanted(variable, reading.wanted[referent.noun], reading))
         return found
+
+    def _of_another_kind(self, referent: Referent, names: Sequence[str], noun: str, reading: ClauseReading) -> bool:
+        """Whether what is meant is *of* what a noun may mean as well, and not of ``names``, be it now or ever."""
+        if self._never(referent, "of", names, reading):
+            return True
+
+        def held(substances: Sequence[str]) -> bool:
+            return bool(self.nouns.related_now(referent, "of", tuple(substances), reading.state, reading.moments))
+
+        return held(self.nouns.substances(noun)) and not held(names)
 
     def _never(self, referent: Referent, relation: str, names: Sequence[str], reading: ClauseReading) -> bool:
         """Whether nothing that is meant may ever stand in a relation to one of ``names``."""

@@ -84,9 +84,30 @@ def _with_neither(sentence: list[Token]) -> list[Token]:
     """Read "with neither the stove nor the microwave" as "without the stove or the microwave"."""
     words = [t.text for t in sentence]
     for at in range(len(words) - 2):
-        if words[at : at + 2] == ["with", "neither"] and words[at + 2] in _DETERMINERS and "nor" in words[at:]:
+        if words[at : at + 2] == ["with", "neither"] and "nor" in words[at + 3 :]:
             rest = [replace(t, text="or") if t.text == "nor" else t for t in sentence[at + 2 :]]
             return [*sentence[:at], replace(sentence[at], text="without"), *rest]
+    return sentence
+
+
+def _only(sentence: list[Token]) -> list[Token]:
+    """Read "don't put sugar in the coffee, just milk" as "put milk in the coffee" and "do not put sugar in it"."""
+    words = [t.text for t in sentence]
+    for at in range(3, len(words) - 1):
+        if words[at] not in ("just", "only") or sentence[at - 1].kind is not Kind.COMMA:
+            continue
+        end = _phrase(sentence, at + 1)
+        verb = next((i for i in range(at) if _is_forbidden(words[:i]) and builtin().verb(words[i])), None)
+        if verb is None or end is None or (end < len(words) and sentence[end].kind not in BREAKS):
+            continue
+        own = _phrase(sentence, verb + 1)
+        if own is None or own > at - 1:
+            continue
+        begin = verb - (2 if words[verb - 2 : verb] == ["do", "not"] else 1)
+        rest, stop = _apart(sentence[end:])
+        place = sentence[own : at - 1]
+        said = [*sentence[:begin], sentence[verb], *sentence[at + 1 : end], *place, *rest]
+        return [*said, *_negated([sentence[verb], *sentence[verb + 1 : own], *place], stop), *stop]
     return sentence
 
 
@@ -182,5 +203,6 @@ CONTRASTS = (
     Idiom(_used_for, frozenset({"use"})),
     Idiom(_contrasted, frozenset({"not"})),
     Idiom(_with_neither, frozenset({"neither"})),
+    Idiom(_only, frozenset({"just", "only"})),
 )
 """What is done with each sentence, in this order."""

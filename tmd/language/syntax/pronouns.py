@@ -146,12 +146,14 @@ def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -
     many = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.plural}
     many |= {p.name for p in draft.mentions() if p.plural}
     names = tuple(dict.fromkeys([*ahead, *recent, *behind]))
+    # "break the egg into it once it boils": one and the same
+    same = {p.name: tuple(dict.fromkeys([*recent, *names])) for p in draft.mentions() if p.pronoun}
     clauses = tuple(
         replace(
             clause,
             antecedents={
                 **clause.antecedents,
-                **{n: _agreeing(n, names, many) for n in clause.objects if is_pronoun(n) and names},
+                **{n: _agreeing(n, same.get(n, names), many) for n in clause.objects if is_pronoun(n) and names},
             },
             together={**clause.together, **{n: 1 for n in clause.objects if is_pronoun(n)}},
         )

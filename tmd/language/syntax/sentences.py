@@ -240,7 +240,10 @@ def _of_oneself(tokens: list[Token]) -> list[Token]:
     said.inner = [
         t for t in said.inner if t.text not in _WE_ARE | {"go", "gone", "done", "finished"}
     ]  # "where did the mug go": no "mug go"
-    return [*tokens[:begin], said, *tokens[end:]]
+    rest = tokens[end:]
+    if rest and rest[0].kind is Kind.COMMA and len(rest) > 1 and not begin:
+        rest = [replace(rest[0], kind=Kind.STOP, text="."), *rest[1:]]  # what is asked for is a sentence of its own
+    return [*tokens[:begin], said, *rest]
 
 
 def _speaks_of_oneself(tokens: list[Token]) -> bool:
@@ -360,11 +363,32 @@ def _lovely(tokens: list[Token]) -> list[Token]:
     """Read "a cup of tea would be lovely" as "I would like a cup of tea"."""
     words = [t.text for t in tokens]
     at = next((i for i in range(1, len(words) - 2) if words[i : i + 2] == ["would", "be"]), 0)
-    if not at or words[at + 2] not in _WELCOME or words[0] in ("it", "that", "what", "this"):
+    stops = [i for i, token in enumerate(tokens) if token.kind in BREAKS or token.kind is Kind.COMMA]
+    begin = max((i + 1 for i in stops if i < at and _speaks_of_oneself(tokens)), default=0)  # "I'm starving, some …"
+    if not at or words[at + 2] not in _WELCOME or words[begin] in ("it", "that", "what", "this"):
         return tokens
-    lead = [replace(tokens[0], text=word, kind=Kind.WORD, span=tokens[at].span) for word in ("i", "would", "like")]
-    end = next((i for i in range(at + 2, len(tokens)) if tokens[i].kind is Kind.STOP), len(tokens))
-    return [*lead, *tokens[:at], *tokens[end:]]
+    said = tokens[begin]
+    lead = [replace(said, text=word, kind=Kind.WORD, span=tokens[at].span) for word in ("i", "would", "like")]
+    end = next((i for i in stops if i > at + 2), len(tokens))
+    return [*tokens[:begin], *lead, *tokens[begin:at], *tokens[end:]]
+
+
+def _verbless_first(tokens: list[Token]) -> list[Token]:
+    """Read "milk in the cup, then heat it" as two sentences, the first of which says where the milk shall be."""
+    words = [t.text for t in tokens]
+    at = next((i for i in range(2, len(words) - 1) if words[i] == "then" and _is_plainly_verb(words[i + 1])), 0)
+    end = at - (at > 0 and (tokens[at - 1].kind is Kind.COMMA or words[at - 1] == "and"))
+    ahead = words[:end]
+    placed = any(word in section("prepositions") for word in ahead[1:-1])
+    other = section("modals") | section("be") | SPEAKERS | {"if", "when", "once", "after", "please", "no", "not", "let"}
+    if not placed or any(word in other or _is_plainly_verb(word) for word in ahead):
+        return tokens
+    return [*tokens[:end], replace(tokens[at], kind=Kind.STOP, text="."), *tokens[at + 1 :]]
+
+
+def _is_plainly_verb(word: str) -> bool:
+    verb = builtin().verb(word)
+    return verb is not None and verb[2] > 1
 
 
 def _given(tokens: list[Token]) -> list[Token]:
@@ -544,6 +568,7 @@ _SENTENCES = (
     Idiom(_coordinated_states, frozenset({"be"})),
     Idiom(_unwanted, frozenset({"want"})),
     Idiom(_lovely, frozenset({"would"})),
+    Idiom(_verbless_first, frozenset({"then"})),
     Idiom(_given, frozenset({"give"})),
     Idiom(_not_about, frozenset({"leave"})),
     Idiom(_of_oneself),
