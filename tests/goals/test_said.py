@@ -626,6 +626,35 @@ def test_what_is_to_stay_so_stays_so_whatever_is_asked_next() -> None:
     assert not refused.plans and refused.refused and refused.refused[1].why is Why.IMPOSSIBLE
 
 
+def test_everything_empty_is_what_could_be_full_as_others_of_its_kind_are() -> None:
+    text = "Put everything on the snack table that is empty in the trash."
+    assert goals(said("living_room", "room4", text)) == ["(at beer_bottle1 bin1 in)"]
+
+
+def test_what_holds_a_substance_is_where_that_is_said_to_be() -> None:
+    text = "If the beer on the shelf is full, put it on the snack table."
+    assert "(at beer_bottle3 snack_table1 on)" in end(said("living_room", "room4", text))
+    text = "If there is milk in the fridge, put it on the table."
+    assert "(at milk1 table1 on)" in end(said("kitchen", "kitchen1", text))
+
+
+def test_where_another_thing_is_may_be_said_in_many_words() -> None:
+    text = "Put the pen in the same drawer as the key and close it."
+    facts = end(said("03_drawer", "study2", text))
+    assert "(at pen1 cabinet1_top_drawer in)" in facts and "(opened cabinet1_top_drawer)" not in facts
+
+
+def test_what_is_poured_somewhere_for_nothing_is_not_poured() -> None:
+    facts = end(said("living_room", "room2", "Put the peanuts in one bowl and the chips in the other."))
+    bowls = [[f"(contains {bowl} {food})" in facts for food in ("peanuts", "chips")] for bowl in ("bowl1", "bowl2")]
+    assert sorted(bowls) == [[False, True], [True, False]]
+
+
+def test_one_thing_is_swapped_for_another() -> None:
+    facts = end(said("living_room", "room3", "Swap the game for the movie."))
+    assert {"(at dvd1 console1 in)", "(at game_disc1 drawer1 in)"} <= facts
+
+
 def test_nothing_of_what_is_not_there_is_no_matter() -> None:
     facts = end(said("kitchen", "kitchen4", "Serve vanilla ice cream in the bowl, no raspberry."))
     assert "(contains bowl1 vanilla_ice_cream)" in facts

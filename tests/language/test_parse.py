@@ -678,6 +678,11 @@ def test_what_is_used_or_meant_and_what_is_not(text: str, done: list[str], forbi
         ("I'm freezing, I would like a hot bath.", ["(have, [bath])"]),
         ("oil in the jug, then shake it", ["(have, [oil, jug], in: oil -> jug)", "(shake, [it])"]),
         ("the oil in the jug then shake it", ["(shake, [it])"]),
+        ("If the jug is full, don't bother. Close the gate.", ["(close, [gate])"]),
+        ("Close the gate and don't bother with the shed.", ["(close, [gate])"]),
+        ("Close the gate, I'll lock the shed myself.", ["(close, [gate])"]),
+        ("Put the saw in the same shed as the axe.", ["(put, [saw, axe], where: saw -> axe)"]),
+        ("trow the sheers in the bin n close it frist", ["(throw, [sheer, bin], in: sheer -> bin)", "(close, [it])"]),
         (
             "Serve tea with neither milk nor sugar.",
             ["(serve, [tea, milk, sugar], without: tea -> milk, without: tea -> sugar)"],

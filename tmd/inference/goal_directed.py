@@ -412,7 +412,7 @@ class _Text:
         if not isinstance(answer, Filled):
             return None
         whole = tidy((*whole, *answer.plan), self.inference.world, state)
-        kept = list(untouched(whole, self.task, state, reached, self._lasting))
+        kept = list(untouched(whole, self.task, state, reached, self._lasting, self._contents))
         first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
         rest = self._with_put_back(way, (*first, *kept), target)[len(first) :]
         return self._choice(target.step, way, candidate.source, tuple(first), rest, candidate.raw, aim)
@@ -422,6 +422,13 @@ class _Text:
         """The atoms that do not pass by themselves."""
         passing = passing_predicates(self.task.problem.domain)
         return sum(1 << bit for bit, atom in enumerate(self.task.atoms) if atom.predicate not in passing)
+
+    @cached_property
+    def _contents(self) -> Bits:
+        """The atoms that say what is in what: though that may be cooked by itself, it does not leave."""
+        constants = set(self.inference.world.profiles.constants)
+        inside = (len(a.args) == 2 and a.args[0] not in constants and a.args[1] in constants for a in self.task.atoms)
+        return sum(1 << bit for bit, found in enumerate(inside) if found)
 
     def _trace(self, state: Bits, instructions: Sequence[Instruction]) -> Iterator[Bits]:
         yield state

@@ -231,6 +231,7 @@ def untouched(
     state: Bits,
     reached: Callable[[Sequence[Instruction]], bool],
     counted: Bits,
+    contents: Bits = 0,
 ) -> tuple[Instruction, ...]:
     """The plan without the objects that it handles for nothing, and without what it changes for nothing.
 
@@ -240,6 +241,8 @@ def untouched(
         state: Where it starts.
         reached: Whether a plan does what it is for.
         counted: The atoms that count as changes; what is left out must not leave more of them changed.
+        contents: Those that count besides, if they become true, where a single instruction is left out: what is poured
+            somewhere for nothing; what was poured away was in the way.
     """
     kept = tuple(plan)
     for name in dict.fromkeys(a for i in plan for a in i.args):
@@ -249,12 +252,15 @@ def untouched(
         fewer = ((end ^ state) & counted).bit_count() <= ((before ^ state) & counted).bit_count()
         if len(rest) < len(kept) and fewer and reached(shorter):
             kept = shorter
+
+    def changes(end: Bits) -> int:
+        return ((end ^ state) & counted | end & ~state & contents).bit_count()
+
     at = len(kept)
     while at:
         at -= 1
         shorter, end = _executable((*kept[:at], *kept[at + 1 :]), task, state)
-        before = _executable(kept, task, state)[1]
-        if ((end ^ state) & counted).bit_count() < ((before ^ state) & counted).bit_count() and reached(shorter):
+        if changes(end) < changes(_executable(kept, task, state)[1]) and reached(shorter):
             kept, at = shorter, min(at, len(shorter))
     return kept
 

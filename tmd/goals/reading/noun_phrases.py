@@ -415,9 +415,11 @@ class Nouns:
                 continue
             names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, state))
             if phrase.name in EVERYTHING:  # "everything that is empty": not the pillow, which nothing can fill
-                states = (self.attribute(word, name, moments) for name in self.world.profiles.objects)
-                if any(formula not in (None, TRUE, FALSE) for formula in states):
-                    names = tuple(n for n in names if said[n] != TRUE)
+                kinds = self.world.mentions.kinds
+                states = {name: self.attribute(word, name, moments) for name in self.world.profiles.objects}
+                other = {kinds.get(name, name) for name, f in states.items() if f not in (None, TRUE, FALSE)}
+                if other:  # but the bottle, of which another one is full
+                    names = tuple(n for n in names if said[n] != TRUE or kinds.get(n, n) in other)
         return replace(referent, names=names), unknown
 
     def _modified(self, name: str) -> bool:

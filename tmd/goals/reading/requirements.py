@@ -395,27 +395,36 @@ class States:
             )
         return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
 
+    def _there(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
+        """That what holds a substance is where that is said to be: *the beer on the shelf*."""
+        return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)
+
     def _substance_state(
         self, noun: str, constants: Sequence[str], relations: Sequence[tuple[str, str]], reading: ClauseReading
     ) -> Formula | Refused:
         """A substance is where it is contained, and as that is."""
         result = reading.clause.result
         attributes = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
-        targets = [self.referents.targets(target, reading) for relation, target in relations]
+        targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
         bound = reading.memory.bound.get(noun)
         ways = []
         for constant in constants:
             for atom in self.nouns.facts_about(constant):
                 things = [a for a in atom.args if a not in self.world.profiles.constants]
-                if len(things) != 1 or atom not in self.world.task.index:
+                changes = atom in self.world.task.index
+                if len(things) != 1 or not (changes or (targets and atom in self.world.task.static)):
                     continue
-                if any(things[0] not in names for names in targets):
+                placed = [
+                    TRUE if things[0] in names else self._there(things[0], r, names, reading) for r, names in targets
+                ]
+                if FALSE in placed:
                     continue
                 if not targets and bound is not None and bound.containers and things[0] not in bound.containers:
                     continue
                 said = [self.nouns.attribute(word, things[0], reading.moments) for word in attributes]
                 if all(f is not None for f in said):
-                    ways.append(conjunction((Atom(atom.predicate, atom.args), *(f for f in said if f is not None))))
+                    held = Atom(atom.predicate, atom.args) if changes else TRUE
+                    ways.append(conjunction((held, *placed, *(f for f in said if f is not None))))
         if not ways:
             return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says nothing that could be checked here")
         reading.meant[noun] = tuple(constants)

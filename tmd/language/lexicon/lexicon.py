@@ -20,6 +20,8 @@ _TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
 _NOUN_TYPO_RATIO = 0.8
 """The same where a noun of the domain may be meant: one wrong letter of five."""
+_DOER_TYPO_RATIO = 0.9
+"""The same where the word could be made of a known one with -er: one letter more or less, of six."""
 
 
 @cache
@@ -172,9 +174,13 @@ class Lexicon:
             or self.verb(word) is not None
             or word in _english()
             or positive(word) in _closed_words()
-            or (word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs)
+            or self._is_doer(word)
             or singular(word) in _english()
         )
+
+    def _is_doer(self, word: str) -> bool:
+        """Tell whether a word is made of a known one with -er."""
+        return word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs
 
     def correct(self, word: str) -> str | None:
         """Return the known word a typo stands for, or ``None``.
@@ -182,8 +188,13 @@ class Lexicon:
         Only words that are in no list are corrected, and only to a word with the same first letter that is
         alike enough (:data:`_TYPO_RATIO`).
         """
-        if len(word) < _TYPO_LENGTH or self.knows(word):
+        if len(word) < _TYPO_LENGTH:
             return None
+        if self.knows(word):
+            # "wraper" is rather a wrapper, which is a noun of its own, than who wraps
+            doer = self._is_doer(word) and not (self.is_noun(word) or word in _english())
+            nouns = sorted(self._own_nouns.intersection(self._by_initial.get(word[0], ()))) if doer else ()
+            return next(iter(difflib.get_close_matches(word, nouns, 1, _DOER_TYPO_RATIO)), None)
         swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
         if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
             return swapped[0]

@@ -18,8 +18,12 @@ from tmd.language.syntax.idioms import (
     named_where_taken_up,
     put_plainly,
 )
-from tmd.language.syntax.subordinate import STATEMENT
+from tmd.language.syntax.subordinate import STATEMENT, UNNEEDED
 from tmd.language.syntax.tokens import Kind, Token, fold
+
+_ANOTHER_TIME = frozenset({"later", "tomorrow", "afterwards", "myself", "ourselves"})
+"""What speakers say they will do then, or by themselves, is not asked for."""
+_DO_NOT_BOTHER = (["don't", "bother"], ["dont", "bother"], ["do", "not", "bother"])
 
 _ASKING = frozenset({"can", "could", "may", "should", "shall"})
 """What a question begins with that asks for something; *will it be hot* does not."""
@@ -253,7 +257,9 @@ def _speaks_of_oneself(tokens: list[Token]) -> bool:
     unable = len(words) > 1 and words[0] in SPEAKERS and words[1] in _UNABLE
     indifferent = len(words) > 2 and words[0] in SPEAKERS and words[1:3] in (["don't", "care"], ["don't", "mind"])
     getting = words[:2] in (["it's", "getting"], ["its", "getting"]) or words[:3] == ["it", "is", "getting"]
-    return being or unable or indifferent or getting  # "it's getting cold in here"
+    end = next((i for i, t in enumerate(tokens) if t.kind in BREAKS), len(tokens))
+    own = words[:1] in (["i'll"], ["we'll"]) and any(t.text in _ANOTHER_TIME for t in tokens[:end])
+    return being or unable or indifferent or getting or own  # "it's getting cold in here"
 
 
 def _absent(tokens: list[Token]) -> list[Token]:
@@ -384,6 +390,33 @@ def _verbless_first(tokens: list[Token]) -> list[Token]:
     if not placed or any(word in other or _is_plainly_verb(word) for word in ahead):
         return tokens
     return [*tokens[:end], replace(tokens[at], kind=Kind.STOP, text="."), *tokens[at + 1 :]]
+
+
+def _in_the_same(tokens: list[Token]) -> list[Token]:
+    """Read "put it on the same shelf as the cup" as "put it where the cup is"."""
+    words = [t.text for t in tokens]
+    at = next((i for i in range(1, len(words) - 3) if words[i : i + 2] == ["the", "same"]), 0)
+    joint = next((i for i in range(at + 3, len(words) - 1) if words[i] == "as"), 0) if at else 0
+    place = words[at - 1] in section("prepositions") and joint <= at + 4
+    if not (joint and place) or any(t.kind in BREAKS for t in tokens[at:joint]):
+        return tokens
+    end = next((i for i in range(joint + 1, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS), len(words))
+    where, are = replace(tokens[at - 1], text="where"), replace(tokens[joint], text="is")
+    return [*tokens[: at - 1], where, *tokens[joint + 1 : end], are, *tokens[end:]]
+
+
+def _not_bothered(tokens: list[Token]) -> list[Token]:
+    """Fold "if it is full, don't bother", which asks for nothing."""
+    words = [t.text for t in tokens]
+    starts = (i for i in range(len(words)) if words[i : i + 2] in _DO_NOT_BOTHER or words[i : i + 3] in _DO_NOT_BOTHER)
+    at = next((i for i in starts if not i or tokens[i - 1].kind in BREAKS or words[i - 1] in JOINTS | {"then"}), None)
+    if at is None:
+        return tokens
+    begin = 0 if words[0] in ("if", "when", "unless", "in", "should") else at
+    end = next((i for i in range(at, len(words)) if tokens[i].kind is Kind.STOP), len(words))
+    said = fold(tokens[begin:end], Kind.SKIP, " ")
+    said.note = UNNEEDED
+    return [*tokens[:begin], said, *tokens[end:]]
 
 
 def _is_plainly_verb(word: str) -> bool:
@@ -568,6 +601,8 @@ _SENTENCES = (
     Idiom(_coordinated_states, frozenset({"be"})),
     Idiom(_unwanted, frozenset({"want"})),
     Idiom(_lovely, frozenset({"would"})),
+    Idiom(_in_the_same, frozenset({"same"})),
+    Idiom(_not_bothered, frozenset({"bother"})),
     Idiom(_verbless_first, frozenset({"then"})),
     Idiom(_given, frozenset({"give"})),
     Idiom(_not_about, frozenset({"leave"})),

@@ -703,7 +703,7 @@ def _described(draft: ClauseDraft, ahead: Sequence[Phrase], token: Token) -> Phr
     """The noun that a relative clause is about: the last, or the one of which the last says where it is.
 
     It is that one where only it agrees with the verb ("the cups on the table that are clean"), and where all of them
-    are meant ("everything on the floor that is empty") unless the place is where they are to be put.
+    are meant ("everything on the floor that is empty") unless the place is where they are to be put, and no other is.
     """
     last = max(ahead, key=lambda phrase: phrase.place)
     placed = {r.source for r in draft.relations if r.target == last.name and r.relation in section("static")}
@@ -713,7 +713,9 @@ def _described(draft: ClauseDraft, ahead: Sequence[Phrase], token: Token) -> Phr
     if _condition_words(token)[1:2] in (["are"], ["were"], ["have"]):
         return head if head.plural else last
     whole = head.said().quantifier is Quantifier.ALL and not head.plural
-    return head if whole and draft.verb.stem not in section("placing") else last
+    others = (r for r in draft.relations if r.source in (head.name, last.name) and r.target != last.name)
+    placing = draft.verb.stem in section("placing") and not any(r.relation in section("static") for r in others)
+    return head if whole and not placing else last
 
 
 def read_prohibitions(
