@@ -13,12 +13,14 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import PlannerError, TmdError
+from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.task import Task
 from tmd.pddl.validator import validate
 from tmd.planning import up_planners
 from tmd.planning.backends import solve
+from tmd.planning.fast_downward import FirstPlan
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.processes import Conversation, Deadline
 from tmd.planning.result import Filled, GaveUp, Solved, Unreachable
@@ -212,6 +214,24 @@ def test_a_planner_that_hangs_or_runs_out_of_memory_gave_up(
     fake.does(search, translator)
     answer = solve(lamp("(lit)"), "fast-downward", seconds=1.2)
     assert answer == GaveUp(f"{limit} of Fast Downward")
+
+
+@pytest.mark.parametrize(
+    ("search", "translator", "found"),
+    [
+        ("sleep 1.5; echo '(light)' > $plan", "", True),
+        ("while :; do :; done", "", False),
+        ("true", "while True: pass", False),
+    ],
+)
+def test_only_time_of_the_processor_ends_a_search_for_a_gap(
+    fake: FakeDownward, search: str, translator: str, found: bool
+) -> None:
+    """What else the machine does shall not decide what a robot does."""
+    fake.does(search, translator)
+    task = ground(lamp("(lit)"))
+    answer = FirstPlan(task, seconds=1).fill(task.init, task.goal)
+    assert isinstance(answer, Filled) if found else answer == GaveUp("1 s of Fast Downward")
 
 
 def test_a_planner_that_never_reads_gave_up(fake: FakeDownward) -> None:

@@ -71,6 +71,7 @@ class DownwardProcess:
     Args:
         search: The configuration of the search; without one the problem is translated only.
         memory: Bytes that it may take.
+        processor: Seconds of the processor after which it is stopped.
 
     Attributes:
         process: The process.
@@ -82,7 +83,7 @@ class DownwardProcess:
         PlannerError: It cannot be started.
     """
 
-    def __init__(self, search: str | None, memory: int | None = None) -> None:
+    def __init__(self, search: str | None, memory: int | None = None, processor: int | None = None) -> None:
         programs = binaries()
         self.sas = unnamed_file()  # both are closed when the block is left
         self.plan = unnamed_file()
@@ -101,6 +102,7 @@ class DownwardProcess:
                 passed=(*inherited, *files),
                 environment={"PYTHONPATH": str(programs)},
                 memory=memory,
+                processor=processor,
             )
         except BaseException:
             self._close()

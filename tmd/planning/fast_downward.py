@@ -7,6 +7,7 @@ an object, may share one. It is under the GPL, and never imported.
 from __future__ import annotations
 
 import re
+import signal
 from collections.abc import Sequence
 from contextlib import nullcontext
 from dataclasses import replace
@@ -42,9 +43,12 @@ million states in vain, with landmarks beside it 1,700. On the bundled problems 
 _UNSOLVABLE = (10, 11)
 _INCOMPLETE = 12
 _NO_MEMORY = (20, 22, 24)
+_NO_TIME = (21, 23, -signal.SIGXCPU)
 _PYTHON_WITHOUT_MEMORY = ("MemoryError", "SystemError: error return without exception set")
 """How the translator may end where it should end with one of those codes."""
 _UNSUPPORTED = 34
+_AT_MOST = 6
+"""A process that has had so many times its seconds of the processor by the clock is given up."""
 _EXHAUSTED = "Completely explored state space"
 _AXIOMS = re.compile(r"^Translator axioms: (\d+)$", re.MULTILINE)
 
@@ -79,7 +83,8 @@ class FastDownward:
             PlannerError: It died, or what it gave is no plan.
             TmdError: It does not take the problem.
         """
-        with self._prover or nullcontext(), started or DownwardProcess(self.search, self.deadline.memory) as running:
+        memory, processor = self.deadline.memory, self.deadline.processor
+        with self._prover or nullcontext(), started or DownwardProcess(self.search, memory, processor) as running:
             running.give(texts_for_planners(self.problem), self.deadline)
             from tmd.pddl import plan_file, validator  # noqa: F401 - while it works
 
@@ -98,8 +103,10 @@ class FastDownward:
         sas.seek(0)
         with unnamed_file() as plan:
             command = search_command(search, plan)
-            memory = self.deadline.memory
-            with PlannerProcess(NAME, command, stdin=sas, passed=(plan.fileno(),), memory=memory) as process:
+            memory, processor = self.deadline.memory, self.deadline.processor
+            with PlannerProcess(
+                NAME, command, stdin=sas, passed=(plan.fileno(),), memory=memory, processor=processor
+            ) as process:
                 answer = self._answer(process, search, plan)
                 if answer is None:
                     raise process.failed("ended without a plan and without a proof")
@@ -113,6 +120,8 @@ class FastDownward:
             return Unreachable(reason)
         if code is None:
             return GaveUp(f"{self.deadline.seconds:g} s of {NAME}")
+        if code in _NO_TIME and self.deadline.processor is not None:
+            return GaveUp(f"{self.deadline.processor} s of {NAME}")
         if code == 0:
             plan.seek(0)
             return checked(self.problem, plan.read().decode(errors="replace"), process, search in _OPTIMAL)
@@ -174,10 +183,11 @@ class FirstPlan:
 
     Args:
         task: The ground problem.
-        seconds: The limit for one question.
+        seconds: The limit for one question, in seconds of the processor: what else the machine does, or that it
+            slept, shall not decide what the answer is. A clock's limit is a multiple of it, in case it hangs.
     """
 
-    def __init__(self, task: Task, seconds: float = 20.0) -> None:
+    def __init__(self, task: Task, seconds: int = 20) -> None:
         self.task = task
         self.seconds = seconds
 
@@ -192,9 +202,8 @@ class FirstPlan:
         cubes = [_formula(self.task, cube) for cube in goal if not cube.positive & cube.negative]
         wanted = cubes[0] if len(cubes) == 1 else Or(tuple(cubes))  # a disjunction becomes an axiom
         problem = replace(self.task.problem, init=self.task.decode(state), goal=wanted)
-        asked = FastDownward(
-            problem, optimal=False, deadline=Deadline(self.seconds), prove=False, search=FIRST_OF_A_GAP
-        )
+        deadline = Deadline(_AT_MOST * self.seconds, processor=self.seconds)
+        asked = FastDownward(problem, optimal=False, deadline=deadline, prove=False, search=FIRST_OF_A_GAP)
         answer = asked.solve()
         if isinstance(answer, Solved):
             for operator in map(self.task.by_instruction.__getitem__, answer.plan):

@@ -44,11 +44,14 @@ class Deadline:
     Args:
         seconds: How long from now.
         memory: Bytes for each process; ``None`` for most of what the machine has.
+        processor: Seconds of the processor for each process, which do not pass while others use it or the machine
+            sleeps; ``None`` for no such limit.
     """
 
-    def __init__(self, seconds: float, memory: int | None = None) -> None:
+    def __init__(self, seconds: float, memory: int | None = None, processor: int | None = None) -> None:
         self.seconds = seconds
         self.memory = memory
+        self.processor = processor
         self._end = time.monotonic() + seconds
 
     def left(self) -> float:
@@ -61,7 +64,7 @@ class Deadline:
 
     def at_most(self, seconds: float) -> Deadline:
         """This deadline, or one in ``seconds`` if that is earlier."""
-        return Deadline(min(seconds, self.left()), self.memory)
+        return Deadline(min(seconds, self.left()), self.memory, self.processor)
 
 
 class PlannerProcess:
@@ -78,6 +81,7 @@ class PlannerProcess:
         directory: Where it runs.
         with_thread: Whether it dies with the thread that started it, and not only with the program.
         memory: Bytes that it may take; ``None`` for most of what the machine has.
+        processor: Seconds of the processor after which it is stopped.
 
     Raises:
         PlannerError: It cannot be started.
@@ -96,6 +100,7 @@ class PlannerProcess:
         directory: str | None = None,
         with_thread: bool = True,
         memory: int | None = None,
+        processor: int | None = None,
     ) -> None:
         self.name = name
         self._files = ExitStack()
@@ -110,7 +115,7 @@ class PlannerProcess:
                 pass_fds=tuple(passed),
                 cwd=directory,
                 env={**os.environ, **(environment or {})},
-                preexec_fn=_bound(os.getpid() if with_thread else None, memory),
+                preexec_fn=_bound(os.getpid() if with_thread else None, memory, processor),
                 process_group=0,
             )
         except OSError as error:
@@ -396,20 +401,24 @@ def _least(limit: int, most: int) -> int:
     return limit if most == resource.RLIM_INFINITY else min(limit, most)
 
 
-def _bound(parent: int | None, most: int | None) -> Callable[[], None]:
-    """What a new process does first: die with ``parent``, and neither fill the disk nor take all memory."""
+def _bound(parent: int | None, most: int | None, processor: int | None = None) -> Callable[[], None]:
+    """What a new process does first: die with ``parent``, and neither fill the disk nor take all memory or time."""
     import ctypes
     import resource
 
     library = ctypes.CDLL(None)
     memory = most or int(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") * 0.8)
 
+    limits = [(resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST)]
+    if processor is not None:
+        limits.append((resource.RLIMIT_CPU, processor))
+
     def bind() -> None:
         if parent is not None and hasattr(library, "prctl"):
             library.prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
             if os.getppid() != parent:
                 os._exit(1)
-        for kind, limit in ((resource.RLIMIT_AS, memory), (resource.RLIMIT_FSIZE, _LARGEST)):
+        for kind, limit in limits:
             _, hard = resource.getrlimit(kind)
             resource.setrlimit(kind, (_least(limit, hard), hard))
 
