@@ -60,8 +60,16 @@ def entry(page: Page, label: str) -> Locator:
 
 
 def choose(page: Page, label: str, option: str) -> None:
+    """Open a list and choose from it; a list that an update closes again is opened again, as anybody would."""
+    from playwright.sync_api import TimeoutError as NotInTime
+
+    listed = page.get_by_role("option", name=option, exact=True).locator("visible=true")
     entry(page, label).click()
-    page.get_by_role("option", name=option, exact=True).locator("visible=true").click()
+    try:
+        listed.click(timeout=10_000)
+    except NotInTime:
+        entry(page, label).click()
+        listed.click()
 
 
 def press(page: Page, name: str) -> None:
