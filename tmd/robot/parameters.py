@@ -16,14 +16,16 @@ class StanceParameters:
     """Metres from the base to what is to be reached, best first."""
     low: float = 0.35
     """Metres from the floor below which what is to be reached is near the base."""
-    low_distances: tuple[float, ...] = (0.5, 0.56, 0.45, 0.62, 0.7)
-    """Metres from the base to that, best first."""
+    low_distances: tuple[float, ...] = (0.5, 0.46, 0.42, 0.56, 0.38, 0.62, 0.7)
+    """Metres from the base to that, best first: straight down to the floor the arms reach 0.44 m ahead."""
     bearings: tuple[float, ...] = (0.0, 0.3, -0.3, 0.6, -0.6, 0.9, -0.9, 1.2, -1.2)
     """Radians off the front of what is to be reached, best first."""
     turns: tuple[float, ...] = (0.0, 0.35, -0.35)
     """Radians that the base is turned away from what it faces, so that a shoulder does."""
     fine_distances: tuple[float, ...] = (0.44, 0.51, 0.58, 0.66, 0.74, 0.82, 0.90, 0.98)
     """The same where furniture leaves little room: metres."""
+    low_fine_distances: tuple[float, ...] = (0.44, 0.41, 0.47, 0.38, 0.36)
+    """The same for what is low: metres."""
     fine_turns: tuple[float, ...] = (0.0, 0.35, -0.35, 0.7, -0.7)
     """The same where furniture leaves little room: radians."""
     shoulder_above_hand: tuple[float, ...] = (0.10, 0.32, -0.1)

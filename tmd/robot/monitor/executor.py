@@ -12,8 +12,9 @@ from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import GroundAtom, Instruction, Problem, State
 from tmd.pddl.semantics import apply, first_broken, get_constraints
 from tmd.pddl.task import Bits, ConditionalEffect, Cube, Operator, Task
-from tmd.planning.backends import IN_PROCESS, make
-from tmd.planning.result import Filled, Unreachable
+from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.planning.gap_filler import eliminate
+from tmd.planning.result import Filled, GaveUp, Unreachable
 from tmd.planning.search.in_process import DEFAULT_CAP
 from tmd.robot.monitor.observation import Mismatch, Observer
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillError, SkillPhase, SkillStatus
@@ -281,11 +282,7 @@ class Executor:
 
     def _aside(self, atom: GroundAtom) -> bool:
         """Whether a fact is about what is in something that the plan has nothing to do with: it stands there."""
-        return (
-            atom.predicate in self.observer.skills.inferred
-            and atom.args[0] not in self._named
-            and (self.observer.skills.inferred[atom.predicate] != "event")
-        )
+        return self._follows(atom) and atom.args[0] not in self._named
 
     def _goes_on(self, waiting: Sequence[tuple[Instruction, bool]], state: State, wanted: _Wanted) -> bool:
         """Whether what is waiting leads to what is wanted from here as it is: then nothing is to be replanned."""
@@ -325,17 +322,23 @@ class Executor:
         return step, now
 
     def _still_lost(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
-        """What should be in something and is not, since the plan last went on."""
-        contents = {p for p, rule in self.observer.skills.inferred.items() if rule == "contents"}
-        missing = (m.atom for m in mismatches if m.expected and m.atom.predicate in contents)
+        """What should be in something and is not, or not hot, since the plan last went on."""
+        missing = (m.atom for m in mismatches if m.expected and self._follows(m.atom))
         return frozenset(atom for atom in (*self._lost, *missing) if atom not in now and not self._aside(atom))
 
+    def _follows(self, atom: GroundAtom) -> bool:
+        """Whether a fact is about what is in something: it is inferred, and not from one event."""
+        return self.observer.skills.inferred.get(atom.predicate, "event") != "event"
+
     def _in_vain(self, mismatches: Sequence[Mismatch], now: State) -> frozenset[GroundAtom]:
-        """Where things are that should have got something into them, and did not."""
+        """Where things are, or in which hand, that should have got something into them, and did not."""
         skills = self.observer.skills
         missing = [m.atom for m in mismatches if m.expected and not self._aside(m.atom)]
         dry = {atom.args[0] for atom in missing if skills.inferred.get(atom.predicate) == "contents"}
-        return frozenset(a for a in now if skills.seen.get(a.predicate) == "support" and a.args[0] in dry)
+        place = {"support": 0, "held": -1}
+        return frozenset(
+            a for a in now if (sensor := skills.seen.get(a.predicate)) in place and a.args[place[sensor]] in dry
+        )
 
     def _replan(
         self, state: State, waiting: Sequence[Instruction], wanted: _Wanted
@@ -350,7 +353,7 @@ class Executor:
         found = self._regained(task, self._setbacks.standing, waiting, wanted) or self._around(task, waiting, wanted)
         if found is None:
             plain = careful(task, self.observer.skills) if self.planner == IN_PROCESS else task
-            way = _missing(self.planner, plain, waiting, wanted)
+            way = _missing(plain, waiting, wanted, planner=self.planner, any_way=True)
             found = way if isinstance(way, str) else _joined(way, waiting)
         if not isinstance(found, str) and (again := self._the_same_again([i for i, _ in found])) is not None:
             return f"there is no way left but {again}, which would be tried again as it failed: nothing has moved since"
@@ -385,7 +388,7 @@ class Executor:
         for setbacks in dict.fromkeys((question[0], tuple(freed))):
             chances = without(plain, setbacks)
             for rest in dict.fromkeys((question[1], question[1][1:], ())):
-                way = _missing(IN_PROCESS, chances, rest, wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
+                way = _missing(chances, rest, wanted, cap=DEFAULT_CAP if rest else _NEW_PLAN_CAP)
                 if not isinstance(way, str) and (rest == question[1] or _leads(plain, [*way, *rest], wanted)):
                     return _joined(way, rest)
         self._hopeless.add(question)
@@ -394,31 +397,36 @@ class Executor:
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
-        """A way by three short plans: what was spilled is in again, knobs and doors are as they were, the rest goes on.
+        """A way by short plans: what was spilled is in and hot again, knobs and doors are as they were, the rest goes on.
 
         A search for all at once would be much longer than each of these.
         """
         state = task.decode(task.init)
-        rules = self.observer.skills.inferred
         lost = frozenset(atom for atom in self._lost if atom not in state)
         if not waiting:
-            lost |= frozenset(a for a in wanted[0] if a not in state and rules.get(a.predicate) == "contents")
+            lost |= frozenset(a for a in wanted[0] if a not in state and self._follows(a))
         if not lost:
             return None
         plain = careful(task, self.observer.skills)
-        way = _missing(IN_PROCESS, without(plain, setbacks) if setbacks else plain, (), (lost, frozenset()))
-        if isinstance(way, str):
-            return None
-        after = _end(plain, task.init, way)
+        way: list[Instruction] = []
+        after = task.init
+        contents = frozenset(a for a in lost if self.observer.skills.inferred.get(a.predicate) == "contents")
+        for part in dict.fromkeys((contents, lost)):  # first it is in again, then it is heated again
+            begun = replace(plain, init=after)
+            more = _missing(begun if way else without(begun, setbacks), (), (part, frozenset()))
+            if isinstance(more, str):
+                return None
+            way += more
+            after = _end(plain, after, more)
         worked = self._worked()
         changed = {atom for atom in self._on_course ^ plain.decode(after) if atom.predicate in worked}
         again = frozenset(changed & self._on_course), frozenset(changed - self._on_course)
-        back = _missing(IN_PROCESS, replace(plain, init=after), (), again)
+        back = _missing(replace(plain, init=after), (), (again[0] | lost, again[1]))
         if isinstance(back, str):
             back = ()
         after = _end(plain, after, back)
         for rest in (waiting, waiting[1:]):
-            more = _missing(IN_PROCESS, replace(plain, init=after), rest, wanted)
+            more = _missing(replace(plain, init=after), rest, wanted)
             if not isinstance(more, str) and _leads(plain, [*way, *back, *more, *rest], wanted):
                 return _joined([*way, *back, *more], rest)
         return None
@@ -458,9 +466,18 @@ _Wanted = tuple[frozenset[GroundAtom], frozenset[GroundAtom]]
 
 
 def _missing(
-    planner: str, task: Task, waiting: Sequence[Instruction], wanted: _Wanted, cap: int = DEFAULT_CAP
+    task: Task,
+    waiting: Sequence[Instruction],
+    wanted: _Wanted,
+    *,
+    planner: str = IN_PROCESS,
+    cap: int = DEFAULT_CAP,
+    any_way: bool = False,
 ) -> Sequence[Instruction] | str:
-    """Instructions that make what is waiting executable, or bring about what is missing; or why not."""
+    """Instructions that make what is waiting executable, or bring about what is missing; or why not.
+
+    With ``any_way``, where a short one is not found, a long one is better than to stop.
+    """
     operators = [task.by_instruction.get(instruction) for instruction in waiting]
     known = [operator for operator in operators if operator is not None]
     if len(known) < len(operators):
@@ -474,8 +491,10 @@ def _missing(
         needed, spoiled = (task.encode(frozenset(atoms)) for atoms in wanted)
         goal = (Cube(needed, spoiled),)
     answer = make(planner, task, cap=cap).fill(task.init, goal)
+    if isinstance(answer, GaveUp) and any_way and planner == IN_PROCESS:
+        answer = last_resort(task).fill(task.init, goal)
     if isinstance(answer, Filled):
-        return answer.plan
+        return eliminate(answer.plan, task, task.init, goal)
     if isinstance(answer, Unreachable):
         return f"replanning proved that there is no way: {answer.reason}"
     return f"replanning gave up: {answer.limit}"

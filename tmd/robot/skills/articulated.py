@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import copysign, cos, pi, sin
+from math import copysign, cos, degrees, pi, sin
 
 from tmd.robot.assets.fittings import TIP
 from tmd.robot.parameters import ARTICULATION
@@ -35,11 +35,27 @@ def swing(cell: Cell, name: str, attempt: int, *, opened: bool) -> str:
     """
     if not cell.free():
         raise SkillError(SkillPhase.PRECONDITION, "both hands are full")
+    if opened:
+        _refuse_to_spill(cell, name)
     for _ in range(ARTICULATION.stages):
         _swing_somehow(cell, name, attempt, _goals(cell, name, opened))
         if cell.is_open(name) == opened:
             return cell.how_open(name)
     raise SkillError(SkillPhase.EFFECT, f"{cell.how_open(name)} after it was moved")
+
+
+def _refuse_to_spill(cell: Cell, name: str) -> None:
+    """What lies is not opened as long as something is in it.
+
+    Raises:
+        SkillError: It does, and what is in it would run out.
+    """
+    if not cell.scene.is_item(name) or not cell.scene.shown(name):
+        return
+    limit, tilt = cell.spills_when_open_from(name), cell.tilt(name)
+    if limit is not None and tilt > limit:
+        told = f"{name} leans by {degrees(tilt):.0f} degrees: what is in it would run out"
+        raise SkillError(SkillPhase.PRECONDITION, told)
 
 
 def _swing_somehow(cell: Cell, name: str, attempt: int, goals: Sequence[Sequence[float]]) -> None:

@@ -81,7 +81,7 @@ class RobotPerformer:
             if side is None:
                 cell.unfit_spots.setdefault(item, []).append(cell.sim.pose(cell.scene.bodies[item]))
             else:
-                cell.unfit_grips.setdefault(item, []).append(cell.in_tool(side, item))
+                cell.unfit_grips.setdefault(item, []).append(cell.in_tool(side, item).inverse())
 
     def _do(self, task: SkillTask, gains: Collection[GroundAtom], attempt: int) -> str:
         cell, name = self.cell, task.object

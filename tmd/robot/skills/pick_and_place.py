@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import product
-from math import degrees, hypot, pi
+from math import cos, degrees, hypot, pi, sin
 
 import numpy as np
 
@@ -203,6 +203,9 @@ def place(cell: Cell, item: str, target: str, relation: str, attempt: int, *, fi
     if side is None:
         raise SkillError(SkillPhase.PRECONDITION, f"{item} is not in a hand")
     below, others = place_options(cell, side, item, target, relation)
+    nothing_lost = not cell.scene.shown(item) or cell.spills_from(item) is None
+    if others and nothing_lost and not filled and not with_room(cell, (*below, *others)):
+        others = laid_options(cell, side, item, target, relation)
     if filled and not below and cell.scene.spouts(cell.whole(target)):
         raise SkillError(SkillPhase.PRECONDITION, f"there is no room for {item} below {_occupied(cell, item, target)}")
     if not below and not others:
@@ -289,6 +292,28 @@ def place_options(cell: Cell, side: str, item: str, target: str, relation: str) 
         stood = spot.pose * Pose.flat(0.0, 0.0, fall, 2 * pi * turn / GRASP.headings)
         tool = stood * grip
         found[not spot.outlet].append(Option(side, (_moved(tool, back), tool), links, number))
+    return found
+
+
+def laid_options(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
+    """Ways to let go of an item just above a place, as it is held, with the hand straight above it.
+
+    It lies there, or falls over, and can be taken in another way: as it is held it can be put down upright nowhere.
+    """
+    grip = cell.in_tool(side, item)
+    low, high = cell.scene.size(item)
+    links = _links(cell, item)
+    found = []
+    for number, spot in enumerate(cell.scene.support(target, relation, item, cell.in_hand.values())[:6]):
+        x, y, z = spot.pose.position
+        for turn in range(GRASP.headings):
+            angle = 2 * pi * turn / GRASP.headings
+            down = Frame((x, y, z), DOWN, (cos(angle), sin(angle), 0.0)).pose()
+            held = down * grip
+            lowest = min(held.apply(corner)[2] for corner in product(*zip(low, high, strict=True)))
+            middle = held.apply(tuple((a + b) / 2 for a, b in zip(low, high, strict=True)))
+            tool = _moved(down, (x - middle[0], y - middle[1], z - lowest + GRASP.release_heights[-1]))
+            found.append(Option(side, (_moved(tool, (0.0, 0.0, GRASP.approach)), tool), links, number))
     return found
 
 

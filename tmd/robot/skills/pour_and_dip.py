@@ -195,6 +195,9 @@ def dip(cell: Cell, item: str, target: str, attempt: int) -> str:
         cell.load(item)
         cell.moment()
         _go_back(cell, chosen)
+    lost = cell.leant(item)
+    if lost is not None and lost[0] > lost[1]:  # held like this it does not stay level
+        cell.unfit_grips.setdefault(item, []).append(cell.in_tool(chosen.side, item).inverse())
     said = f"the end of {item} was {100 * below:.1f} cm below the rim of {target}"
     if below < POURING.dipped_from or beside > 0.0:
         raise SkillError(SkillPhase.EFFECT, said)

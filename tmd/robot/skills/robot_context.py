@@ -48,7 +48,7 @@ class Cell:
         in_hand: For each arm the item in it.
         over_rim: For what may lean now, whether its mouth is where nothing is lost.
         unfit_spots: Where items stood when what was to be done with them could not be reached.
-        unfit_grips: How items were held then.
+        unfit_grips: How items were held then, or when what was in them was lost: the tool in the item's frame.
         until: The simulation's count of work at which an instruction is given up.
         doing: Is told what is being looked for, while that takes long.
         moment: Is called when what an instruction is about happens: a press, a pour, a turn.
@@ -121,6 +121,8 @@ class Cell:
         if sim.ticks % _LEANING_EVERY and not self.robot.kinematic:
             return
         for item in dict.fromkeys((*self.scene.filled(), *sorted(self._loaded & set(self.scene.items())))):
+            if self.spills_from(item) is None:
+                continue  # shut: however it leans, nothing gets out
             tilt = self.tilt(item)
             if tilt > self._leant.get(item, _LEVEL) and not (item in self.over_rim and self.over_rim[item]()):
                 self._leant[item] = tilt
@@ -156,6 +158,10 @@ class Cell:
         handle = self.scene.handle(item)
         if handle is not None and handle.kind == "lid" and self.way(item) <= ARTICULATION.shut_to:
             return None
+        return self.spills_when_open_from(item)
+
+    def spills_when_open_from(self, item: str) -> float | None:
+        """The same, once an item is open; None where it cannot hold anything."""
         opening = self.scene.opening(item)
         if opening is not None:
             return max(opening.spills_from, CONTACT.repose)
@@ -478,7 +484,7 @@ class Cell:
             if place is None:
                 return None
             item = self.whole(place[0])
-        if item not in self.scene.bodies:
+        if item not in self.scene.bodies or item == FLOOR:
             return None
         return self.sim.pose(self.scene.bodies[item]).yaw()
 

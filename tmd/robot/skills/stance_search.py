@@ -27,6 +27,7 @@ Links = frozenset[tuple[int, int | None]]
 Accept = Callable[["Option", Base], bool]
 
 _FINE_SWINGS = tuple(sign * 0.15 * step for step in range(10) for sign in ((1, -1) if step else (1,)))
+_FAR_SWINGS = tuple(sign * 0.3 * step for step in range(5, 11) for sign in (1, -1))
 _COARSE = 4.0
 _EXPLAINED = 8
 """Ways or places that are looked at to say what is in the way."""
@@ -232,7 +233,11 @@ def _free(cell: Cell, focus: Pose, front: float | None) -> Iterator[Base]:
     here = cell.robot.base()
     usual = list(stances(cell, focus, front))
     yield from (base for base, free in zip(usual, cell.robot.free_bases(usual), strict=True) if free or base == here)
-    closer = list(_round(cell, focus, front, STANCE.fine_distances, _FINE_SWINGS, STANCE.fine_turns))
+    distances = STANCE.fine_distances
+    if focus.position[2] < STANCE.low:
+        distances = (*STANCE.low_fine_distances, *(d for d in distances if d > max(STANCE.low_fine_distances)))
+    swings = _FINE_SWINGS if front is not None else (*_FINE_SWINGS, *_FAR_SWINGS)
+    closer = list(_round(cell, focus, front, distances, swings, STANCE.fine_turns))
     yield from (base for base, free in zip(closer, cell.robot.free_bases(closer), strict=True) if free)
 
 
