@@ -397,7 +397,7 @@ class Executor:
     def _regained(
         self, task: Task, setbacks: Sequence[Setback], waiting: Sequence[Instruction], wanted: _Wanted
     ) -> list[tuple[Instruction, bool]] | None:
-        """A way by short plans: what was spilled is in and hot again, knobs and doors are as they were, the rest goes on.
+        """A way by short plans: what was spilled is in and hot again, knobs and doors are as before, the rest goes on.
 
         A search for all at once would be much longer than each of these.
         """
