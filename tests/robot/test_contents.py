@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import radians
+from math import cos, pi, radians, sin
 from pathlib import Path
 
 import pytest
@@ -12,8 +12,11 @@ pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
-from tmd.robot.skills.pick_and_place import pick_options
+from tmd.robot.skills.articulated import swing
+from tmd.robot.skills.pick_and_place import pick_options, place, place_options
+from tmd.robot.skills.results import SkillError
 from tmd.robot.skills.robot_context import Cell
+from tmd.robot.skills.stance_search import candidates, with_room
 from tmd.veil.corpus import Corpus
 from tmd.world.environment import load_environment
 from tmd.world.folder import find_domain
@@ -89,6 +92,57 @@ def test_what_is_full_is_seen_to_lean(cell: Cell) -> None:
 def test_what_is_closed_does_not_spill(cell: Cell) -> None:
     assert cell.leant("coffee_jar1") is None
     assert cell.leant("raspberry_bottle1") is None
+
+
+def test_how_a_shut_thing_leans_does_not_count_once_it_is_open(cell: Cell) -> None:
+    jar, handle = "coffee_jar1", cell.scene.handle("coffee_jar1")
+    assert handle is not None
+    home = cell.sim.pose(cell.scene.bodies[jar])
+    cell.scene.show(jar, ("coffee_powder",))
+    cell.reset_leant()
+    cell.sim.set_pose(cell.scene.bodies[jar], home * Pose.about((1.0, 0.0, 0.0), radians(80)))
+    cell.sim.tick()
+    put(cell, jar, home)
+    cell.sim.set_joint(handle.body, handle.index, handle.open)
+    assert (cell.leant(jar) or (9.0,))[0] < radians(5)
+    cell.sim.set_joint(handle.body, handle.index, handle.closed)
+    cell.scene.show(jar, ())
+
+
+def test_what_lies_is_not_opened_with_something_in_it(cell: Cell) -> None:
+    home = cell.sim.pose(cell.scene.bodies["coffee_jar1"])
+    x, y, z = home.position
+    cell.scene.show("coffee_jar1", ("coffee_powder",))
+    put(cell, "coffee_jar1", Pose((x, y, z + 0.06)) * Pose.about((1.0, 0.0, 0.0), radians(90)))
+    with pytest.raises(SkillError, match=r"^precondition: coffee_jar1 leans by \d+ degrees: .* would run out$"):
+        swing(cell, "coffee_jar1", 0, opened=True)
+    put(cell, "coffee_jar1", home)
+    cell.scene.show("coffee_jar1", ())
+
+
+def test_what_lies_flat_on_the_floor_is_reached_from_any_side(cell: Cell) -> None:
+    home = cell.sim.pose(cell.scene.bodies["spoon1"])
+    for turn in range(4):
+        x, y, theta = cell.robot.base()
+        away = theta + turn * pi / 2
+        put(cell, "spoon1", Pose.flat(x + 0.9 * cos(away), y + 0.9 * sin(away), 0.02, 1.0))
+        assert cell.support("spoon1") == ("floor", "on") and cell.front("spoon1") is None
+        options = with_room(cell, pick_options(cell, "spoon1"))
+        assert next(candidates(cell, options, cell.sim.pose(cell.scene.bodies["spoon1"]), None), None) is not None
+    put(cell, "spoon1", home)
+
+
+def test_what_is_held_askew_is_laid_down(cell: Cell) -> None:
+    """As it is held no hand fits in where it would be put down level."""
+    body, side = cell.scene.bodies["spoon1"], "left"
+    askew = Pose.about((0.0, 1.0, 0.0), pi) * cell.scene.grasps("spoon1")[0].tool.pose().inverse()
+    cell.sim.set_pose(body, cell.robot.tool(side) * askew)
+    cell.robot.hold(side, body)
+    cell.in_hand[side] = "spoon1"
+    below, others = place_options(cell, side, "spoon1", "counter2", "on")
+    assert others and not with_room(cell, (*below, *others))
+    assert place(cell, "spoon1", "counter2", "on", 0) == "spoon1 is on counter2"
+    assert not cell.in_hand and cell.support("spoon1") == ("counter2", "on")
 
 
 @pytest.mark.parametrize(("share", "is_open"), [(0.0, False), (0.04, False), (0.3, None), (0.55, None), (0.65, True)])

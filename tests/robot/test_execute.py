@@ -437,6 +437,41 @@ def test_what_is_spilled_is_filled_again(corpus: Corpus, demonstrations: list[De
     assert sum(step.instruction.name == "turn" and "sink" in step.instruction.args[0] for step in done.steps) >= 4
 
 
+def test_what_was_hot_and_is_spilled_is_hot_again(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    """Not only filled again: what comes next is to be made with hot water."""
+    chosen = next(d for d in demonstrations if d.id == "affogato-kitchen1-01")
+    spilled: list[str] = []
+
+    def spill(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "grasp" and GroundAtom("hot", instruction.args) in truth.state and not spilled:
+            spilled.append(instruction.args[0])
+            truth.leaned[instruction.args[0]] = 1.2
+        return False
+
+    done, truth, _ = run(corpus, chosen, spill)
+    assert spilled and done.status is SkillStatus.RECOVERED, done.reason
+    poured = next(n for n, step in enumerate(done.steps) if step.instruction.name == "pour")
+    assert GroundAtom("hot", done.steps[poured].instruction.args[1:]) in done.steps[poured].state
+    assert set(wanted(corpus, chosen)) <= truth.state
+
+
+def test_what_spills_as_it_is_held_is_taken_in_another_way(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
+    chosen = next(d for d in demonstrations if d.id == "coffee-kitchen1-01")
+    spoons: list[str] = []
+
+    def spill(truth: Truth, instruction: Instruction) -> bool:
+        if instruction.name == "scoopfrom" and not spoons:
+            spoons.append(instruction.args[0])
+            truth.leaned[instruction.args[0]] = 1.2
+        return False
+
+    done, _, _ = run(corpus, chosen, spill)
+    assert spoons and done.status is SkillStatus.RECOVERED, done.reason
+    names = [s.instruction.name for s in done.steps if s.instruction.args[:1] == (spoons[0],)]
+    first, second = [n for n, name in enumerate(names) if name == "scoopfrom"][:2]
+    assert "grasp" in names[first:second]
+
+
 def test_what_stands_beside_the_stream_stays_dry(corpus: Corpus, demonstrations: list[Demonstration]) -> None:
     """A bystander is told of; the vessel that the plan is about is moved until the stream runs into it."""
     chosen = next(d for d in demonstrations if d.id == "boiling_water-kitchen1-01")
