@@ -8,20 +8,13 @@ from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 from .conftest import Served
-from .test_browser import choose, entry, press, tab, told, visiting
+from .test_browser import begin, choose, entry, press, told, visiting
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
 STEPS = (("cup1", "Go and stand before cup1"), ("cup1", "Take cup1"), ("shelf1", "Go and stand before shelf1"))
 LAST = ("shelf1", "Put cup1 on shelf1")
-
-
-def begin(page: Page, text: str) -> None:
-    tab(page, "Demonstrate")
-    page.locator("textarea:visible").first.fill(text)
-    press(page, "Begin")
-    told(page, "Point at an object")
 
 
 def do(page: Page, name: str, instruction: str, number: int) -> None:
@@ -42,8 +35,7 @@ def test_killed_in_the_middle(table_studio: Served, browser: Browser) -> None:
         do(page, *STEPS[0], 1)
         press(page, "Save (K)")
         told(page, "Saved as shown-corner1-01")
-        page.locator("textarea:visible").first.fill("Take the cup to the shelf.")
-        press(page, "Begin")
+        begin(page, "Take the cup to the shelf.")
         for number, step in enumerate(STEPS, start=1):
             do(page, *step, number)
         table_studio.kill()
