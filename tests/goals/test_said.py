@@ -761,6 +761,19 @@ def test_food_is_not_cooked_in_coffee() -> None:
     assert contents <= {"(contains bowl1 boiled_egg)", "(contains bowl1 cooked_ramen)", "(contains bowl1 water)"}
 
 
+def test_everything_is_what_was_brought_together() -> None:
+    facts = end(said("kitchen", "kitchen3", "Put milk and sugar in the mug. Put everything in the microwave."))
+    vessels = [fact for fact in facts if fact.startswith("(at ") and fact.endswith(" microwave1 in)")]
+    assert len(vessels) == 1 and vessels[0].startswith("(at mug")  # not all vessels that there are
+
+
+def test_everything_that_is_switched_off_is_no_pot() -> None:
+    text = "Fill the pot with water and boil the egg in it. Switch everything off."
+    facts = end(said("kitchen", "kitchen2", text))
+    assert any(fact.endswith(" boiled_egg)") for fact in facts)
+    assert not [fact for fact in facts if fact.startswith("(active ")]
+
+
 def test_what_is_mixed_is_in_one_mug() -> None:
     facts = end(said("kitchen", "kitchen3", "Pour milk and coffee in a mug."))  # there are two mugs
     assert any({f"(contains {mug} milk)", f"(contains {mug} coffee)"} <= facts for mug in ("mug1", "mug2"))

@@ -215,7 +215,10 @@ class Referents:
         clause = reading.clause
         phrase = clause.phrase(noun)
         if not self.points_back(noun):
-            return [self._named(noun, phrase, types, list(relations), reading, place=slot.is_place)]
+            plain = noun in EVERYTHING and phrase.quantifier is Quantifier.ALL and not (phrase.attributes or relations)
+            mixed = self._brought_together(types, reading) if plain else ()
+            first = [Referent(noun, mixed, definite=True)] if mixed else []
+            return [*first, self._named(noun, phrase, types, list(relations), reading, place=slot.is_place)]
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
         options = self.antecedents(noun, reading)
@@ -397,6 +400,14 @@ class Referents:
             if bound.containers and named & set(bound.names):
                 return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
         return ()
+
+    def _brought_together(self, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        """What holds several things that were spoken of: *water in a bowl, add the noodles, microwave everything*."""
+        held: dict[str, int] = {}
+        for bound in reading.memory.bound.values():
+            for name in bound.containers:
+                held[name] = held.get(name, 0) + 1
+        return tuple(n for n, count in held.items() if count > 1 and self.grounder.is_a(n, types))[-1:]
 
     def _by_now(self, names: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """What was spoken of, as that which it turned into since: the noodles, when they are cooked."""
