@@ -767,6 +767,17 @@ def test_everything_is_what_was_brought_together() -> None:
     assert len(vessels) == 1 and vessels[0].startswith("(at mug")  # not all vessels that there are
 
 
+def test_what_cannot_be_thrown_away_is_not_put_away() -> None:
+    grounded = said("living_room", "room3", "Throw away the garbage bag.")  # the only bin there is, in a drawer
+    assert not grounded.plans and "Throw away the garbage bag" in str(grounded.reason)
+
+
+def test_a_sauce_is_called_after_its_fruit() -> None:
+    facts = end(said("kitchen", "kitchen3", "Put vanilla in the bowl with raspberry on top."))
+    bowls = {fact.split()[1] for fact in facts if fact.endswith(" raspberry_syrup)") and "bowl" in fact}
+    assert any(f"(contains {bowl} vanilla_ice_cream)" in facts for bowl in bowls)
+
+
 def test_everything_that_is_switched_off_is_no_pot() -> None:
     text = "Fill the pot with water and boil the egg in it. Switch everything off."
     facts = end(said("kitchen", "kitchen2", text))

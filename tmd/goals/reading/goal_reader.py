@@ -270,6 +270,7 @@ class GoalReader:
                 self.grounder.exact = False
         looser = () if self._is_placing(reading.clause) else ((False, others),)  # to put is more than to take
         alone = not any(r.source in reading.clause.direct for r in reading.clause.relations)
+        itself = (reading.clause.verb, *self._synonyms(reading.clause.verb))
         for strict, verbs in ((True, own), (True, others), (False, own), *looser):
             for verb in verbs:
                 # what another verb leaves without a trace says nothing of this one: to put is not to sit
@@ -279,7 +280,7 @@ class GoalReader:
                 found = self._by_rows(rows, reading.again(strict=strict))
                 if isinstance(found, ClauseGoal):
                     return found
-                if alone and verb == reading.clause.verb and found.why is Why.IMPOSSIBLE:
+                if alone and verb in itself and found.why is Why.IMPOSSIBLE:
                     return found  # what the verb itself asks for can never be: its relatives would ask for less
                 if failure is None or failure.why is Why.NOT_UNDERSTOOD:
                     failure = found
