@@ -59,6 +59,15 @@ def test_the_weights_choose(proposer: str) -> None:
     assert chosen.predict(test, data, np.random.default_rng(1)).instructions == first
 
 
+def test_end_is_expected_by_the_rules_of_scoring(monkeypatch: pytest.MonkeyPatch) -> None:
+    data, test, row = pantries()
+    before = candidates().features[:, [FEATURES.index("drawn END"), FEATURES.index("neighbours END")]]
+    assert (np.ptp(before, axis=0) > 0).all()
+    monkeypatch.setattr(data.scorer(test.environment), "changed", lambda sequence: 0)
+    after = row.candidates(test, data).features
+    assert not after[:, [FEATURES.index("drawn END"), FEATURES.index("neighbours END")]].any()
+
+
 def test_what_the_person_did_there_is_not_looked_at() -> None:
     data, test, row = pantries()
     blind = replace(test, demonstration=replace(test.demonstration, segments=()))

@@ -211,8 +211,7 @@ class Scorer:
         """The scores of one prediction."""
         self.prepare((predicted, recorded))
         p, r = self.simulator.run(predicted), self.simulator.run(recorded)
-        first = r.states[0]
-        mine, gold = first ^ p.states[-1], first ^ r.states[-1]
+        mine, gold = self.changed(predicted), self.changed(recorded)
         seen = self._visible(r.task, recorded)
         if seen is None:
             lost = len(recorded) > 0
@@ -221,6 +220,14 @@ class Scorer:
             a, b = [s & seen for s in p.states], [s & seen for s in r.states]
             similar = eed(a, b), eed_trim(a, b)
         return Scores(ied(predicted, recorded), _jaccard(mine, gold), *similar, executable=100.0 * p.executable)
+
+    def changed(self, sequence: Sequence[Instruction]) -> Bits:
+        """What END compares: the atoms that are otherwise after a sequence, as bits of the task of that moment.
+
+        A sequence with an instruction that was not prepared makes another task, with other bits.
+        """
+        states = self.simulator.run(sequence).states
+        return states[0] ^ states[-1]
 
     def reaches(self, predicted: Sequence[Instruction], goal: Formula) -> bool:
         """Success: whether ``goal`` holds in the state that END looks at, the last one of forced execution."""

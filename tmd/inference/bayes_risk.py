@@ -9,7 +9,7 @@ says what must be reached, the drawn sequences as well, made executable. Not in 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -39,6 +39,8 @@ _SHARE_OF_IED = 0.5
 
 Drawn = Sequence[tuple[Instruction, ...]]
 """A sequence that was drawn, clause by clause."""
+Changed = Callable[[tuple[Instruction, ...]], Bits]
+"""Gives the atoms that are otherwise after a sequence; of one task, whatever the sequence."""
 
 
 def decided(
@@ -89,23 +91,29 @@ def _with_risk(plan: RankedPlan, loss: float) -> RankedPlan:
 def expected_losses(
     plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
 ) -> NDArray[np.float64]:
-    """The mean loss of each plan against all sequences, from 0 to 1."""
-    similar, same = similarities(plans, people, world).mean(axis=2)
+    """The mean loss of each plan against all sequences, from 0 to 1, under the planning rules."""
+    similar, same = similarities(plans, people, lambda sequence: _changed(sequence, world)).mean(axis=2)
     found: NDArray[np.float64] = 1 - (_SHARE_OF_IED * similar + (1 - _SHARE_OF_IED) * same)
     return np.round(found, 9)  # equal ones stay equal whatever the order of a sum
 
 
 def similarities(
-    plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], world: World
+    plans: Sequence[tuple[Instruction, ...]], people: Sequence[tuple[Instruction, ...]], changed: Changed
 ) -> NDArray[np.float64]:
-    """IED and END of each plan with each sequence, from 0 to 1, under the planning rules: 2 x plans x people."""
+    """IED and END of each plan with each sequence, from 0 to 1: 2 x plans x people.
+
+    Args:
+        plans: The plans.
+        people: The sequences.
+        changed: Says what a sequence changes, by the rules under which END is meant.
+    """
     from rapidfuzz import process  # most models decide by energy
     from rapidfuzz.distance import Levenshtein
 
     codes = {i: chr(number) for number, i in enumerate(dict.fromkeys(i for s in (*plans, *people) for i in s), start=1)}
     mine, theirs = (["".join(codes[i] for i in sequence) for sequence in group] for group in (plans, people))
     similar = process.cdist(mine, theirs, scorer=Levenshtein.normalized_similarity, dtype=np.float64)
-    ends = {sequence: _changed(sequence, world) for sequence in dict.fromkeys((*plans, *people))}
+    ends = {sequence: changed(sequence) for sequence in dict.fromkeys((*plans, *people))}
     same = np.array([[_alike(ends[plan], ends[other]) for other in people] for plan in plans], dtype=np.float64)
     shape = len(plans), len(people)
     return np.stack([np.reshape(similar, shape), np.reshape(same, shape)])

@@ -129,9 +129,12 @@ class Ranked:
         number = {plan: place for place, plan in enumerate(plans)}
         proposed = {name: tuple(number[plan] for plan in dict.fromkeys(own)) for name, own in made.items()}
         people = [tuple(i for own in sequence for i in own) for sequence in drawn]
+        theirs = [other.gold for other in near]
+        scorer = data.scorer(example.environment)
+        scorer.prepare((*plans, *people, *theirs))  # with another task in between, changes could not be compared
         under = {
-            "drawn": _mean(similarities(plans, people, world), np.ones(len(people))),
-            "neighbours": _mean(similarities(plans, [other.gold for other in near], world), likeness**SHARPNESS),
+            "drawn": _mean(similarities(plans, people, scorer.changed), np.ones(len(people))),
+            "neighbours": _mean(similarities(plans, theirs, scorer.changed), likeness**SHARPNESS),
         }
         usual = float(np.mean([len(sequence) for sequence in people])) if people else 0.0
         return Candidates(tuple(plans), proposed, _features(plans, proposed, under, usual))
