@@ -83,7 +83,7 @@ _ALL = (
     _item(capped_bottle, "capped_bottle", (0.06, 0.06, 0.21), "dark_green", "yellow", 0.4),
     _item(strapped, "strapped", (0.3, 0.26, 0.15), "terracotta", "cream", 0.3),
     _item(remote, "remote", (0.16, 0.05, 0.026), "black", "grey", 0.1, (("button", 6),)),
-    _item(sack, "sack", (0.25, 0.17, 0.12), "dark_grey", "yellow", 0.15),
+    _item(sack, "sack", (0.25, 0.27, 0.12), "dark_grey", "yellow", 0.15),
     _part("plain_part", (0.05, 0.05, 0.05), "grey", "grey"),
     _part("door", (0.02, 0.5, 0.5), "sage", "dark_steel"),
     _part("latched_door", (0.02, 0.5, 0.5), "steel", "dark_steel"),

@@ -131,17 +131,22 @@ def remote(model: UrdfModel, look: Appearance, parts: Parts) -> None:
 
 
 def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
-    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear in front."""
+    """A garbage bag with a stiff rim and a flap: things go in while it is open; carried by an ear at either side.
+
+    At the sides, for the flap's tab is in front: one hand holds the bag, and the other lifts the tab.
+    """
     depth, width, height = look.size
     ear = 0.05
-    x, y, rim = depth / 2 - ear / 2, width / 2, height - 0.012
+    x, y, rim = depth / 2, width / 2 - ear, height - 0.012
     model.slab((-x, -y, 0.0), (x, y, 0.008), look.colour)
     for side in (-1, 1):
         model.box((0.0, side * (y - 0.004), rim / 2), (2 * x, 0.008, rim), look.colour)
-        model.box((side * (x - 0.004), 0.0, rim / 2), (0.008, width - 0.016, rim), look.colour)
-    level = rim * 0.6
-    model.slab((x - 0.002, -0.011, level - 0.008), (x + ear, 0.011, level + 0.008), look.accent)
-    bar_grasps(model, [(x + ear - 0.016, 0.0, level)], 0.022)
+        model.box((side * (x - 0.004), 0.0, rim / 2), (0.008, 2 * y - 0.016, rim), look.colour)
+    level, slant = rim * 0.6, math.sqrt(0.5)
+    for side in (-1.0, 1.0):
+        model.box((0.0, side * (y + ear / 2), level), (0.022, ear + 0.004, 0.016), look.accent)
+        for across, down in ((0.0, 1.0), (1.0, 0.0), (slant, slant)):
+            grasp(model, (0.0, side * (y + ear - 0.016), level), (0.0, -side * across, -down), (1.0, 0.0, 0.0), 0.022)
     model.region("in", (-x + 0.008, -y + 0.008, 0.008), (x - 0.008, y - 0.008, height + 0.15), (0.0, 0.0, -1.0),
                  [(-0.055, 0.0, 0.0), (0.055, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 0.0, 1.57)],
                  overhang=math.inf, heap=True)  # fmt: skip

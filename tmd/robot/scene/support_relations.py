@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import Protocol
 
 from tmd.robot.assets.features import Opening, Region
@@ -18,6 +19,10 @@ GAP = 0.05
 """Between two items that stand side by side, at least."""
 HEAP_GAP = 0.01
 """The same in a basket or a bag, which nothing is to be taken out of in order."""
+TIGHT_GAP = 0.02
+"""The same where no spot of a region has :data:`GAP` around it: hands get in from above still."""
+PITCH = 0.03
+"""Between the places that are tried then, all over the region."""
 APART = 0.15
 """Between spots that count as different."""
 _TOUCH = 0.004
@@ -113,6 +118,9 @@ def free_spots(
                 heaped += (Spot(pose) for pose in _heaped(things, taken, own, near, high))
             if free:
                 break
+        else:
+            if not region.heap:
+                spots += map(Spot, _squeezed_in(frame, region, own, near))
     # beside what lies in a heap there may be room for a thing, and none for the hand
     return _spread(spots) + _spread(sorted(heaped, key=lambda spot: spot.pose.position[2]))
 
@@ -143,6 +151,21 @@ def _fitting(frame: Pose, region: Region, turned: float, own: Footprint) -> list
     """The spots of a region in which a thing does not stick out."""
     poses = [frame * Pose.flat(x, y, z, yaw + turned) for x, y, z, yaw in region.spots]
     return [pose for pose in poses if inside(pose, own, region.low, region.high, frame, region.overhang)]
+
+
+def _squeezed_in(frame: Pose, region: Region, own: Footprint, near: Mapping[str, tuple[Pose, Footprint]]) -> list[Pose]:
+    """Where there is just room between what stands there, the nearest to the front first."""
+    across, deep = (int((region.high[axis] - region.low[axis]) / PITCH) for axis in (1, 0))
+    places = [
+        (region.high[0] - PITCH * row, region.low[1] + PITCH * column)
+        for row, column in product(range(deep + 1), range(across + 1))
+    ]
+    for turned in TURNS:
+        poses = [frame * Pose.flat(x, y, region.low[2], turned) for x, y in places]
+        fitting = [pose for pose in poses if inside(pose, own, region.low, region.high, frame, region.overhang)]
+        if free := [pose for pose in fitting if all(apart(pose, own, *at, TIGHT_GAP) for at in near.values())]:
+            return free
+    return []
 
 
 def _heaped(

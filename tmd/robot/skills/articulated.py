@@ -236,7 +236,7 @@ def _pull(cell: Cell, name: str, handle: Handle, option: Option) -> None:
         with cell.pushed(side, handle):
             follow(cell, side, option.poses[2:], option.ignore)
         return
-    if handle.kind == "lid":  # on a thing that nothing holds: the fingers stand round its edge and do not press
+    if cell.loose(handle):  # the fingers stand round its edge and do not press
         if cell.gap(side, name) > ARTICULATION.lid_gap:
             raise SkillError(SkillPhase.CONTACT, f"the {side} hand is {100 * cell.gap(side, name):.1f} cm from {name}")
     else:

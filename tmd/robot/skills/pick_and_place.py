@@ -13,6 +13,7 @@ from tmd.robot.assets.features import Frame, Grasp
 from tmd.robot.assets.fittings import DOWN, INTO, TIP
 from tmd.robot.parameters import CONTACT, GRASP, MOTOR
 from tmd.robot.sim.pose import Pose, Vector
+from tmd.robot.skills.bimanual import reach_for
 from tmd.robot.skills.results import SkillError, SkillPhase
 from tmd.robot.skills.robot_context import Cell
 from tmd.robot.skills.stance_search import Links, Option, follow, reach, with_room
@@ -262,6 +263,10 @@ def _reach_best(
     Raises:
         SkillError: As :func:`tmd.robot.skills.stance_search.reach`.
     """
+    if cell.side_of(cell.whole(target)) is not None:  # into what is in the other hand, which holds it out
+        side = options[0].side
+        reach_for(cell, target, lambda: _into(cell, side, item, target, relation), focus, attempt, stop=2)
+        return
     fitting = with_room(cell, options)
     again = _to_be_taken_again(cell, item, fitting, cell.scene.entry(target, relation)) or fitting
     away = [
@@ -275,6 +280,12 @@ def _reach_best(
                 raise
         else:
             return
+
+
+def _into(cell: Cell, side: str, item: str, target: str, relation: str) -> list[Option]:
+    """The ways to put an item down as things are held now."""
+    below, others = place_options(cell, side, item, target, relation)
+    return [*below, *others]
 
 
 def place_options(cell: Cell, side: str, item: str, target: str, relation: str) -> tuple[list[Option], list[Option]]:

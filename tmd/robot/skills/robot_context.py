@@ -207,6 +207,10 @@ class Cell:
         """What an item stands on, in or next to; ``None`` for what is not an item."""
         return self.scene.supported(item) if self.scene.is_item(item) else None
 
+    def loose(self, handle: Handle) -> bool:
+        """Whether it is the lid of a thing that nothing holds: a hand that presses would move the thing."""
+        return handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
+
     def is_open(self, name: str) -> bool | None:
         """Whether a door, a drawer or a lid is open; ``None`` where it has none, or is neither open nor shut."""
         handle = self.scene.handle(name)
@@ -340,8 +344,7 @@ class Cell:
         palm = self.robot.index[f"{side[0]}_gripper_palm_link"]
         apart = (-GRASP.knob_pin_offset, GRASP.knob_pin_offset) if handle.kind == "knob" else (0.0,)
         points = [self.robot.tool(side).apply((0.0, y, 0.0)) for y in apart]
-        loose = handle.kind == "lid" and self.scene.is_item(self.scene.owner(handle.body) or "")
-        force = GRASP.lid_force if loose else WELD_FORCE
+        force = GRASP.lid_force if self.loose(handle) else WELD_FORCE
         pins = [self.sim.pin(self.robot.body, palm, handle.body, handle.index, point, force) for point in points]
         try:
             yield
