@@ -12,17 +12,20 @@ from dataclasses import replace
 from pathlib import Path
 
 from tmd.evaluation.sentence_tests import Outcome, SentenceTest, judge, read_sentences, summary
+from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
-from tmd.ground import TaskPlanners, infer
+from tmd.goals.tables import goal_tables
+from tmd.ground import infer, restoration_of
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, count, named_weights
-from tmd.inference.learned import Knowledge, known
 from tmd.inference.policy import Policy
+from tmd.knowledge import Knowledge, known
 from tmd.language import parse
 from tmd.language.clause import Clause, Mood, Parsed
 from tmd.pddl.validator import validate
-from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
+from tmd.readers.rules import RuleDialogue
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import find_domain, find_problems
 
@@ -81,13 +84,16 @@ class Domain:
         parsed = change(parse(test.text, self.corpus.lexicon))
         energy = Energy(named_weights(config.weights), count(library), world, akin=config.akin)
         policy = Policy(self.knowledge.reward, world) if self.knowledge.reward is not None else None
-        planners = TaskPlanners(world.task, make(IN_PROCESS, world.task, cap=config.cap), IN_PROCESS, config)
+        planners = TaskPlanners(world.task, make(IN_PROCESS, world.task, cap=config.cap), IN_PROCESS, config.cap)
         goals = self.knowledge.goals
-        found = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals)
+        tables = goal_tables(library.lexicon, world.task.problem.domain, goals, config.sources)
+        dialogue = RuleDialogue(parsed, GoalReader(world, tables, library.lexicon), world.task.init)
+        restoration = restoration_of(goals, config)
+        found = infer(dialogue, world, library, energy, planners, config, policy=policy, restoration=restoration)
         verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in found.plans)
         plans = found.plans if parsed.clauses else ()
         return Grounded(
-            parsed, plans, verdicts[: len(plans)], found.refusals, (), world, library, config, found.refused
+            dialogue, plans, verdicts[: len(plans)], found.rejected, (), world, library, config, found.refused
         )
 
 

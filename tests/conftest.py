@@ -24,7 +24,8 @@ if "PYTEST_XDIST_WORKER" not in os.environ:
 import pytest
 from hypothesis import settings
 
-from tmd.inference.learned import cache_directory, digest, known, place, recall, save
+from tmd.files import cache_directory
+from tmd.knowledge import digest, known, place, recall, save
 from tmd.planning.search import numba_build
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
@@ -93,7 +94,7 @@ def _learn(name: str, root: Path, kept: Path) -> None:
         for directory in (kept, root):
             if recall(corpus, place(corpus, directory)) is None:
                 save(known(corpus, kept), corpus, place(corpus, directory))
-        cache = cache_directory()
+        cache = cache_directory("learned")
         assert cache is not None
         shutil.copytree(place(corpus, root), cache / name / digest(corpus)[:DIGITS], dirs_exist_ok=True)
     finally:

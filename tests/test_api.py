@@ -14,7 +14,9 @@ import tmd
 import tmd.api
 from tmd.domain_kit import DomainKit, orders_of
 from tmd.export.formats import FORMATS
-from tmd.language import Lexicon, Parsed, parse
+from tmd.pddl.task import Bits
+from tmd.readers.rules import ClauseDialogue, RuleReader
+from tmd.veil.world import World
 
 ROOT = Path(__file__).resolve().parents[1]
 BLOCKS = ROOT / "tests" / "pddl" / "cases" / "blocks"
@@ -77,12 +79,16 @@ def test_environments_become_problems(tmp_path: Path) -> None:
         kitchen.problem("kitchen3", goal="(found pr2 cup99)")
 
 
-def test_another_parser_may_read_the_text() -> None:
-    def elliptic(text: str, lexicon: Lexicon | None = None) -> Parsed:
-        """It reads orders without a verb, such as "book on the table"."""
-        return parse(f"Put the {text}.", lexicon)
+def test_another_reader_may_read_the_request() -> None:
+    class Telegraphic(RuleReader):
+        """It reads requests such as "book table"."""
 
-    grounded = tmd.load_domain("02_table").ground("book on the table", "corner1", parser=elliptic)
+        def begin(self, request: str, world: World, state: Bits) -> ClauseDialogue:
+            item, place = request.split()
+            return super().begin(f"Put the {item} on the {place}.", world, state)
+
+    kit = tmd.load_domain("02_table")
+    grounded = kit.ground("book table", "corner1", reader=Telegraphic(kit.lexicon))
     assert [str(i) for i in grounded.plans[0].instructions][-1] == "keep(book1, table1, on)"
 
 

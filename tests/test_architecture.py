@@ -18,8 +18,9 @@ LAYERS = (
     ("world", "planning", "format"),
     ("veil", "datasets", "robot"),
     ("goals",),
+    ("readers",),
     ("inference",),
-    ("grounded",),
+    ("knowledge", "grounded"),
     ("records",),
     ("ground", "export"),
     ("view", "evaluation"),
@@ -100,6 +101,11 @@ def module_of(path: Path) -> str:
 
 
 MODULE_NAMES = {module_of(path) for path in MODULES}
+
+
+def test_inference_knows_neither_grammar_nor_lexicon() -> None:
+    found = {(path.name, name) for path in (PACKAGE / "inference").rglob("*.py") for name in imported(path)}
+    assert not {pair for pair in found if package(pair[1]) in ("language", "goals")}
 
 
 def test_no_modules_import_one_another() -> None:

@@ -7,7 +7,7 @@ Anything else that reaches the command line is a fault of the program (exit code
 from __future__ import annotations
 
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import IntEnum, StrEnum
 
 
 class ExitCode(IntEnum):
@@ -44,6 +44,37 @@ class ExitCode(IntEnum):
     """A fault of tmd itself."""
     INTERRUPTED = 130
     """Stopped by the user."""
+
+
+class RefusalKind(StrEnum):
+    """Kinds of reasons for which a request has no plan."""
+
+    NO_SUCH_THING = "no-such-thing"
+    IMPOSSIBLE = "impossible"
+    UNKNOWN_VERB = "unknown-verb"
+    NOT_UNDERSTOOD = "not-understood"
+    CONDITION = "condition"
+    CONTRADICTION = "contradiction"
+    UNSAFE = "unsafe"
+    NO_REQUEST = "no-request"
+    GAVE_UP = "gave-up"
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """The reason for which a request, or a part of it, has no goal or no plan.
+
+    It is a result, not an error.
+
+    Attributes:
+        kind: The kind of reason.
+        message: The reason, in one line.
+        hint: What to say or do instead.
+    """
+
+    kind: RefusalKind
+    message: str
+    hint: str | None = None
 
 
 @dataclass(frozen=True, slots=True, order=True)

@@ -9,17 +9,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from tmd.diagnostics import TmdError
+from tmd.ground import Ask
 from tmd.ground import ground as ground_text
 from tmd.grounded import Grounded
 from tmd.inference.config import DEFAULT, preset
 from tmd.inference.energy import Weights, named_weights, read_weights
-from tmd.inference.learned import Knowledge, known
+from tmd.knowledge import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.parser import ClauseParser, parse
 from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
+from tmd.readers.interface import Reader
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World, make_world
 
@@ -87,7 +88,8 @@ class DomainKit:
         weights: str | Path | None = None,
         beam: int | None = None,
         trim: int | None = None,
-        parser: ClauseParser = parse,
+        reader: Reader | None = None,
+        ask: Ask | None = None,
     ) -> Grounded:
         """Ground a text in an environment, as ``tmd ground`` does.
 
@@ -101,7 +103,8 @@ class DomainKit:
             weights: The factors' weights, by name or file, or ``learned``; the model's own by default.
             beam: How many states to follow from clause to clause, 0 for all; what the model says by default.
             trim: How many leading instructions of a template may be dropped; what the model says by default.
-            parser: What reads the text.
+            reader: The reader; by default the offline reader of grammar and lexicon.
+            ask: Asks the user where two readings differ; without it the likeliest is taken.
 
         Returns:
             The clauses that were understood, the plans (cheapest first), what the validator says of each, and what of
@@ -125,7 +128,8 @@ class DomainKit:
             config=config,
             planner=planner,
             top=top,
-            parser=parser,
+            reader=reader,
+            ask=ask,
         )
 
     def run_plan(

@@ -100,6 +100,21 @@ def make_directory(path: str | Path) -> Path:
     return target
 
 
+def cache_directory(name: str) -> Path | None:
+    """Return a directory of the user's cache; ``None`` where there can be none.
+
+    It is in ``$XDG_CACHE_HOME``, if that is an absolute path, or else in ``.cache`` of a home directory that exists.
+    """
+    given = Path(os.environ.get("XDG_CACHE_HOME", ""))
+    if given.is_absolute():
+        return given / "tmd" / name
+    try:
+        home = Path.home()
+    except RuntimeError:
+        return None
+    return home / ".cache" / "tmd" / name if home.is_absolute() and home.is_dir() else None
+
+
 def check_writable(path: str | Path) -> None:
     """Refuse a file that cannot be written, before minutes are spent on what goes there.
 

@@ -1,4 +1,4 @@
-"""The main path: what a person says, and a world, become ranked plans that PDDL vouches for.
+"""The main path: turn a request and an environment into ranked, validated plans.
 
 Read this first; each call goes to the package of that name (the boxes of Figure 3 of the paper)::
 
@@ -11,32 +11,37 @@ Read this first; each call goes to the package of that name (the boxes of Figure
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from weakref import WeakKeyDictionary
 
-from tmd.goals.sources.table import GoalTable
-from tmd.goals.text_following import Follower, goal_reader
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.sources.table import LEARNED, GoalTable
 from tmd.grounded import Grounded
-from tmd.inference.algorithm1 import Inference
 from tmd.inference.bayes_risk import PLANS, decided
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.inference.energy import Energy, Weights, count, named_weights
-from tmd.inference.goal_directed import GoalInference
+from tmd.inference.engine import Inference
+from tmd.inference.forward_pass import Planners, Restoration
 from tmd.inference.policy import Policy, Reward
 from tmd.inference.proposers import SequenceModel, proposers_of
 from tmd.inference.ranking import Inferred
-from tmd.language.clause import Clause, Parsed
-from tmd.language.parser import ClauseParser, parse
-from tmd.pddl.task import Task
+from tmd.pddl.model import Formula
 from tmd.pddl.validator import validate
-from tmd.planning.backends import IN_PROCESS, last_resort, make
+from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.gap_filler import GapFiller
 from tmd.planning.result import Planner
+from tmd.readers.interface import Dialogue, Question, Reader
+from tmd.readers.rules import RuleReader
 from tmd.veil.library import Library
 from tmd.veil.world import World
 
+Ask = Callable[[Question], int | None]
+"""Asks the user a question; returns the number of the option, or ``None`` where there is no answer."""
+
 
 def ground(
-    text: str,
+    request: str,
     world: World,
     library: Library,
     weights: Weights | None = None,
@@ -46,44 +51,122 @@ def ground(
     config: InferenceConfig = PRESETS[DEFAULT],
     planner: str = IN_PROCESS,
     top: int = 1,
-    parser: ClauseParser = parse,
+    reader: Reader | None = None,
+    ask: Ask | None = None,
 ) -> Grounded:
-    """Ground ``text`` in ``world``.
+    """Ground ``request`` in ``world``.
 
     Args:
-        text: What the person said.
+        request: The user's words.
         world: The environment.
         library: The templates.
-        weights: What each factor counts for; those of the model where none are given.
-        reward: What the policy was learned to be; without it the model has none.
-        goals: What verbs were learned to mean, beside what the lexicon declares.
-        config: The model.
-        planner: Which planner fills in what was left unsaid.
-        top: How many distinct plans are wanted.
-        parser: What reads the text.
+        weights: The weights of the factors; by default those of the preset.
+        reward: The learned policy; without it the preset has none.
+        goals: The goals that demonstrations teach, beside those that the lexicon declares.
+        config: The preset.
+        planner: The planner that fills in what was left unsaid.
+        top: The number of distinct plans.
+        reader: The reader; by default the offline reader of grammar and lexicon.
+        ask: Asks the user where two readings differ; without it the likeliest is taken.
 
     Raises:
-        TmdError: The planner is unknown or not installed, or the lexicon declares something that is wrong.
+        TmdError: The planner is unknown or not installed, the reader cannot work, or the lexicon is wrong.
     """
-    parsed = parser(text, library.lexicon)
+    reader = reader or reader_of(config, library, goals)
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
-    planners = TaskPlanners(world.task, _quick(planner, world, config.cap), planner, config)
-    inferred = infer(parsed, world, library, energy, planners, config, policy=policy, goals=goals, top=top)
-    unseen = tuple(dict.fromkeys(c.verb for c in parsed.clauses if not library.propose(c)))
-    known = config.goals or len(unseen) < len(parsed.clauses)
-    forbids = any(not (clause.result or clause.implied) for clause in parsed.constraints)
-    asked = known and (parsed.clauses or forbids)  # to be told only what not to do asks for nothing
-    plans = tuple(plan for plan in inferred.plans if plan.instructions or asked)
+    planners = TaskPlanners(world.task, _quick(planner, world, config.cap), planner, config.cap)
+    restoration = restoration_of(goals, config)
+
+    def inferred(dialogue: Dialogue, chosen: Mapping[int, Formula]) -> Inferred:
+        return infer(
+            dialogue,
+            world,
+            library,
+            energy,
+            planners,
+            config,
+            policy=policy,
+            restoration=restoration,
+            top=top,
+            chosen=chosen,
+        )
+
+    dialogue = reader.begin(request, world, world.task.init)
+    found, question = _asked(dialogue, inferred, ask)
+    while (objection := _objection(reader, dialogue, found, world)) is not None:
+        again = reader.revise(dialogue, objection.message)
+        if again is None:
+            number = found.refused[0] if found.refused is not None else 0
+            found = replace(found, plans=(), refused=(number, objection))
+            break
+        dialogue = again
+        found, question = _asked(dialogue, inferred, ask)
+    unseen = tuple(dict.fromkeys(c.verb for c in dialogue.clauses if not library.propose(c)))
+    known = config.goals or len(unseen) < len(dialogue.clauses)
+    plans = tuple(plan for plan in found.plans if plan.instructions or (known and dialogue.asks))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
-    return Grounded(parsed, plans, verdicts, inferred.refusals, unseen, world, library, config, inferred.refused)
+    return Grounded(
+        dialogue,
+        plans,
+        verdicts,
+        found.rejected,
+        unseen,
+        world,
+        library,
+        config,
+        found.refused,
+        question if plans else None,
+    )
+
+
+def reader_of(config: InferenceConfig, library: Library, goals: GoalTable | None) -> RuleReader:
+    """Return the offline reader of a preset; its dialogues have no goals where the preset has none."""
+    sources = config.sources if config.goals else None
+    return RuleReader(library.lexicon, goals, sources=sources, guess=config.guess)
+
+
+def restoration_of(goals: GoalTable | None, config: InferenceConfig) -> Restoration:
+    """Return what people undo unasked, as demonstrations show it."""
+    if goals is None or LEARNED not in config.sources:
+        return Restoration()
+    at_once, at_the_end = (
+        frozenset((p.predicate, p.kind) for p in goals.put_back if p.at_once == once) for once in (True, False)
+    )
+    return Restoration(at_once, at_the_end)
+
+
+def _asked(
+    dialogue: Dialogue, inferred: Callable[[Dialogue, Mapping[int, Formula]], Inferred], ask: Ask | None
+) -> tuple[Inferred, Question | None]:
+    """Return the plans, after asking every question that can be answered, and the question that was not answered."""
+    chosen: dict[int, Formula] = {}
+    while True:
+        found = inferred(dialogue, chosen)
+        question = next((q for q in (dialogue.question, found.question) if q and q.step not in chosen), None)
+        if question is None or not found.plans or ask is None:
+            return found, question
+        answer = ask(question)
+        if answer is None:
+            return found, question
+        chosen[question.step] = question.options[answer].formula
+
+
+def _objection(reader: Reader, dialogue: Dialogue, found: Inferred, world: World) -> Refusal | None:
+    """Return why the plans of a dialogue are not acceptable, where the reader may do better."""
+    if found.refused is not None:
+        refusal = found.refused[1]
+        proven = refusal.kind in (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION)
+        return refusal if proven and dialogue.refusal is None else None
+    objection = reader.objection(dialogue, found.plans[0].instructions, world) if found.plans else None
+    return None if objection is None else Refusal(RefusalKind.NOT_UNDERSTOOD, objection)
 
 
 _FILLERS: WeakKeyDictionary[World, dict[int, GapFiller]] = WeakKeyDictionary()
 
 
 def _quick(name: str, world: World, cap: int) -> Planner:
-    """The planner for gaps: what the one in this process derives of an environment serves every text in it."""
+    """Return the planner for gaps; the in-process planner is cached for each environment."""
     if name != IN_PROCESS:
         return make(name, world.task, cap=cap)
     known = _FILLERS.setdefault(world, {})
@@ -94,70 +177,24 @@ def _quick(name: str, world: World, cap: int) -> Planner:
 
 
 def infer(
-    parsed: Parsed,
+    dialogue: Dialogue,
     world: World,
     library: Library,
     energy: Energy,
-    planners: TaskPlanners,
+    planners: Planners,
     config: InferenceConfig,
     *,
     policy: SequenceModel | None = None,
-    goals: GoalTable | None = None,
+    restoration: Restoration | None = None,
     top: int = 1,
+    chosen: Mapping[int, Formula] | None = None,
 ) -> Inferred:
-    """The plans for clauses, here and in the experiments: Algorithm 1, with goals where the model has them."""
-    wanted = max(top, PLANS) if config.samples and policy is not None else top
-    found = _least_energy(parsed, world, library, energy, planners, config, policy, goals, wanted)
-    if not config.samples or policy is None:
-        return found
-    return decided(found, parsed.clauses, world, policy, planners.quick(world.task), config, top)
-
-
-def _least_energy(
-    parsed: Parsed,
-    world: World,
-    library: Library,
-    energy: Energy,
-    planners: TaskPlanners,
-    config: InferenceConfig,
-    policy: SequenceModel | None,
-    goals: GoalTable | None,
-    top: int,
-) -> Inferred:
+    """Return the plans for a request as it was read, here and in the experiments."""
+    by_risk = config.samples > 0 and policy is not None
     proposers = proposers_of(config, world, library, energy, policy)
-    if not config.goals:
-        inference = Inference(world, energy, planners.quick(world.task), proposers, config)
-        return inference.infer(parsed.clauses, world.task.init, top)
-    reader = goal_reader(world, library.lexicon, goals, sources=config.sources, guess=config.guess)
-    follower = Follower(reader)
-
-    def shown(clause: Clause) -> bool:
-        return bool(library.propose(clause))
-
-    directed = GoalInference(world, energy, proposers, config, follower, planners.quick, planners.resort, shown)
-    return directed.infer(parsed, world.task.init, top)
-
-
-class TaskPlanners:
-    """Planners for an environment, and for it without what must not be done.
-
-    Args:
-        task: The environment.
-        quick: Its planner for gaps.
-        name: The name of that planner.
-        config: The model.
-    """
-
-    def __init__(self, task: Task, quick: Planner, name: str, config: InferenceConfig) -> None:
-        self._task = task
-        self._quick = quick
-        self._name = name
-        self._config = config
-
-    def quick(self, task: Task) -> Planner:
-        """The planner for gaps."""
-        return self._quick if task is self._task else make(self._name, task, cap=self._config.cap)
-
-    def resort(self, task: Task) -> Planner:
-        """The planner for what that one gave up on."""
-        return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
+    inference = Inference(world, energy, planners, proposers, config, restoration)
+    found = inference.infer(dialogue, world.task.init, max(top, PLANS) if by_risk else top, chosen)
+    if not by_risk:
+        return found
+    assert policy is not None
+    return decided(found, dialogue.clauses, world, policy, planners.quick(world.task), config, top)

@@ -1,4 +1,4 @@
-"""A grounded text: its plans, and what whoever gets them is to be told of words that could not be used."""
+"""The result of grounding: plans, and warnings about words that could not be used."""
 
 from __future__ import annotations
 
@@ -6,12 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from tmd.goals.clause_goal import Refused
+from tmd.diagnostics import Refusal
 from tmd.inference.config import InferenceConfig
-from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.inference.ranking import RankedPlan, RejectedProposal
 from tmd.language.clause import Parsed
 from tmd.language.lexicon.nouns import WORDNET
 from tmd.pddl.validator import Verdict
+from tmd.readers.interface import Dialogue, Question, Usage
 from tmd.veil.library import Library
 from tmd.veil.world import World
 
@@ -23,29 +24,41 @@ _SHOWN = 3
 
 @dataclass(frozen=True, slots=True)
 class Grounded:
-    """A grounded text.
+    """A grounded request.
 
     Attributes:
-        parsed: The clauses, and what of the text no clause accounts for.
+        dialogue: The request as it was read.
         plans: The plans, cheapest first; empty where nothing could be grounded.
-        verdicts: For each plan what the validator says of it.
-        refusals: Candidates that cannot be executed here, and why.
+        verdicts: The validator's verdict on each plan.
+        rejected: Proposals that cannot be executed here, and why.
         unseen: The verbs that no demonstration has, in order of mention.
         world: The environment.
         library: The templates.
-        config: The model.
-        refused: Why there is no plan for what was said, after the number of the clause where that showed.
+        config: The preset.
+        refused: Why there is no plan, after the number of the clause where that showed.
+        question: A question to the user that was not answered; the plans are for its first option.
     """
 
-    parsed: Parsed
+    dialogue: Dialogue
     plans: tuple[RankedPlan, ...]
     verdicts: tuple[Verdict, ...]
-    refusals: tuple[Refusal, ...]
+    rejected: tuple[RejectedProposal, ...]
     unseen: tuple[str, ...]
     world: World
     library: Library
     config: InferenceConfig
-    refused: tuple[int, Refused] | None = None
+    refused: tuple[int, Refusal] | None = None
+    question: Question | None = None
+
+    @property
+    def parsed(self) -> Parsed:
+        """The clauses, and the pieces of text that none of them covers."""
+        return self.dialogue.parsed
+
+    @property
+    def usage(self) -> Usage | None:
+        """The effort of the language model; ``None`` where none was asked."""
+        return self.dialogue.usage
 
     @property
     def unknown(self) -> tuple[str, ...]:
@@ -60,7 +73,7 @@ class Grounded:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What was said and could not be used, or only by a guess: each once, in a line."""
+        """The words that could not be used, or only by a guess, and what else to know of the reading; a line each."""
         guessed = [*self._likened()] if self.config.guess or not self.config.goals else []
         if self.refused is not None or any(plan.goals for plan in self.plans):
             told = [*self._left_out(), *(guessed if self.plans else ())]
@@ -73,6 +86,7 @@ class Grounded:
                 ),
                 *guessed,
             ]
+        told = [*self.dialogue.notes, *told]
         return tuple(dict.fromkeys(told))
 
     @property
@@ -89,7 +103,7 @@ class Grounded:
             return f"the text has no instruction{said}; say what is to be done: take the cup"
         if {clause.verb for clause in parsed.clauses} <= set(self.unseen):
             return "no demonstration has any of its verbs; use other words, or add demonstrations"
-        clause = max((refusal.clause for refusal in self.refusals), default=0)
+        clause = max((each.clause for each in self.rejected), default=0)
         text = " ".join(parsed.clauses[clause].text.split())
         return f'clause {clause + 1}, "{text}", cannot be done here: {self._reasons(clause)}'
 
@@ -125,9 +139,9 @@ class Grounded:
     def _reasons(self, clause: int) -> str:
         """Why the templates for a clause were refused: the most frequent reasons first."""
         counts: dict[str, int] = {}
-        for refusal in self.refusals:
-            if refusal.clause == clause:
-                counts[refusal.reason] = counts.get(refusal.reason, 0) + 1
+        for each in self.rejected:
+            if each.clause == clause:
+                counts[each.reason] = counts.get(each.reason, 0) + 1
         told = sorted(counts, key=lambda reason: (-counts[reason], reason))
         more = f"; and {len(told) - _SHOWN} other reasons" if len(told) > _SHOWN else ""
         return "; ".join(told[:_SHOWN]) + more

@@ -23,8 +23,8 @@ from inference_growth import ENVIRONMENT, with_spoons
 
 from tmd.ground import ground
 from tmd.inference.config import PRESETS
-from tmd.inference.learned import library_from_json, library_to_json
 from tmd.inference.policy import Reward, learn_policy
+from tmd.knowledge import library_from_json, library_to_json
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import Library, learn

@@ -13,7 +13,7 @@ import pytest
 
 from tests.cli.conftest import ROOT, Ended, Tmd
 from tmd.diagnostics import ExitCode
-from tmd.inference.learned import MANIFEST, Knowledge, place, recall, save, study
+from tmd.knowledge import MANIFEST, Knowledge, place, recall, save, study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 

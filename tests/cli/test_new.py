@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from tests.cli.conftest import ROOT, Tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.evaluation.sentence_tests import read_sentences
-from tmd.inference.learned import study
+from tmd.knowledge import study
 from tmd.language.lexicon.file import read_lexicon
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder

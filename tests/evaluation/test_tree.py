@@ -110,7 +110,7 @@ def said(tree: InstructionTree, data: Kitchens, text: str, environment: str = "k
 
 
 def prepared(data: Kitchens, examples: Sequence[Example]) -> tuple[Features, list[Made]]:
-    found = study((e.demonstration for e in examples), data.world, data.lexicon)
+    found = study((e.demonstration for e in examples), data.world)
     syntax = learn_syntax([(x.things, [made for _, made in x.clauses]) for x in found], certain=0.95, cover=0.99)
     features = number_features(found, syntax, grounded=True)
     menus = {x.things: Menu(features, x.things, syntax.menu(x.things)) for x in found}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tests.goals.conftest import end, goals, hot, said, steps
-from tmd.goals.reading.goal_reader import Why
+from tmd.diagnostics import RefusalKind as Kind
 
 # environment, text, the goals of the steps, the steps
 DONE = [
@@ -97,59 +97,113 @@ def test_a_text_has_goals_and_a_plan_that_reaches_them(where: str, text: str, wa
 
 
 REFUSED = [
-    ("02_table/corner1", "Put the unicorn on the table.", 0, Why.NO_SUCH_THING, "nothing here is called 'unicorn'"),
-    ("04_tea/pantry1", "Put the sugar in the cup.", 0, Why.NO_SUCH_THING, "nothing here is called 'sugar'"),
-    ("02_table/corner2", "Put all the unicorns on the table.", 0, Why.NO_SUCH_THING, "unicorn"),
+    (
+        "02_table/corner1",
+        "Put the unicorn on the table.",
+        0,
+        Kind.NO_SUCH_THING,
+        "nothing here is called 'unicorn'",
+    ),
+    ("04_tea/pantry1", "Put the sugar in the cup.", 0, Kind.NO_SUCH_THING, "nothing here is called 'sugar'"),
+    ("02_table/corner2", "Put all the unicorns on the table.", 0, Kind.NO_SUCH_THING, "unicorn"),
     (
         "02_table/corner2",
         "Put two cups on the shelf.",
         0,
-        Why.NO_SUCH_THING,
+        Kind.NO_SUCH_THING,
         "only 1 thing here is called 'cup', not 2",
     ),
     (
         "02_table/corner2",
         "Put both cups on the shelf.",
         0,
-        Why.NO_SUCH_THING,
+        Kind.NO_SUCH_THING,
         "only 1 thing here is called 'cup', not 2",
     ),
-    ("03_drawer/study2", "Open three drawers.", 0, Why.NO_SUCH_THING, "only 2 things here are called 'drawer', not 3"),
-    ("kitchen/kitchen1", "Put two eggs in the pot.", 0, Why.NO_SUCH_THING, "only 1 thing here is called 'egg', not 2"),
-    ("kitchen/kitchen1", "Cook two packets of ramen in the pot.", 0, Why.NO_SUCH_THING, "called 'packet', not 2"),
-    ("02_table/corner1", "Polish the cup.", 0, Why.UNKNOWN_VERB, "nobody has shown or declared what 'polish' means"),
-    ("02_table/corner1", "Put the table on the shelf.", 0, Why.IMPOSSIBLE, "table1: it is not of the type item"),
-    ("04_tea/pantry1", "Put the counter in the sink.", 0, Why.IMPOSSIBLE, "counter1: it is not of the type item"),
-    ("01_blocks/yard1", "Put the red block on the red block.", 0, Why.IMPOSSIBLE, "cannot be done here"),
+    (
+        "03_drawer/study2",
+        "Open three drawers.",
+        0,
+        Kind.NO_SUCH_THING,
+        "only 2 things here are called 'drawer', not 3",
+    ),
+    (
+        "kitchen/kitchen1",
+        "Put two eggs in the pot.",
+        0,
+        Kind.NO_SUCH_THING,
+        "only 1 thing here is called 'egg', not 2",
+    ),
+    (
+        "kitchen/kitchen1",
+        "Cook two packets of ramen in the pot.",
+        0,
+        Kind.NO_SUCH_THING,
+        "called 'packet', not 2",
+    ),
+    (
+        "02_table/corner1",
+        "Polish the cup.",
+        0,
+        Kind.UNKNOWN_VERB,
+        "nobody has shown or declared what 'polish' means",
+    ),
+    (
+        "02_table/corner1",
+        "Put the table on the shelf.",
+        0,
+        Kind.IMPOSSIBLE,
+        "table1: it is not of the type item",
+    ),
+    (
+        "04_tea/pantry1",
+        "Put the counter in the sink.",
+        0,
+        Kind.IMPOSSIBLE,
+        "counter1: it is not of the type item",
+    ),
+    ("01_blocks/yard1", "Put the red block on the red block.", 0, Kind.IMPOSSIBLE, "cannot be done here"),
     (
         "03_drawer/study1",
         "Don't open the drawer. Put the pen in the drawer.",
         0,
-        Why.IMPOSSIBLE,
+        Kind.IMPOSSIBLE,
         "(at pen1 desk1_drawer in) cannot be reached",
     ),
-    ("03_drawer/study1", "Open the drawer and leave it closed.", 0, Why.CONTRADICTION, "contradicts what was said"),
-    ("03_drawer/study1", "Leave the key where it is and empty the drawer.", 1, Why.CONTRADICTION, "contradicts"),
+    (
+        "03_drawer/study1",
+        "Open the drawer and leave it closed.",
+        0,
+        Kind.CONTRADICTION,
+        "contradicts what was said",
+    ),
+    (
+        "03_drawer/study1",
+        "Leave the key where it is and empty the drawer.",
+        1,
+        Kind.CONTRADICTION,
+        "contradicts",
+    ),
     (
         "02_table/corner1",
         "If the unicorn is on the table, put the cup on the shelf.",
         0,
-        Why.CONDITION,
+        Kind.CONDITION,
         "the condition 'if the unicorn is on the table': nothing here is called 'unicorn'",
     ),
 ]
 
 
-@pytest.mark.parametrize(("where", "text", "clause", "why", "message"), REFUSED, ids=[r[1] for r in REFUSED])
+@pytest.mark.parametrize(("where", "text", "clause", "kind", "message"), REFUSED, ids=[r[1] for r in REFUSED])
 def test_what_cannot_be_done_is_refused_with_the_reason(
-    where: str, text: str, clause: int, why: Why, message: str
+    where: str, text: str, clause: int, kind: Kind, message: str
 ) -> None:
     domain, environment = where.split("/")
     grounded = said(domain, environment, text)
     assert grounded.plans == ()
     assert grounded.refused is not None
     number, refused = grounded.refused
-    assert (number, refused.why) == (clause, why)
+    assert (number, refused.kind) == (clause, kind)
     assert message in refused.message
     assert "\n" not in refused.message
 
@@ -473,7 +527,7 @@ def test_where_it_cannot_be_done_it_is_not_done_elsewhere(text: str) -> None:
     grounded = said("kitchen", "kitchen1", text)
     assert grounded.plans == ()
     assert grounded.refused is not None
-    assert grounded.refused[1].why is Why.IMPOSSIBLE
+    assert grounded.refused[1].kind is Kind.IMPOSSIBLE
 
 
 def test_an_empty_vessel_is_heated_with_water_alone() -> None:
@@ -539,7 +593,7 @@ def test_questions_and_if_not_are_conditions(text: str, done: bool) -> None:
 def test_whether_there_is_such_a_thing_is_a_question_of_things_that_the_domain_knows() -> None:
     assert steps(said("kitchen", "kitchen3", "If there is a kettle, put the mug in the sink.")) == []
     refused = said("kitchen", "kitchen3", "If there is a dragon, put the mug in the sink.").refused
-    assert refused is not None and refused[1].why is Why.CONDITION
+    assert refused is not None and refused[1].kind is Kind.CONDITION
 
 
 def test_what_is_switched_on_by_the_way_is_switched_off() -> None:
@@ -623,7 +677,7 @@ def test_a_jar_of_coffee_is_one_with_what_coffee_is_made_of() -> None:
 
 def test_what_is_to_stay_so_stays_so_whatever_is_asked_next() -> None:
     refused = said("kitchen", "kitchen5", "Leave the microwave door open and start the microwave like that.")
-    assert not refused.plans and refused.refused and refused.refused[1].why is Why.IMPOSSIBLE
+    assert not refused.plans and refused.refused and refused.refused[1].kind is Kind.IMPOSSIBLE
 
 
 def test_everything_empty_is_what_could_be_full_as_others_of_its_kind_are() -> None:

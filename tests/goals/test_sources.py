@@ -5,12 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 
 from tests.goals.conftest import corpus, pddl
-from tmd.goals.reading.goal_reader import Refused, Why
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.reading.goal_reader import GoalReader
+from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
-from tmd.goals.text_following import Follower, declared_goals, goal_reader
+from tmd.goals.tables import declared_goals, goal_tables
 from tmd.ground import ground
-from tmd.inference.learned import study
+from tmd.knowledge import study
 from tmd.language import parse
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
@@ -47,12 +49,11 @@ def test_only_the_sources_that_are_asked_answer() -> None:
     world = bundled.world("study1")
     clause = parse("Empty the drawer.", bundled.lexicon).clauses[0]
     for sources, known in ((("declared",), True), (("actions",), False)):
-        follower = Follower(goal_reader(world, bundled.lexicon, sources=sources))
-        begun = follower.begin(parse("Empty the drawer.", bundled.lexicon), world.task.init)
-        assert not isinstance(begun, Refused)
-        answer = follower.reader.read(clause, world.task.init, begun[1].memory)
-        assert isinstance(answer, Refused) != known
-        assert not isinstance(answer, Refused) or answer.why is Why.NOT_UNDERSTOOD
+        tables = goal_tables(bundled.lexicon, world.task.problem.domain, sources=sources)
+        reader = GoalReader(world, tables, bundled.lexicon)
+        answer = reader.read(clause, world.task.init, Memory(first=world.task.init))
+        assert isinstance(answer, Refusal) != known
+        assert not isinstance(answer, Refusal) or answer.kind is RefusalKind.NOT_UNDERSTOOD
 
 
 def test_demonstrations_teach_what_verbs_bring_about() -> None:

@@ -15,8 +15,8 @@ from tmd.ground import ground
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import RISK, SAMPLE_SOURCE, expected_losses
 from tmd.inference.config import BAYES_RISK, GOALS, InferenceConfig
-from tmd.inference.learned import Knowledge, study
 from tmd.inference.policy import Policy
+from tmd.knowledge import Knowledge, study
 from tmd.language import parse
 from tmd.pddl.model import Instruction
 from tmd.pddl.validator import validate

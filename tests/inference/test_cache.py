@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 
 import tmd
-from tmd.inference import learned
-from tmd.inference.learned import Knowledge, cache_directory, known, place, save, study
+from tmd import knowledge
+from tmd.files import cache_directory
+from tmd.knowledge import Knowledge, known, place, save, study
 from tmd.veil.corpus import Corpus
 from tmd.world.folder import DomainFolder
 
@@ -44,7 +45,7 @@ def studied(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         found.append(corpus.folder.name)
         return study(corpus, tell)
 
-    monkeypatch.setattr(learned, "study", counted)
+    monkeypatch.setattr(knowledge, "study", counted)
     return found
 
 
@@ -113,7 +114,7 @@ def test_without_a_place_for_it_it_is_learned_all_the_same(
     else:
         monkeypatch.delenv("XDG_CACHE_HOME")
         monkeypatch.setenv("HOME", str(tmp_path / "nowhere"))
-        assert cache_directory() is None
+        assert cache_directory("learned") is None
     assert len(known(table()).library)
     assert len(known(table()).library)
     assert studied == [NAME] * 2
@@ -124,9 +125,9 @@ def test_the_cache_is_where_the_platform_has_it(tmp_path: Path, monkeypatch: pyt
     monkeypatch.setenv("HOME", str(tmp_path))
     for relative in ("", "caches"):
         monkeypatch.setenv("XDG_CACHE_HOME", relative)
-        assert cache_directory() == tmp_path / ".cache" / "tmd" / "learned"
+        assert cache_directory("learned") == tmp_path / ".cache" / "tmd" / "learned"
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "caches"))
-    assert cache_directory() == tmp_path / "caches" / "tmd" / "learned"
+    assert cache_directory("learned") == tmp_path / "caches" / "tmd" / "learned"
 
 
 def test_a_kit_asks_once_what_its_domain_teaches(

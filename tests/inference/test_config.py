@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.goals.text_following import SOURCES
+from tmd.goals.tables import SOURCES
 from tmd.inference.config import DEFAULT, PAPER, PRESETS, preset
 from tmd.inference.energy import OURS, named_weights
 

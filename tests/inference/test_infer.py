@@ -9,16 +9,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER_EXTENDED
 from tmd.inference.energy import NAMES, Energy, Weights, count, named_weights
+from tmd.inference.engine import Inference
 from tmd.inference.proposers import proposers_of
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import get_constraints
 from tmd.pddl.validator import validate
-from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Filled, Planner
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn
@@ -41,7 +41,7 @@ def inference_of(
     config = replace(PAPER_EXTENDED, beam=beam, trim=trim)
     energy = Energy(weights, count(library), world)
     proposers = proposers_of(config, world, library, energy)
-    return Inference(world, energy, filler or make(IN_PROCESS, world.task), proposers, config)
+    return Inference(world, energy, TaskPlanners(world.task, filler or make(IN_PROCESS, world.task)), proposers, config)
 
 
 def library_of(corpus: Corpus, without: str) -> Library:
@@ -143,7 +143,7 @@ def test_unbounded_inference_finds_what_brute_force_finds(kitchen: Corpus, envir
     clauses = parse("Fill the bowl with water. Add the ramen. Wait.", kitchen.lexicon).clauses
     assert len(clauses) == 3
     inference = inference_of(world, library, weights, beam=None, trim=5)
-    (plan,) = inference.infer(clauses, world.task.init).plans
+    (plan,) = inference.infer_clauses(clauses, world.task.init).plans
     assert plan.energy == pytest.approx(brute_force(world, library, weights, clauses, trim=5))
 
 
@@ -159,7 +159,7 @@ TEXTS = [
 def test_every_plan_is_valid_distinct_and_in_order(kitchen: Corpus, environment: str, text: str) -> None:
     world = kitchen.world(environment)
     inference = inference_of(world, library_of(kitchen, environment), EXTENDED, beam=3)
-    plans = inference.infer(parse(text, kitchen.lexicon).clauses, world.task.init, top=4).plans
+    plans = inference.infer_clauses(parse(text, kitchen.lexicon).clauses, world.task.init, top=4).plans
     assert plans
     for plan in plans:
         verdict = validate(world.task.problem, plan.instructions, trace=True)
@@ -181,7 +181,7 @@ def test_the_beam_loses_nothing_that_its_queue_passes_over(kitchen: Corpus) -> N
         ends = []
         for width in (beam, None):
             inference = inference_of(world, library, EXTENDED, beam=width)
-            ends.append([round(p.energy, 9) for p in inference.infer(clause, world.task.init, top=beam).plans])
+            ends.append([round(p.energy, 9) for p in inference.infer_clauses(clause, world.task.init, top=beam).plans])
         assert ends[0][:1] == ends[1][:1]
         assert len(ends[0]) == len(ends[1])
 
@@ -189,7 +189,7 @@ def test_the_beam_loses_nothing_that_its_queue_passes_over(kitchen: Corpus) -> N
 def test_an_unseen_verb_leaves_the_environment_as_it_is(kitchen: Corpus) -> None:
     world = kitchen.world("kitchen1")
     inference = inference_of(world, library_of(kitchen, "kitchen1"), EXTENDED)
-    (plan,) = inference.infer([Clause("defenestrate", ("cup",))], world.task.init).plans
+    (plan,) = inference.infer_clauses([Clause("defenestrate", ("cup",))], world.task.init).plans
     assert (plan.instructions, plan.energy, plan.state) == ((), 0.0, world.task.init)
 
 
@@ -198,14 +198,14 @@ def test_a_clause_that_is_already_so_may_be_left_out(kitchen: Corpus) -> None:
     world = kitchen.world("kitchen1")
     weights = Weights({"dscpl": 1.0})
     inference = inference_of(world, library_of(kitchen, "kitchen1"), weights)
-    (plan,) = inference.infer([Clause("fill", ("pot",))], world.task.init).plans
+    (plan,) = inference.infer_clauses([Clause("fill", ("pot",))], world.task.init).plans
     assert plan.instructions == ()
 
 
 def test_what_cannot_be_done_is_refused_with_its_reason(kitchen: Corpus) -> None:
     world = kitchen.world("kitchen3")
     inference = inference_of(world, library_of(kitchen, "kitchen3"), EXTENDED)
-    refusals = inference.infer([Clause("heat", ("pot",))], world.task.init).refusals
+    refusals = inference.infer_clauses([Clause("heat", ("pot",))], world.task.init).rejected
     assert refusals
     sources = {d.id for d in kitchen.demonstrations()}
     assert all(r.reason and r.source in sources and r.clause == 0 for r in refusals)
@@ -220,7 +220,9 @@ def test_more_than_one_worker_would_see_the_same(kitchen: Corpus) -> None:
     warm = make(IN_PROCESS, world.task)
     outcomes = []
     for filler in (warm, warm, make(IN_PROCESS, world.task)):
-        plans = inference_of(world, library, EXTENDED, filler, beam=3).infer(clauses, world.task.init, top=3).plans
+        plans = (
+            inference_of(world, library, EXTENDED, filler, beam=3).infer_clauses(clauses, world.task.init, top=3).plans
+        )
         outcomes.append([(p.energy, p.instructions) for p in plans])
     for one, other in itertools.pairwise(outcomes):
         assert one == other

@@ -6,7 +6,7 @@ import json
 
 import pytest
 
-from tmd.inference.learned import read_record, record_value
+from tmd.knowledge import read_record, record_value
 from tmd.language import parse
 from tmd.language.clause import Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 

@@ -6,8 +6,8 @@ import io
 
 import pytest
 
-from tmd.inference import learned
-from tmd.inference.learned import Progress
+from tmd import knowledge
+from tmd.knowledge import Progress
 
 
 class Terminal(io.StringIO):
@@ -22,7 +22,7 @@ def told(error: io.StringIO, seconds: float, monkeypatch: pytest.MonkeyPatch) ->
     """What is written while work of so many seconds is half and then nearly done."""
     clock = iter([0.0, seconds, seconds, seconds])
     monkeypatch.setattr("sys.stderr", error)
-    monkeypatch.setattr(learned.time, "monotonic", lambda: next(clock))
+    monkeypatch.setattr(knowledge.time, "monotonic", lambda: next(clock))
     with Progress("learning") as shown:
         for share in (0.5, 0.5, 0.99):
             shown.tell(share)

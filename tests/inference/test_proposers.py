@@ -10,16 +10,16 @@ from pathlib import Path
 
 import pytest
 
-from tmd.inference.algorithm1 import Inference
 from tmd.inference.config import PAPER, POLICY
 from tmd.inference.energy import Energy, Factors, count, named_weights
+from tmd.inference.engine import Inference
 from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation, proposers_of
 from tmd.inference.ranking import Inferred, RankedPlan
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
-from tmd.planning.backends import IN_PROCESS, make
+from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn
 from tmd.veil.world import World
@@ -43,12 +43,12 @@ def energy() -> Energy:
 def inference(*proposers: Proposer) -> Inference:
     world, library = table()
     own = proposers or tuple(proposers_of(POLICY, world, library, energy()))
-    return Inference(world, energy(), make(IN_PROCESS, world.task), own, POLICY)
+    return Inference(world, energy(), TaskPlanners(world.task, make(IN_PROCESS, world.task)), own, POLICY)
 
 
 def inferred(by: Inference, text: str) -> Inferred:
     world, library = table()
-    return by.infer(parse(text, library.lexicon).clauses, world.task.init, top=3)
+    return by.infer_clauses(parse(text, library.lexicon).clauses, world.task.init, top=3)
 
 
 def test_one_inference_may_be_asked_by_several_threads() -> None:

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from tmd.goals.reading.goal_reader import Why
+from tmd.diagnostics import RefusalKind
 from tmd.ground import ground
 from tmd.inference.config import PAPER
-from tmd.inference.learned import Knowledge, study
+from tmd.knowledge import Knowledge, study
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
@@ -102,7 +102,7 @@ def test_a_verb_that_nobody_showed_or_declared_is_refused() -> None:
     assert grounded.plans == ()
     assert grounded.unseen == ("polish",)
     assert grounded.refused is not None
-    assert (grounded.refused[0], grounded.refused[1].why) == (0, Why.UNKNOWN_VERB)
+    assert (grounded.refused[0], grounded.refused[1].kind) == (0, RefusalKind.UNKNOWN_VERB)
 
 
 def test_a_verb_that_means_what_a_declared_one_does_needs_no_demonstration() -> None:

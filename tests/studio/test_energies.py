@@ -3,7 +3,8 @@ from __future__ import annotations
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan
+from tmd.inference.ranking import RejectedProposal as Rejected
 from tmd.pddl.model import Instruction
 from tmd.studio.panels.say_panel import energies
 
@@ -27,11 +28,11 @@ def test_each_loser_says_why_and_each_plan_has_a_column() -> None:
 
 
 def test_without_a_plan_there_are_the_refusals() -> None:
-    html = energies([], refusals=[Refusal(0, "a-01", "no stove"), Refusal(0, "a-02", "no stove")])
+    html = energies([], refusals=[Rejected(0, "a-01", "no stove"), Rejected(0, "a-02", "no stove")])
     assert "1 reason" in html and "no stove" in html and "(2, for example" in html and "<table" not in html
 
 
 @given(st.text())
 def test_what_is_told_is_text(said: str) -> None:
     said += "<script>"
-    assert "<script" not in energies([plan(1.0, said), plan(2.0, said, said)], [said, said], [Refusal(0, said, said)])
+    assert "<script" not in energies([plan(1.0, said), plan(2.0, said, said)], [said, said], [Rejected(0, said, said)])

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tmd.diagnostics import TmdError
-from tmd.inference.learned import Knowledge, known, library_to_json, place, recall, study
+from tmd.knowledge import Knowledge, known, library_to_json, place, recall, study
 from tmd.pddl.model import GroundAtom
 from tmd.pddl.plan_file import parse_instruction
 from tmd.studio.demonstrations.correction import Correction

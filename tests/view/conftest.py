@@ -9,7 +9,7 @@ import pytest
 
 from tmd.ground import ground
 from tmd.grounded import Grounded
-from tmd.inference.learned import known
+from tmd.knowledge import known
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 from tmd.world.folder import DomainFolder

@@ -5,7 +5,8 @@ from __future__ import annotations
 from tests.view.reading import Reader
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
-from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan
+from tmd.inference.ranking import RejectedProposal as Rejected
 from tmd.pddl.model import Instruction
 from tmd.view.candidates import candidates, factors_of, grouped
 
@@ -16,14 +17,14 @@ def plan(value: float, why: str = "") -> RankedPlan:
 
 
 def test_plans_have_their_energies_factors_and_reasons(grounded: Grounded) -> None:
-    reader = Reader(candidates(grounded.plans, [v.reason for v in grounded.verdicts], grounded.refusals))
+    reader = Reader(candidates(grounded.plans, [v.reason for v in grounded.verdicts], grounded.rejected))
     for ranked in grounded.plans:
         assert f"{ranked.energy:.2f}" in reader.text
         assert ranked.why in reader.text
         assert all(f"{choice.energy:.2f}" in reader.text for choice in ranked.choices)
     for name in factors_of(grounded.plans):
         assert title(name) in reader.text
-    assert all(refusal.reason in reader.text for refusal in grounded.refusals)
+    assert all(refusal.reason in reader.text for refusal in grounded.rejected)
 
 
 def test_the_factors_that_are_left_out_add_nothing(grounded: Grounded) -> None:
@@ -33,20 +34,27 @@ def test_the_factors_that_are_left_out_add_nothing(grounded: Grounded) -> None:
 
 
 def test_names_are_only_text() -> None:
-    reader = Reader(candidates([plan(1.0), plan(-2.5, "<u>why</u>")], ["", "<s>broken</s>"], [Refusal(0, "s", "<q>")]))
+    reader = Reader(candidates([plan(1.0), plan(-2.5, "<u>why</u>")], ["", "<s>broken</s>"], [Rejected(0, "s", "<q>")]))
     assert not {"b>cup", "i", "u", "s", "q"} & reader.tags()
     assert all(text in reader.text for text in ("<b>cup</b>", "<i>demo</i>", "<u>why</u>", "<s>broken</s>", "<q>"))
     assert "−2.50" in reader.text
 
 
 def test_refusals_with_one_reason_are_one_row() -> None:
-    rows = grouped([Refusal(1, "b", "no cup"), Refusal(0, "z", "x"), Refusal(1, "a", "no cup"), Refusal(1, "c", "y")])
+    rows = grouped(
+        [
+            Rejected(1, "b", "no cup"),
+            Rejected(0, "z", "x"),
+            Rejected(1, "a", "no cup"),
+            Rejected(1, "c", "y"),
+        ]
+    )
     assert [(row.clause, row.reason, row.sources) for row in rows] == [
         (0, "x", ("z",)), (1, "no cup", ("a", "b")), (1, "y", ("c",)),
     ]  # fmt: skip
 
 
 def test_without_a_plan_the_refusals_are_open() -> None:
-    reader = Reader(candidates([], refusals=[Refusal(0, "demo", "there is no cup")]))
+    reader = Reader(candidates([], refusals=[Rejected(0, "demo", "there is no cup")]))
     assert "No plan was found." in reader.text
     assert [a for tag, a in reader.elements if tag == "details"] == [{"open": ""}]

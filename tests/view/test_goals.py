@@ -13,8 +13,8 @@ from tests.view.reading import Reader
 from tmd.cli.inputs.grounding import made_with
 from tmd.diagnostics import TmdError
 from tmd.ground import Grounded, ground
-from tmd.inference.learned import known
 from tmd.inference.ranking import StepGoal
+from tmd.knowledge import known
 from tmd.pddl.model import TRUE, Formula
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.reader import with_goal
@@ -77,7 +77,7 @@ def told(study: World) -> Grounded:
 
 
 def subject_of(told: Grounded) -> Subject:
-    return grounded_subject(TEXT, told.world, told.parsed, told.plans, told.refusals)
+    return grounded_subject(TEXT, told.world, told.parsed, told.plans, told.rejected)
 
 
 def test_the_page_ticks_goals_off(told: Grounded) -> None:

@@ -15,7 +15,7 @@ import pytest
 from tests.view.conftest import TEXT, corpus
 from tests.view.reading import Reader
 from tmd.grounded import Grounded
-from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal
 from tmd.language import parse
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Domain, GroundAtom, Instruction, Problem, State, TypedName
@@ -34,7 +34,7 @@ from tmd.view.subject import PlannedStep, Subject, grounded_subject
 
 @pytest.fixture(scope="module")
 def subject(kitchen: World, grounded: Grounded) -> Subject:
-    return grounded_subject(TEXT, kitchen, grounded.parsed, grounded.plans, grounded.refusals, made=[("seed", "0")])
+    return grounded_subject(TEXT, kitchen, grounded.parsed, grounded.plans, grounded.rejected, made=[("seed", "0")])
 
 
 def planned(*texts: str) -> tuple[PlannedStep, ...]:
@@ -134,7 +134,7 @@ def test_names_and_texts_are_only_text() -> None:
             problem,
             (PlannedStep(step.instruction, HOSTILE, HOSTILE),),
             plans=(plan,),
-            refusals=(Refusal(0, HOSTILE, HOSTILE),),
+            refusals=(RejectedProposal(0, HOSTILE, HOSTILE),),
             ran=Ran(HOSTILE, HOSTILE, steps=(done,), faults=(HOSTILE,)),
             made=((HOSTILE, HOSTILE),),
         )

@@ -10,16 +10,13 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import FIRST, WAS, split_predicate
-from tmd.pddl.grounding.ground_task import ground_condition
+from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction, negation
 from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or, conjuncts, universe
 from tmd.pddl.semantics import bindings, holds
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.task import Bits, Task
 from tmd.pddl.writer import format_formula
 from tmd.veil.world import PART_OF, World
-
-TRUE, FALSE = And(), Or()
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,20 +81,6 @@ class Grounder:
             case Or(parts):
                 return any(self.truth(part, state) for part in parts)
         raise TypeError(f"not ground: {formula}")
-
-    def cubes(self, formula: Formula) -> tuple[Cube, ...]:
-        """A ground condition as cubes; where there are too many cases, with fewer choices.
-
-        Raises:
-            TmdError: There are too many even so.
-        """
-        for most in (None, 8, 3, 1):
-            try:
-                return ground_condition(self.task, formula if most is None else _fewer(formula, most))
-            except TmdError:
-                if most == 1:
-                    raise
-        return ()
 
     def ground(self, formula: Formula, binding: Mapping[str, str], slots: Iterable[str], moments: Moments) -> Formula:
         """``formula`` over ground atoms that may hold, joined by ``and``, ``or`` and ``not``.
@@ -216,74 +199,6 @@ class Grounder:
         return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {
             PART_OF
         }
-
-
-def negation(formula: Formula) -> Formula:
-    """The negation of a ground condition, with ``not`` at its atoms only."""
-    match formula:
-        case Atom():
-            return Not(formula)
-        case Not(part):
-            return part
-        case And(parts):
-            return disjunction(negation(part) for part in parts)
-        case Or(parts):
-            return conjunction(negation(part) for part in parts)
-    raise TypeError(f"not ground: {formula}")
-
-
-def conjunction(parts: Iterable[Formula]) -> Formula:
-    """All of ``parts``, without what is always true."""
-    kept: dict[Formula, None] = {}
-    for part in parts:
-        if part == FALSE:
-            return FALSE
-        kept.update(dict.fromkeys(part.parts if isinstance(part, And) else (part,)))
-    return next(iter(kept)) if len(kept) == 1 else And(tuple(kept))
-
-
-def disjunction(parts: Iterable[Formula]) -> Formula:
-    """Any of ``parts``, without what is never true."""
-    kept: dict[Formula, None] = {}
-    for part in parts:
-        if part == TRUE:
-            return TRUE
-        kept.update(dict.fromkeys(part.parts if isinstance(part, Or) else (part,)))
-    return next(iter(kept)) if len(kept) == 1 else Or(tuple(kept))
-
-
-def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
-    """The atoms of a ground condition."""
-    match formula:
-        case Atom(predicate, terms):
-            return frozenset((GroundAtom(predicate, terms),))
-        case Not(part):
-            return atoms_of(part)
-        case And(parts) | Or(parts):
-            return frozenset[GroundAtom]().union(*(atoms_of(part) for part in parts))
-    raise TypeError(f"not ground: {formula}")
-
-
-def only_negative(formula: Formula) -> bool:
-    """Whether every atom of a ground condition is negated."""
-    match formula:
-        case Atom():
-            return False
-        case Not():
-            return True
-        case And(parts) | Or(parts):
-            return all(only_negative(part) for part in parts)
-    return False
-
-
-def _fewer(formula: Formula, most: int) -> Formula:
-    """A ground condition with at most so many alternatives in each disjunction."""
-    match formula:
-        case And(parts):
-            return conjunction(_fewer(part, most) for part in parts)
-        case Or(parts):
-            return disjunction(_fewer(part, most) for part in parts[:most])
-    return formula
 
 
 _OF_TYPE = "it is not of the type"

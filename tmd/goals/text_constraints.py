@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from tmd.goals.clause_goal import ClauseGoal, Kept, Refused, Why, without_operators
-from tmd.goals.grounder import Moments, atoms_of
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.clause_goal import ClauseGoal
+from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory, Referent
 from tmd.goals.reading.referents import EXCEPTING
@@ -14,7 +15,9 @@ from tmd.goals.reading.requirements import LEAVING
 from tmd.goals.sources.table import words_of
 from tmd.language.clause import Clause, Mood, Parsed, Quantifier
 from tmd.language.syntax.pronouns import is_pronoun
-from tmd.pddl.task import Bits, Cube, Task
+from tmd.pddl.ground_formula import atoms_of
+from tmd.pddl.model import Atom, Formula, GroundAtom, Not
+from tmd.pddl.task import Bits, Cube
 
 USE = "use"
 _NEVER = frozenset({USE, "touch"})
@@ -23,16 +26,18 @@ _NEVER = frozenset({USE, "touch"})
 
 @dataclass(frozen=True)
 class TextConstraints:
-    """What must not happen, and what must stay as it is.
+    """The constraints of a text.
 
     Attributes:
-        task: The task without the operators that are forbidden.
-        kept: What must hold at the end of every step.
-        left: The things that must stay where they are, or not be touched.
+        never: Literals that no instruction may make true.
+        kept: Literals that must hold at the end of every step.
+        untouched: Objects that must not be handled.
+        left: Objects that must stay where they are, or not be handled.
     """
 
-    task: Task
-    kept: tuple[Kept, ...] = ()
+    never: tuple[Formula, ...] = ()
+    kept: tuple[Formula, ...] = ()
+    untouched: frozenset[str] = frozenset()
     left: tuple[str, ...] = ()
 
 
@@ -47,53 +52,53 @@ class ConstraintReader:
         self.reader = reader
         self.task = reader.world.task
 
-    def read(self, parsed: Parsed, state: Bits, memory: Memory) -> TextConstraints | Refused:
+    def read(self, parsed: Parsed, state: Bits, memory: Memory) -> TextConstraints | Refusal:
         """What prohibitions and *leave it as it is* ask for, from the start of the text on."""
-        forbidden = Cube(0, 0)
+        never: dict[Formula, None] = {}
         names: set[str] = set()
         left: set[str] = set()
-        kept: list[Kept] = []
+        kept: list[Formula] = []
         for clause in parsed.constraints:
             if is_of_the_end(clause):
                 continue
             found = self._avoided(clause, state, memory)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 return found
-            forbidden = Cube(forbidden.positive | found[0].positive, forbidden.negative | found[0].negative)
+            never.update(dict.fromkeys(found[0]))
             names |= found[1]
             kept += found[2]
-        for number, clause in enumerate(parsed.clauses):
+        for clause in parsed.clauses:
             names |= self._done_without(clause, state)
             other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
             if clause.mood is Mood.KEEP and not (clause.otherwise or clause.conditions or other):
-                preserved = self.preserved(clause, number, state, memory)
-                if isinstance(preserved, Refused):
+                preserved = self.preserved(clause, state, memory)
+                if isinstance(preserved, Refusal):
                     return preserved
                 kept += preserved
                 if not clause.result:
                     left.update(n for noun in clause.direct for n in self._kept_things(clause, noun, state))
-        task = without_operators(self.task, forbidden, names) if forbidden != Cube(0, 0) or names else self.task
-        return TextConstraints(task, tuple(kept), left=tuple(sorted(left | names)))
+        return TextConstraints(tuple(never), tuple(kept), frozenset(names), tuple(sorted(left | names)))
 
-    def _avoided(self, clause: Clause, state: Bits, memory: Memory) -> tuple[Cube, set[str], list[Kept]] | Refused:
-        """The literals that must not come to hold, the things that must not be handled, and literals to keep."""
+    def _avoided(
+        self, clause: Clause, state: Bits, memory: Memory
+    ) -> tuple[list[Formula], set[str], list[Formula]] | Refusal:
+        """Return the literals that must not come to hold, the things that must not be handled, and literals to keep."""
         if clause.verb in _NEVER and not self.leaves_a_trace(clause.verb):
             names = {n for noun in clause.direct for n in self._kept_things(clause, noun, state)}
             if not names:
                 return self.reader.referents.not_there(clause)
-            return Cube(0, 0), self._with_parts(names), []
+            return [], self._with_parts(names), []
         final = clause.implied or bool(clause.result)
         goal = self.reader.read(
             replace(clause, verb="be" if clause.result else clause.verb, mood=Mood.DO), state, memory
         )
-        if isinstance(goal, Refused):
-            return (Cube(0, 0), set(), []) if goal.why in (Why.IMPOSSIBLE, Why.CONTRADICTION) else goal
+        if isinstance(goal, Refusal):
+            return ([], set(), []) if goal.kind in (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION) else goal
         means = self._means(clause, goal, state)
         if means:
-            return Cube(0, 0), means, []
-        added: Bits = 0
-        deleted: Bits = 0
-        kept: list[Kept] = []
+            return [], means, []
+        never: list[Formula] = []
+        kept: list[Formula] = []
         some = any(cube.positive for cube in goal.cubes)
         for atom in sorted(atoms_of(goal.formula)):
             bit = 1 << self.task.index[atom]
@@ -101,7 +106,7 @@ class ConstraintReader:
                 stands = any(cube.positive & bit for cube in goal.cubes)
                 if some and not stands and not state & bit:
                     continue  # "noodles in the bowl, not in the pot": the pot need not have the milk that spoils them
-                kept.append(Kept((Cube(0, bit) if stands else Cube(bit, 0),), -1, hard=True))
+                kept.append(_literal(atom, holds=not stands))
                 continue
             stands = any(cube.positive & bit for cube in goal.cubes)
             if (
@@ -109,10 +114,10 @@ class ConstraintReader:
                 and not state & bit
                 and all(c.positive.bit_count() == 1 or len(goal.cubes) == 1 for c in goal.cubes)
             ):
-                added |= bit
+                never.append(_literal(atom))
             elif not stands and state & bit:
-                deleted |= bit
-        return Cube(added, deleted), set(), kept
+                never.append(_literal(atom, holds=False))
+        return never, set(), kept
 
     def _means(self, clause: Clause, goal: ClauseGoal, state: Bits) -> set[str]:
         """What a thing must not be done with, or in, though it may be done: "heat the milk, but not in the microwave".
@@ -166,16 +171,16 @@ class ConstraintReader:
         said, _ = nouns.narrowed(Referent(noun, names), clause.phrase(noun), state, Moments(state, state))
         return said.names
 
-    def preserved(self, clause: Clause, number: int, state: Bits, memory: Memory) -> list[Kept] | Refused:
+    def preserved(self, clause: Clause, state: Bits, memory: Memory) -> list[Formula] | Refusal:
         """*Leave the door open* keeps that; *leave the cup where it is* keeps where it is."""
         if clause.result and clause.result not in ("alone",):
             goal = self.reader.read(replace(clause, verb="be", mood=Mood.DO), state, memory)
-            if isinstance(goal, Refused):
+            if isinstance(goal, Refusal):
                 # "leave the lid open", "leave it open": of what will have been spoken of
                 later = bool(clause.direct) and all(n in words_of("parts") or is_pronoun(n) for n in clause.direct)
                 return [] if later else goal
             held = [cube for cube in goal.cubes if cube.holds(state)]
-            return [Kept((c,), number, hard=True) for cube in held[:1] for c in _single(cube)]
+            return [literal for cube in held[:1] for literal in self._literals(cube)]
         names = [n for noun in clause.direct for n in self._kept_things(clause, noun, state)]
         if not names and any(r.relation in EXCEPTING for r in clause.relations):
             return []  # "the rest stays there", of what else was spoken of with "every empty thing"
@@ -184,13 +189,18 @@ class ConstraintReader:
                 self.reader.referents.not_there(clause) if not all(is_pronoun(noun) for noun in clause.direct) else []
             )
         constants = self.reader.world.profiles.constants
-        found = []
+        found: list[Formula] = []
         for atom in self.task.names(state):
             things = [a for a in atom.args if a not in constants]
             everything = clause.verb != "keep" and len(atom.args) > 1  # to keep a bowl is not to keep what is in it
             if atom.args and atom.args[0] in names and (len(things) > 1 or everything):
-                found.append(Kept((Cube(1 << self.task.index[atom], 0),), number, hard=True))
+                found.append(_literal(atom))
         return found
+
+    def _literals(self, cube: Cube) -> list[Formula]:
+        """Return the literals of a cube."""
+        positive = [_literal(atom) for atom in self.task.names(cube.positive)]
+        return positive + [_literal(atom, holds=False) for atom in self.task.names(cube.negative)]
 
 
 def is_of_the_end(clause: Clause) -> bool:
@@ -199,12 +209,5 @@ def is_of_the_end(clause: Clause) -> bool:
     return bool(left) and all(map(is_pronoun, clause.direct))
 
 
-def _single(cube: Cube) -> list[Cube]:
-    """The literals of a cube."""
-    found = []
-    for bits, positive in ((cube.positive, True), (cube.negative, False)):
-        while bits:
-            low = bits & -bits
-            found.append(Cube(low, 0) if positive else Cube(0, low))
-            bits ^= low
-    return found
+def _literal(atom: GroundAtom, *, holds: bool = True) -> Formula:
+    return Atom(atom.predicate, atom.args) if holds else Not(Atom(atom.predicate, atom.args))

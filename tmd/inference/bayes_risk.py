@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from tmd.inference.config import InferenceConfig
 from tmd.inference.proposers import SequenceModel
 from tmd.inference.ranking import Choice, Inferred, PlanStep, RankedPlan, why_lost
-from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits
 from tmd.planning.result import Filled, Planner
 from tmd.veil.world import World
+from tmd.world.verb_clause import VerbClause
 
 PLANS = 10
 """How many plans of least energy are looked at."""
@@ -45,7 +45,7 @@ Changed = Callable[[tuple[Instruction, ...]], Bits]
 
 def decided(
     inferred: Inferred,
-    clauses: Sequence[Clause],
+    clauses: Sequence[VerbClause],
     world: World,
     policy: SequenceModel,
     planner: Planner,

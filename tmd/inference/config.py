@@ -28,7 +28,7 @@ class InferenceConfig:
         policy: Whether a policy, learned from the same demonstrations, proposes sequences beside the templates and
             judges all candidates by the words of the clause (Δ_words).
         goals: Whether each clause has a PDDL goal, which every plan for it must reach (:mod:`tmd.goals`).
-        sources: Where the meaning of a clause may come from (:data:`tmd.goals.text_following.SOURCES`).
+        sources: Where the meaning of a clause may come from (:data:`tmd.goals.tables.SOURCES`).
         latent: Whether the planner may add what was left unsaid; without it this is *No latent nodes*.
         knowledge: Whether the robot knows what its instructions need and do; without it *No Domain Knowledge*: every
             candidate counts as executable, nothing is added to it, and the environment stays as it was.
@@ -45,6 +45,8 @@ class InferenceConfig:
         cap: Generated states after which a search of the in-process planner gives up.
         last_resort: Whether planners that are content with any plan are asked for the goal of a clause where the
             optimal search gave up.
+        close: The difference of energies up to which two readings of a request count as equally good, so that the user
+            is asked which one is meant.
         samples: How many sequences are drawn from the policy, against which the expected loss of each plan decides
             (:mod:`tmd.inference.bayes_risk`); 0 decides by energy.
         drawn_candidates: Whether those sequences are candidates as well, where no declared goal must be reached.
@@ -66,6 +68,7 @@ class InferenceConfig:
     guess: bool = False
     cap: int = 2_000  # what people leave unsaid is short: a candidate that needs more is not the best one
     last_resort: bool = True
+    close: float = 10.0
     samples: int = 0
     drawn_candidates: bool = True
 

@@ -14,13 +14,13 @@ from weakref import WeakKeyDictionary
 
 from tmd.diagnostics import Location, TmdError
 from tmd.inference.config import AKIN
-from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.pddl.task import Bits
 from tmd.veil.library import Library
 from tmd.veil.template import Instantiation, Template
 from tmd.veil.world import Profile, World, differences
+from tmd.world.verb_clause import VerbClause
 
 SMOOTHING = 1.0
 """Added to every count, so that nothing has probability zero (Laplace)."""
@@ -138,11 +138,11 @@ def kind_of(name: str, world: World) -> str:
 
 NAMES = (
     *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
-    *("cover", "words", "generated", "unasked"),
+    *("cover", "words", "generated", "unasked", "prior"),
     *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
 )
 """The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
-OURS = ("cover", "words", "generated", "unasked")
+OURS = ("cover", "words", "generated", "unasked", "prior")
 """Those of them that are not in the paper."""
 _TITLES = {
     "env": "environment distance",
@@ -158,6 +158,7 @@ _TITLES = {
     "words": "language model (-log P)",
     "generated": "policy proposal",
     "unasked": "changes not asked for",
+    "prior": "prior of the reading",
     "latent_dscpl": "latent description length",
     "latent_inpr": "latent instruction prior",
     "latent_para": "latent parameter prior",
@@ -185,6 +186,7 @@ _MEANINGS = {
     "words": "How unlikely a person is to have said just this of what is done.",
     "generated": "What a choice costs that the policy proposed and no demonstration showed.",
     "unasked": "How much is otherwise at the end that nobody asked for.",
+    "prior": "How unlikely the reader thinks it that this goal is meant (-log P).",
     "latent_dscpl": "How long the steps are to write down that the planner puts in.",
     "latent_inpr": "How rare the actions are that the planner puts in.",
     "latent_para": "How rare such things are in the steps that the planner puts in.",
@@ -283,7 +285,7 @@ def delta_env(instantiation: Instantiation) -> float:
     return sum(differences(before[z], instantiation.profiles[z]) for z in variables) / len(variables)
 
 
-def delta_nl(template_clause: Clause, clause: Clause, *, akin: float = AKIN) -> float:
+def delta_nl(template_clause: VerbClause, clause: VerbClause, *, akin: float = AKIN) -> float:
     """Natural-language distance: 1 - |obj(C_s) ∩ obj(C_i)| / |obj(C_s) ∪ obj(C_i)|.
 
     The paper prints the Jaccard index itself, which is a similarity; a cost needs its complement. Two clauses
@@ -317,7 +319,7 @@ def delta_sim(instantiation: Instantiation) -> float:
     return sum(before[z] != name for z, name in variables.items()) / len(variables)
 
 
-def delta_pcc(template_clause: Clause, clause: Clause) -> float:
+def delta_pcc(template_clause: VerbClause, clause: VerbClause) -> float:
     """Parameter cardinality cost: 1 where the clauses speak of different numbers of objects."""
     return float(len(clause.resolved()) != len(template_clause.resolved()))
 
@@ -362,7 +364,7 @@ class Energy:
         self.akin = akin
         self._surprises: dict[Instruction, tuple[float, float]] = {}
 
-    def of_template(self, instantiation: Instantiation, clause: Clause) -> Factors:
+    def of_template(self, instantiation: Instantiation, clause: VerbClause) -> Factors:
         """The factors of ψ_i that do not depend on how much of the template is kept."""
         template = instantiation.template.clause
         return {

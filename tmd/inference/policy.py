@@ -20,13 +20,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from tmd.language.clause import Clause
-from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import OBJECT, Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.demonstration import Demonstration
 from tmd.veil.library import lessons
 from tmd.veil.world import World
+from tmd.world.verb_clause import VerbClause
 
 _DIGITS = re.compile(r"_?\d+")
 
@@ -712,7 +711,7 @@ class Policy:
         return _verb(verb) in self.reward.features.words
 
     def best(
-        self, clauses: Sequence[Clause], number: int, done: Sequence[Instruction], count: int = 1
+        self, clauses: Sequence[VerbClause], number: int, done: Sequence[Instruction], count: int = 1
     ) -> list[tuple[float, tuple[Instruction, ...]]]:
         """The ``count`` sequences of the greatest reward for a clause, by beam search, greatest first.
 
@@ -745,7 +744,7 @@ class Policy:
         return found
 
     def sample(
-        self, clauses: Sequence[Clause], count: int, random: np.random.Generator
+        self, clauses: Sequence[VerbClause], count: int, random: np.random.Generator
     ) -> list[tuple[tuple[Instruction, ...], ...]]:
         """``count`` sequences for a whole text, drawn from the distribution, clause by clause; some may be alike."""
         drawn: list[tuple[tuple[Instruction, ...], ...]] = [()] * count
@@ -758,7 +757,7 @@ class Policy:
 
     def _sampled(
         self,
-        clauses: Sequence[Clause],
+        clauses: Sequence[VerbClause],
         number: int,
         before: Sequence[tuple[Instruction, ...]],
         random: np.random.Generator,
@@ -786,7 +785,7 @@ class Policy:
 
     def surprise(
         self,
-        clauses: Sequence[Clause],
+        clauses: Sequence[VerbClause],
         number: int,
         done: Sequence[Instruction],
         instructions: Sequence[Instruction],
@@ -802,7 +801,7 @@ class Policy:
         ]
         return round(sum(each) / len(each), _ROUNDED)
 
-    def _read(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, ClauseContext]:
+    def _read(self, clauses: Sequence[VerbClause], number: int) -> tuple[Menu, ClauseContext]:
         """The choices, and what the text says there; that of the last clause is remembered."""
         key = (number, *((c.text, c.verb, c.resolved()) for c in clauses))
         last = self._last
@@ -810,12 +809,12 @@ class Policy:
             last = self._last = key, self._reading(clauses, number)
         return last[1]
 
-    def _reading(self, clauses: Sequence[Clause], number: int) -> tuple[Menu, ClauseContext]:
+    def _reading(self, clauses: Sequence[VerbClause], number: int) -> tuple[Menu, ClauseContext]:
         said = said_in(clauses, number, self.menu, grounded=self.grounded)
         return (_with_mentioned(self.menu, said.levels) if self.grounded else self.menu), said
 
 
-def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: bool) -> ClauseContext:
+def said_in(clauses: Sequence[VerbClause], number: int, menu: Menu, *, grounded: bool) -> ClauseContext:
     """What a text says, seen from one of its clauses."""
     features, things, clause = menu.features, menu.things, clauses[number]
     words = features.known(bag(clause, grounded=grounded))
@@ -831,7 +830,7 @@ def said_in(clauses: Sequence[Clause], number: int, menu: Menu, *, grounded: boo
     return ClauseContext(words, text, mentioned(clause, clauses[:number], things), later, where)
 
 
-def bag(clause: Clause, *, grounded: bool) -> list[str]:
+def bag(clause: VerbClause, *, grounded: bool) -> list[str]:
     """The words of a clause, its verb, and one that every clause has; ``grounded`` with what its pronouns stand for."""
     resolved = clause.resolved() if grounded else ()
     return ["", *_WORD.findall(clause.text.lower()), _verb(clause.verb), *resolved]
@@ -848,7 +847,7 @@ def nothing(things: KnownObjects) -> Ints:
     return levels
 
 
-def mentioned(clause: Clause, earlier: Sequence[Clause], things: KnownObjects) -> Ints:
+def mentioned(clause: VerbClause, earlier: Sequence[VerbClause], things: KnownObjects) -> Ints:
     """How far each thing is mentioned (0 not at all), by the evidence of words alone; with a last 0 for no thing."""
     numbers = {name: number for number, name in enumerate(things.kinds)}
     levels: Ints = np.zeros(len(numbers) + 1, np.int64)
@@ -889,13 +888,12 @@ class PolicyLesson(NamedTuple):
     """A demonstration as it is learned from: each clause (or none) with its well-formed instructions."""
 
     things: KnownObjects
-    clauses: list[tuple[Clause | None, tuple[Instruction, ...]]]
+    clauses: list[tuple[VerbClause | None, tuple[Instruction, ...]]]
 
 
 def learn_policy(
     demonstrations: Iterable[Demonstration],
     world_of: Callable[[str], World],
-    lexicon: Lexicon,
     random: np.random.Generator,
     *,
     grounded: bool = True,
@@ -913,7 +911,6 @@ def learn_policy(
     Args:
         demonstrations: The corpus.
         world_of: The world of an environment, by the environment's name.
-        lexicon: The words of the domain.
         random: The order in which the data are gone through.
         grounded: Whether the reward also knows which objects the clause's nouns may mean.
         certain: From which share on what went before counts as needed (``learn_syntax``).
@@ -923,7 +920,7 @@ def learn_policy(
             less for few demonstrations.
         tell: Is told which share of the ascent, which takes the longest, is done.
     """
-    lessons = study(demonstrations, world_of, lexicon)
+    lessons = study(demonstrations, world_of)
     sequences = [(lesson.things, [made for _, made in lesson.clauses]) for lesson in lessons]
     syntax = learn_syntax(sequences, certain=certain, cover=_COVER)
     features = number_features(lessons, syntax, grounded=grounded)
@@ -941,9 +938,7 @@ def learn_policy(
     return Reward(features, theta, before, after)
 
 
-def study(
-    demonstrations: Iterable[Demonstration], world_of: Callable[[str], World], lexicon: Lexicon
-) -> list[PolicyLesson]:
+def study(demonstrations: Iterable[Demonstration], world_of: Callable[[str], World]) -> list[PolicyLesson]:
     """What each demonstration shows, clause by clause, without instructions that are not well-formed."""
     known: dict[str, KnownObjects] = {}
     found = []
@@ -952,9 +947,9 @@ def study(
         if place not in known:
             known[place] = KnownObjects(world_of(place))
         things = known[place]
-        pairs: list[tuple[Clause | None, tuple[Instruction, ...]]] = [
+        pairs: list[tuple[VerbClause | None, tuple[Instruction, ...]]] = [
             (lesson.clause, tuple(i for i in lesson.instructions if things.well_formed(i)))
-            for lesson in lessons(demonstration, world_of(place), lexicon)
+            for lesson in lessons(demonstration, world_of(place), world_of(place).mentions.lexicon)
         ]
         found.append(PolicyLesson(things, pairs))
     return found

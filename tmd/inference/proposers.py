@@ -1,8 +1,8 @@
 """Proposers: each says what may be done for a clause in an environment, and may judge what the others say.
 
 The paper has one, the templates of the demonstrations (section V-A). A policy stands beside it; whoever writes another
-gives it to :class:`~tmd.inference.algorithm1.Inference` as well. What a clause asks for, a goal that every proposal has
-to reach, is the affair of :mod:`tmd.inference.goal_directed`.
+gives it to :class:`~tmd.inference.engine.Inference` as well. The goals that every proposal has to reach are the affair
+of :mod:`tmd.inference.goal_pass`.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ import numpy as np
 
 from tmd.inference.config import InferenceConfig
 from tmd.inference.energy import Energy, Factors
-from tmd.inference.ranking import Path, Refusal
-from tmd.language.clause import Clause
+from tmd.inference.ranking import Path, RejectedProposal
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.library import Library
 from tmd.veil.template import Instantiation, Template, instantiate
 from tmd.veil.world import World
+from tmd.world.verb_clause import VerbClause
 
 Instructions = tuple[Instruction, ...]
 POLICY_SOURCE = "policy"
@@ -41,7 +41,7 @@ class Situation:
         ways: The ways to the environment, cheapest first; at least one.
     """
 
-    clauses: Sequence[Clause]
+    clauses: Sequence[VerbClause]
     number: int
     ways: Sequence[Path]
 
@@ -56,12 +56,12 @@ class Situation:
         return self.ways[0].instructions
 
     @property
-    def clause(self) -> Clause:
+    def clause(self) -> VerbClause:
         """The clause C_j."""
         return self.clauses[self.number]
 
     @property
-    def earlier(self) -> Sequence[Clause]:
+    def earlier(self) -> Sequence[VerbClause]:
         """The clauses before it."""
         return self.clauses[: self.number]
 
@@ -88,7 +88,7 @@ class Proposal:
 class Proposer(Protocol):
     """A source of candidates. It keeps nothing of a text between calls."""
 
-    def propose(self, situation: Situation) -> Iterable[Proposal | Refusal]:
+    def propose(self, situation: Situation) -> Iterable[Proposal | RejectedProposal]:
         """Candidates for a clause in an environment, and why there are not more."""
         ...
 
@@ -113,12 +113,12 @@ class TemplateProposer(Proposer):
         self.energy = energy
         self.config = config
 
-    def propose(self, situation: Situation) -> Iterator[Proposal | Refusal]:
+    def propose(self, situation: Situation) -> Iterator[Proposal | RejectedProposal]:
         """Each distinct trimmed instantiation, at its cheapest."""
         best: dict[tuple[Instructions, tuple[str, ...]], Proposal] = {}
         for template in self.library.distinct(situation.clause, self.world):
             for proposed in self._of_template(template, situation):
-                if isinstance(proposed, Refusal):
+                if isinstance(proposed, RejectedProposal):
                     yield proposed
                     continue
                 key = proposed.instructions, proposed.names
@@ -126,16 +126,16 @@ class TemplateProposer(Proposer):
                     best[key] = proposed
         yield from best.values()
 
-    def _of_template(self, template: Template, situation: Situation) -> Iterator[Proposal | Refusal]:
+    def _of_template(self, template: Template, situation: Situation) -> Iterator[Proposal | RejectedProposal]:
         clause, state = situation.clause, situation.state
         made = instantiate(template, clause, self.world, state, pair_nouns=self.config.extended)
         if made is None:
-            yield Refusal(situation.number, template.source, "there is no object for one of its variables")
+            yield RejectedProposal(situation.number, template.source, "there is no object for one of its variables")
             return
         first = self._first_possible(made.instructions) if self.config.knowledge else 0
         if first:
             reason = f"{made.instructions[first - 1]} can never be done here"
-            yield Refusal(situation.number, template.source, reason)
+            yield RejectedProposal(situation.number, template.source, reason)
         yield from self._trimmings(made, situation, first)
 
     def _first_possible(self, instructions: Instructions) -> int:
@@ -164,20 +164,20 @@ class SequenceModel(Protocol):
         ...
 
     def best(
-        self, clauses: Sequence[Clause], number: int, done: Sequence[Instruction], count: int
+        self, clauses: Sequence[VerbClause], number: int, done: Sequence[Instruction], count: int
     ) -> Sequence[tuple[float, Instructions]]:
         """The ``count`` likeliest sequences for a clause of a text, each after its score, likeliest first."""
         ...
 
     def sample(
-        self, clauses: Sequence[Clause], count: int, random: np.random.Generator
+        self, clauses: Sequence[VerbClause], count: int, random: np.random.Generator
     ) -> Sequence[tuple[Instructions, ...]]:
         """``count`` sequences for a whole text, drawn from the distribution, clause by clause."""
         ...
 
     def surprise(
         self,
-        clauses: Sequence[Clause],
+        clauses: Sequence[VerbClause],
         number: int,
         done: Sequence[Instruction],
         instructions: Sequence[Instruction],
@@ -230,7 +230,7 @@ class PolicyProposer(Proposer):
         surprise = self.policy.surprise(situation.clauses, situation.number, situation.done, instructions)
         return {"words": surprise * self.trust}
 
-    def _has_say(self, clause: Clause) -> bool:
+    def _has_say(self, clause: VerbClause) -> bool:
         verbs = dict.fromkeys(template.clause.verb for template in self.library.distinct(clause, self.world))
         return any(map(self.policy.knows, verbs)) if verbs else self.config.guess
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from tmd.goals.clause_goal import Refused
+from tmd.diagnostics import Refusal
 from tmd.inference.energy import title
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits
+from tmd.readers.interface import Question
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,8 +74,8 @@ class Path:
 
 
 @dataclass(frozen=True, slots=True)
-class Refusal:
-    """A candidate that did not survive: a template, and why it cannot be executed here."""
+class RejectedProposal:
+    """A proposal that cannot be executed here, and the reason."""
 
     clause: int
     source: str
@@ -82,8 +83,23 @@ class Refusal:
 
 
 @dataclass(frozen=True, slots=True)
+class LostGoal:
+    """A candidate goal of a step that was not taken.
+
+    Attributes:
+        formula: The goal.
+        row: The lexicon row, action or model's words that it was derived from.
+        why: Why it was not taken.
+    """
+
+    formula: Formula
+    row: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
 class StepGoal:
-    """What one step of a text asks for, and which part of a plan brings it about.
+    """The goal of one step of a request, and the part of a plan that brings it about.
 
     Attributes:
         clause: The clause of the text, counted from 0.
@@ -95,6 +111,7 @@ class StepGoal:
         note: What else is to be said: why nothing is done, or what was left out of account.
         first: The first instruction of the plan that serves it, counted from 0.
         last: The one after the last.
+        others: The other candidate goals of the step.
     """
 
     clause: int
@@ -106,6 +123,7 @@ class StepGoal:
     note: str = ""
     first: int = 0
     last: int = 0
+    others: tuple[LostGoal, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,29 +174,15 @@ class Inferred:
 
     Attributes:
         plans: The plans, cheapest first.
-        refusals: The candidates that could not be executed.
+        rejected: The candidates that could not be executed.
         refused: Why there is no plan for what was said, and the clause where that showed; ``None`` where there is one.
+        question: A question to the user, where two readings of the request are about equally good.
     """
 
     plans: tuple[RankedPlan, ...]
-    refusals: tuple[Refusal, ...]
-    refused: tuple[int, Refused] | None = None
-
-
-def cheapest(paths: Iterable[Path], count: int) -> list[Path]:
-    """The ``count`` cheapest paths that differ in what is done."""
-    kept: dict[tuple[Instruction, ...], Path] = {}
-    for path in sorted(paths, key=lambda path: path.order):
-        if len(kept) == count:
-            break
-        kept.setdefault(path.instructions, path)
-    return list(kept.values())
-
-
-def ranked(paths: Iterable[Path], count: int) -> tuple[RankedPlan, ...]:
-    """The ``count`` cheapest distinct plans, each with why it is not the first."""
-    plans = [RankedPlan(path.choices, path.state) for path in cheapest(paths, count)]
-    return tuple(replace(plan, why=why_lost(plan, plans[0])) if place else plan for place, plan in enumerate(plans))
+    rejected: tuple[RejectedProposal, ...]
+    refused: tuple[int, Refusal] | None = None
+    question: Question | None = None
 
 
 def _total(parts: Iterable[Mapping[str, float]]) -> dict[str, float]:

@@ -175,6 +175,15 @@ class Clause:
         names.update(dict.fromkeys(self.meant("") if "" in self.antecedents else ()))
         return tuple(names)
 
+    def resolved_relations(self) -> list[Relation]:
+        """The relations with each pronoun replaced by its likeliest antecedent."""
+
+        def resolved(name: str | None) -> str | None:
+            likeliest = self.antecedents.get(name or "", ())
+            return likeliest[0] if likeliest else name
+
+        return [Relation(r.relation, resolved(r.source), resolved(r.target) or r.target) for r in self.relations]
+
     def meant(self, name: str) -> tuple[str, ...]:
         """What one language-object most likely means: itself unless it is a pronoun (``""``: the elided one)."""
         likeliest = tuple(self.antecedents.get(name, ()))[: self.together.get(name, 1)]

@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Sequence
 from functools import cache
-from typing import Protocol
 
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
@@ -43,13 +42,6 @@ _FILLERS = (
     "ensure", "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
 )  # fmt: skip
 _JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
-
-
-class ClauseParser(Protocol):
-    """Reads texts as clauses: :func:`parse`, or whatever is given to :func:`tmd.ground.ground` in its place."""
-
-    def __call__(self, text: str, lexicon: Lexicon | None = None) -> Parsed:
-        """Read a text; arguments, result and promises are those of :func:`parse`."""
 
 
 def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:

@@ -100,6 +100,31 @@ def last_resort(task: Task) -> Planner:
     return InTurn((EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON)), FirstPlan(task)))
 
 
+class TaskPlanners:
+    """The planners of one environment, and of its task without what a request forbids.
+
+    Args:
+        task: The task of the environment.
+        quick: Its planner for gaps.
+        name: The name of that planner.
+        cap: Generated states after which a planner for gaps gives up; the usual cap by default.
+    """
+
+    def __init__(self, task: Task, quick: Planner, name: str = IN_PROCESS, cap: int | None = None) -> None:
+        self._task = task
+        self._quick = quick
+        self._name = name
+        self._cap = cap
+
+    def quick(self, task: Task) -> Planner:
+        """Return the planner that fills gaps."""
+        return self._quick if task is self._task else make(self._name, task, cap=self._cap)
+
+    def resort(self, task: Task) -> Planner:
+        """Return the planner that is asked where the quick one gave up."""
+        return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
+
+
 class EachAlone:
     """A planner that is asked for each alternative of a goal by itself, for the cheapest of its plans.
 

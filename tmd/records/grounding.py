@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
-from tmd.inference.ranking import Choice, PlanStep, RankedPlan, Refusal, StepGoal
+from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal, StepGoal
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import parse
@@ -195,9 +195,9 @@ class GroundingRecord(ParsedRecord, GroundedText):
         """The plans."""
         return tuple(plan.ranked() for plan in self.plans)
 
-    def refused_templates(self) -> tuple[Refusal, ...]:
+    def refused_templates(self) -> tuple[RejectedProposal, ...]:
         """The demonstrations whose templates cannot be used."""
-        return tuple(Refusal(refusal.clause, refusal.source, refusal.reason) for refusal in self.refusals)
+        return tuple(RejectedProposal(refusal.clause, refusal.source, refusal.reason) for refusal in self.refusals)
 
     def goal_only(self) -> GoalOnlyRecord:
         """What ``tmd ground --goal-only --json`` prints of it."""

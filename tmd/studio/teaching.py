@@ -21,7 +21,8 @@ from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
 from tmd.ground import ground
 from tmd.grounded import Grounded
-from tmd.inference.learned import (
+from tmd.inference.policy import Reward
+from tmd.knowledge import (
     Knowledge,
     digest,
     known,
@@ -29,7 +30,6 @@ from tmd.inference.learned import (
     reward_to_json,
     weights_bytes,
 )
-from tmd.inference.policy import Reward
 from tmd.studio.demonstrations.alignment import Habits
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration

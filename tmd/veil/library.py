@@ -13,8 +13,9 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.clause_alignment import split
 from tmd.veil.demonstration import Demonstration, Segment
-from tmd.veil.template import Template, generalise, resolved_relations
+from tmd.veil.template import Template, generalise
 from tmd.veil.world import Profile, World
+from tmd.world.verb_clause import VerbClause
 
 
 @dataclass(slots=True, eq=False, weakref_slot=True)
@@ -41,11 +42,11 @@ class Library:
         self._alike.pop(verb, None)
         self._distinct.clear()
 
-    def propose(self, clause: Clause) -> Sequence[Template]:
+    def propose(self, clause: VerbClause) -> Sequence[Template]:
         """D^(i): every template whose verb is the clause's, in the order of the corpus."""
         return self._by_verb.get(self.lexicon.canonical_verb(clause.verb), ())
 
-    def distinct(self, clause: Clause, world: World) -> Sequence[Template]:
+    def distinct(self, clause: VerbClause, world: World) -> Sequence[Template]:
         """What :meth:`propose` gives, without those that cannot but propose in ``world`` what one before them does.
 
         A large library shows the same again and again, with things of other names in other places. What that costs is
@@ -114,11 +115,11 @@ class Library:
 class WholeLibrary(Library):
     """A library that proposes all it has, whatever the clause: for a robot that was told nothing."""
 
-    def propose(self, clause: Clause) -> Sequence[Template]:
+    def propose(self, clause: VerbClause) -> Sequence[Template]:
         """Every template, verb by verb."""
         return [template for verb in self.verbs() for template in self.templates(verb)]
 
-    def distinct(self, clause: Clause, world: World) -> Sequence[Template]:
+    def distinct(self, clause: VerbClause, world: World) -> Sequence[Template]:
         """The same without repetitions."""
         return [template for verb in self.verbs() for template in self._distinct_of(verb, world)]
 
@@ -138,7 +139,7 @@ def _grouped(templates: Iterable[Template]) -> list[list[Template]]:
     for template in templates:
         clause = template.clause
         if id(clause) not in clauses:
-            clauses[id(clause)] = (clause.verb, clause.resolved(), *resolved_relations(clause))
+            clauses[id(clause)] = (clause.verb, clause.resolved(), *clause.resolved_relations())
         key = (
             clauses[id(clause)],
             template.instructions,

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from tmd.language.clause import Clause, Relation
+from tmd.language.clause import Clause
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.world import Mentions, Profile, Profiles, World, shared
+from tmd.world.verb_clause import VerbClause
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +138,7 @@ class Instantiation:
 
 
 def instantiate(
-    template: Template, clause: Clause, world: World, state: Bits, *, pair_nouns: bool = False
+    template: Template, clause: VerbClause, world: World, state: Bits, *, pair_nouns: bool = False
 ) -> Instantiation | None:
     """Map the variables of ``template`` for ``clause`` in ``state``; ``None`` where one has no object at all."""
     grounding: dict[str, str] = {}
@@ -165,23 +166,13 @@ def replace(instructions: Sequence[Instruction], grounding: Mapping[str, str]) -
     return tuple(Instruction(i.name, tuple(grounding.get(a, a) for a in i.args)) for i in instructions)
 
 
-def resolved_relations(clause: Clause) -> list[Relation]:
-    """The relations of a clause with pronouns replaced by what they most likely mean."""
-
-    def meant(name: str | None) -> str | None:
-        likeliest = clause.antecedents.get(name or "", ())
-        return likeliest[0] if likeliest else name
-
-    return [Relation(r.relation, meant(r.source), meant(r.target) or r.target) for r in clause.relations]
-
-
-def _by_language(template: Template, clause: Clause, world: World, state: Bits) -> Iterator[tuple[str, str]]:
+def _by_language(template: Template, clause: VerbClause, world: World, state: Bits) -> Iterator[tuple[str, str]]:
     """Rules 1 and 2: pairs of variable and object, in order of authority."""
-    for ours in resolved_relations(clause):
-        for theirs in resolved_relations(template.clause):
-            if ours.relation == theirs.relation:
-                yield from _pair(template, theirs.source, ours.source, world, state)
-                yield from _pair(template, theirs.target, ours.target, world, state)
+    for relation, source, target in clause.resolved_relations():
+        for their_relation, their_source, their_target in template.clause.resolved_relations():
+            if relation == their_relation:
+                yield from _pair(template, their_source, source, world, state)
+                yield from _pair(template, their_target, target, world, state)
     for noun in clause.resolved():
         if noun in template.mentions:
             yield from _pair(template, noun, noun, world, state)
@@ -195,7 +186,7 @@ def _settle(grounding: dict[str, str], pairs: Iterator[tuple[str, str]]) -> None
 
 
 def _by_order(
-    template: Template, clause: Clause, grounding: Mapping[str, str], world: World, state: Bits
+    template: Template, clause: VerbClause, grounding: Mapping[str, str], world: World, state: Bits
 ) -> Iterator[tuple[str, str]]:
     """The extension: nouns of one clause only, paired in order of mention where the types allow it."""
     ours = [noun for noun in clause.resolved() if noun not in template.mentions]

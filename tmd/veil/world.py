@@ -14,12 +14,12 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.lexicon.nouns import Match, NounMatch, rank
 from tmd.pddl.grounding.ground_task import ground
 from tmd.pddl.model import TRUE, GroundAtom, Problem, Universe, hierarchy, universe
 from tmd.pddl.task import Bits, Task
+from tmd.world.verb_clause import VerbClause
 
 
 @dataclass(frozen=True, eq=False, slots=True, weakref_slot=True)
@@ -106,7 +106,7 @@ class Mentions:
             self._known[noun] = tuple(rank(noun, self._candidates, self.lexicon))
         return self._known[noun]
 
-    def meant(self, clause: Clause, used: Collection[str], state: Bits) -> tuple[str, ...]:
+    def meant(self, clause: VerbClause, used: Collection[str], state: Bits) -> tuple[str, ...]:
         """The clause's objects: for each noun what it may mean among the objects ``used``, or the likeliest.
 
         Of several that are equally likely it is the one with the most edges to what was used: the burner of the

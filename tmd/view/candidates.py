@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from tmd.inference.energy import meaning, title
-from tmd.inference.ranking import RankedPlan, Refusal
+from tmd.inference.ranking import RankedPlan, RejectedProposal
 from tmd.view.markup import templates
 
 
@@ -20,7 +20,9 @@ class RefusedCandidate:
     sources: tuple[str, ...]
 
 
-def candidates(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[Refusal] = ()) -> str:
+def candidates(
+    plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[RejectedProposal] = ()
+) -> str:
     """Ranked plans as a fragment of HTML: a table of energies, then each clause's, then the refusals.
 
     Args:
@@ -48,7 +50,7 @@ def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
     return sorted((name for name in weight if weight[name]), key=lambda name: (-weight[name], name))
 
 
-def grouped(refusals: Sequence[Refusal]) -> list[RefusedCandidate]:
+def grouped(refusals: Sequence[RejectedProposal]) -> list[RefusedCandidate]:
     """Refusals by clause and reason, the most frequent reasons of a clause first."""
     found: dict[tuple[int, str], list[str]] = {}
     for refusal in refusals:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from tmd.diagnostics import Refusal
 from tmd.export.end_goal import end_goal
-from tmd.goals.clause_goal import Refused
 from tmd.grounded import Grounded
 from tmd.inference.ranking import RankedPlan
 from tmd.pddl.task import Task
@@ -51,7 +51,7 @@ def grounding_record(
         unseen_verbs=grounded.unseen,
         unknown_nouns=grounded.unknown,
         plans=tuple(_plan(plan, verdict, task) for plan, verdict in pairs),
-        refusals=tuple(RefusedTemplate(clause=r.clause, source=r.source, reason=r.reason) for r in grounded.refusals),
+        refusals=tuple(RefusedTemplate(clause=r.clause, source=r.source, reason=r.reason) for r in grounded.rejected),
         refused=_refused(grounded.refused),
         warnings=grounded.warnings,
         environment_file=environment_file,
@@ -99,8 +99,8 @@ def _goal(shown: ShownGoal) -> GoalRecord:
     )
 
 
-def _refused(refused: tuple[int, Refused] | None) -> RefusedText | None:
+def _refused(refused: tuple[int, Refusal] | None) -> RefusedText | None:
     if refused is None:
         return None
     clause, reason = refused
-    return RefusedText(clause=clause, why=reason.why.value, message=reason.message, hint=reason.hint)
+    return RefusedText(clause=clause, why=reason.kind.value, message=reason.message, hint=reason.hint)

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from tmd.grounded import Grounded
-from tmd.inference.ranking import RankedPlan, Refusal, StepGoal
+from tmd.inference.ranking import RankedPlan, RejectedProposal, StepGoal
 from tmd.language.clause import Parsed
 from tmd.pddl.model import Instruction, Problem
 from tmd.veil.world import World
@@ -76,7 +76,7 @@ class Subject:
     steps: tuple[PlannedStep, ...]
     said: Said | None = None
     plans: tuple[RankedPlan, ...] = ()
-    refusals: tuple[Refusal, ...] = ()
+    refusals: tuple[RejectedProposal, ...] = ()
     ran: Ran | None = None
     strip: Strip | None = None
     made: tuple[tuple[str, str], ...] = ()
@@ -103,7 +103,7 @@ def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Su
         grounded.world,
         grounded.parsed,
         grounded.plans,
-        grounded.refusals,
+        grounded.rejected,
         unseen=grounded.unseen,
         unknown=grounded.unknown,
         made=made,
@@ -116,7 +116,7 @@ def grounded_subject(
     world: World,
     parsed: Parsed,
     plans: Sequence[RankedPlan],
-    refusals: Sequence[Refusal] = (),
+    refusals: Sequence[RejectedProposal] = (),
     *,
     unseen: Iterable[str] = (),
     unknown: Iterable[str] = (),

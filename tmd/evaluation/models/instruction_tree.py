@@ -66,7 +66,6 @@ class InstructionTree:
             self.rewards_[world] = learn_policy(
                 [e.demonstration for e in examples if e.world == world],
                 data.world,
-                data.lexicon,
                 random,
                 grounded=self.grounded,
                 certain=self.certain,

@@ -19,16 +19,17 @@ from tmd.evaluation.models.prediction import Prediction, Served
 from tmd.evaluation.runs.dataset import Example, Worlds
 from tmd.goals.sources.demonstrations import learn_goals
 from tmd.goals.sources.table import GoalTable
-from tmd.ground import TaskPlanners
-from tmd.ground import infer as ground_clauses
+from tmd.ground import infer, reader_of, restoration_of
 from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
 from tmd.inference.energy import NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
 from tmd.inference.weight_learning import Journal, Learned, learn_weights
-from tmd.language import Clause, parse
-from tmd.language.clause import Parsed
-from tmd.planning.backends import IN_PROCESS, make
+from tmd.language import parse
+from tmd.language.clause import Clause, Parsed
+from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.planning.result import Planner
+from tmd.readers.interface import Dialogue
+from tmd.readers.rules import ClauseDialogue
 from tmd.veil.corpus import Corpus
 from tmd.veil.library import Library, learn, run, whole
 from tmd.veil.world import World
@@ -117,6 +118,7 @@ class Crf:
         absent = (
             *(() if config.extended else OURS),
             *(() if config.policy else ("words", "generated")),
+            *(() if config.goals else ("prior",)),
             *(() if config.language else _SPOKEN),
             *(() if config.knowledge else _BLIND),
             *(() if config.latent else _LATENT),
@@ -163,7 +165,7 @@ class Crf:
     def predict(self, example: Example, data: Worlds, random: np.random.Generator) -> Prediction:
         """The plan of least energy."""
         plans = self.plans(example, data, top=1)
-        return as_prediction(plans[0], self._said(example, data).clauses) if plans else Prediction()
+        return as_prediction(plans[0], self._clauses(example, data)) if plans else Prediction()
 
     def plans(self, example: Example, data: Worlds, *, top: int) -> tuple[RankedPlan, ...]:
         """The best plans, cheapest first; none in a world that was not learned."""
@@ -267,18 +269,25 @@ class Crf:
         energy = Energy(weights, taught.statistics, world, akin=config.akin)
         policy = taught.tree.policy(example.environment, example.world, data) if taught.tree else None
         planner = planner_for(data, example.environment, config.cap)
-        planners = TaskPlanners(world.task, planner, IN_PROCESS, config)
-        said = self._said(example, data)
+        planners = TaskPlanners(world.task, planner, IN_PROCESS, config.cap)
         if config.goals:
             # a refused text is scored by what --guess makes of it: nothing at all would be compared with nothing
             config = replace(config, guess=True)
-        ground = partial(ground_clauses, said, world, taught.library, energy, planners, policy=policy, top=top)
-        return ground(config, goals=taught.goals).plans
+        if config.language:
+            reader = reader_of(config, taught.library, taught.goals)
+            dialogue: Dialogue = reader.begin(example.demonstration.text, world, world.task.init)
+        else:
+            dialogue = ClauseDialogue(Parsed("", self._clauses(example, data)))
+        restoration = restoration_of(taught.goals, config)
+        return infer(
+            dialogue, world, taught.library, energy, planners, config, policy=policy, restoration=restoration, top=top
+        ).plans
 
-    def _said(self, example: Example, data: Worlds) -> Parsed:
+    def _clauses(self, example: Example, data: Worlds) -> tuple[Clause, ...]:
+        """Return the clauses of a text; without language, as many empty ones as people usually need."""
         if not self.config.language:
-            return Parsed("", (Clause(""),) * self.steps_[example.world])
-        return parse(example.demonstration.text, data.lexicon)
+            return (Clause(""),) * self.steps_[example.world]
+        return parse(example.demonstration.text, data.lexicon).clauses
 
 
 def _groups(examples: Sequence[Example]) -> dict[str | int, frozenset[str]]:

@@ -6,19 +6,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import combinations, islice, product
 
-from tmd.diagnostics import TmdError
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Refused, Unit, Why, text_of
-from tmd.goals.grounder import (
-    FALSE,
-    TRUE,
-    Moments,
-    atoms_of,
-    conjunction,
-    disjunction,
-    negation,
-    only_negative,
-    why_impossible,
-)
+from tmd.diagnostics import Refusal, RefusalKind, TmdError
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Unit, text_of
+from tmd.goals.grounder import Moments, why_impossible
 from tmd.goals.reading.noun_phrases import Memory, Mode, Referent, relations_said
 from tmd.goals.reading.referents import PLACES, Referents
 from tmd.goals.reading.requirements import BE, Requirements, States
@@ -36,6 +26,16 @@ from tmd.goals.sources.table import (
 from tmd.language.clause import PERSONS, Clause, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.syntax.pronouns import is_one
+from tmd.pddl.ground_formula import (
+    FALSE,
+    TRUE,
+    atoms_of,
+    conjunction,
+    disjunction,
+    goal_cubes,
+    negation,
+    only_negative,
+)
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
 from tmd.pddl.task import Bits
 from tmd.planning.unsolvable import Impossible
@@ -195,7 +195,7 @@ class GoalReader:
         self.nouns = self.referents.nouns
         self.exclusions = Impossible(world.task)
 
-    def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refused:
+    def read(self, clause: Clause, state: Bits, memory: Memory, *, awaited: bool = False) -> ClauseGoal | Refusal:
         """What ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         reading = ClauseReading(clause, state, Moments(state, memory.first), memory, awaited=awaited)
         clause = reading.clause = self.referents.reattached(reading)
@@ -205,7 +205,7 @@ class GoalReader:
             and any(r.source in clause.direct and r.relation not in ("of", "with", "without") for r in clause.relations)
         ):
             placed = self.read(replace(clause, verb="put", implied=False), state, memory)
-            if not isinstance(placed, Refused):
+            if not isinstance(placed, Refusal):
                 return placed  # "mug on the table" says where it shall be
         bare = clause.verb == BE and not clause.relations and not clause.result
         if bare or ((clause.verb == BE or clause.result) and not self._rows_with(clause)):
@@ -218,12 +218,12 @@ class GoalReader:
         if phrasal and (goes or not clause.verb.endswith(("_out", "_away", "_off", "_ready"))):
             own += [v for v in (plain, *self._synonyms(plain)) if v not in own]
         found = self._by_tables(own, reading)
-        if isinstance(found, Refused) and clause.verb == BE and found.why is not Why.NO_SUCH_THING:
+        if isinstance(found, Refusal) and clause.verb == BE and found.kind is not RefusalKind.NO_SUCH_THING:
             asked = self._state(reading.again(strict=False))
-            found = found if isinstance(asked, Refused) else asked
+            found = found if isinstance(asked, Refusal) else asked
         return found
 
-    def _state(self, reading: ClauseReading) -> ClauseGoal | Refused:
+    def _state(self, reading: ClauseReading) -> ClauseGoal | Refusal:
         """What a clause says to be so, or to be there.
 
         *I want the table laid* is to lay it, where no state is called so.
@@ -231,32 +231,37 @@ class GoalReader:
         clause = reading.clause
         asked = self.states.read(reading)
         done = self.lexicon.verb(clause.result) if clause.result and clause.verb in ("have", "get", "be") else None
-        if isinstance(asked, Refused) and asked.why is Why.NOT_UNDERSTOOD and done is not None and done[1] == "ed":
+        if (
+            isinstance(asked, Refusal)
+            and asked.kind is RefusalKind.NOT_UNDERSTOOD
+            and done is not None
+            and done[1] == "ed"
+        ):
             said = replace(clause, verb=done[0], result=None, implied=False)
             found = self.read(said, reading.state, reading.memory, awaited=reading.awaited)
-            return asked if isinstance(found, Refused) else found
-        return asked if isinstance(asked, Refused) else self._finished(asked, None, reading)
+            return asked if isinstance(found, Refusal) else found
+        return asked if isinstance(asked, Refusal) else self._finished(asked, None, reading)
 
     def knows(self, noun: str) -> bool:
         """Whether the domain has a word for a noun, be there such a thing here or not."""
         words = {t.name for t in self.domain.types} | {c.name for c in self.domain.constants}
         return bool(words & {noun, *self.lexicon.nouns.get(noun, ())}) or self.nouns.is_group(noun)
 
-    def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused:
+    def _by_tables(self, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal:
         """The goal by the first source that knows the verb."""
-        failure: Refused | None = None
+        failure: Refusal | None = None
         for table in self.tables:  # a weaker source is asked only where the surer ones know nothing
             found = self._by_table(table, own, reading)
             if isinstance(found, ClauseGoal):
                 return found
             failure = failure or found
-            if found is not None and found.why is not Why.NOT_UNDERSTOOD:
+            if found is not None and found.kind is not RefusalKind.NOT_UNDERSTOOD:
                 return found
         return failure or self._unknown(reading.clause)
 
-    def _by_table(self, table: GoalTable, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refused | None:
+    def _by_table(self, table: GoalTable, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal | None:
         """The goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""
-        failure: Refused | None = None
+        failure: Refusal | None = None
         others = self._family(own)
         if any(row.source == ACTIONS for row in table.rows[:1]):
             # an action that takes just what was named is meant rather than what an action does to a relative of it
@@ -264,7 +269,7 @@ class GoalReader:
             try:
                 for known in filter(None, map(table.of, (*own, *others))):
                     found = self._by_rows(known, reading.again(strict=True))
-                    if not isinstance(found, Refused) or found.why is Why.IMPOSSIBLE:
+                    if not isinstance(found, Refusal) or found.kind is RefusalKind.IMPOSSIBLE:
                         return found
             finally:
                 self.grounder.exact = False
@@ -280,11 +285,11 @@ class GoalReader:
                 found = self._by_rows(rows, reading.again(strict=strict))
                 if isinstance(found, ClauseGoal):
                     return found
-                if alone and verb in itself and found.why is Why.IMPOSSIBLE:
+                if alone and verb in itself and found.kind is RefusalKind.IMPOSSIBLE:
                     return found  # what the verb itself asks for can never be: its relatives would ask for less
-                if failure is None or failure.why is Why.NOT_UNDERSTOOD:
+                if failure is None or failure.kind is RefusalKind.NOT_UNDERSTOOD:
                     failure = found
-            settled = failure is not None and failure.why is not Why.NOT_UNDERSTOOD
+            settled = failure is not None and failure.kind is not RefusalKind.NOT_UNDERSTOOD
             if settled and (not strict or self._is_placing(reading.clause)):
                 return failure
         return failure
@@ -307,27 +312,27 @@ class GoalReader:
         """Verbs that ask for the same as ``own`` in English, whatever the domain."""
         return [verb for verb in dict.fromkeys(name for one in own for name in family(one)) if verb not in own]
 
-    def _unknown(self, clause: Clause) -> Refused:
+    def _unknown(self, clause: Clause) -> Refusal:
         known = sorted({verb for table in self.tables for verb in table.verbs()} - {BE})
         verb = clause.verb.replace("_", " ")
         hint = f"say it with another verb, such as {', '.join(known[:6])}" if known else None
-        return Refused(Why.UNKNOWN_VERB, f"nobody has shown or declared what '{verb}' means", hint)
+        return Refusal(RefusalKind.UNKNOWN_VERB, f"nobody has shown or declared what '{verb}' means", hint)
 
-    def _by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refused:
+    def _by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refusal:
         """The goal by the first rows that fit every thing the verb acts on."""
         parted = self._one_and_other(reading)
         shared = self._one_place(reading) if parted is None else None
         found = self._with_one(parted or shared, rows, reading)
-        if shared is not None and (isinstance(found, Refused) or (found and self._excluded(found[0], reading))):
+        if shared is not None and (isinstance(found, Refusal) or (found and self._excluded(found[0], reading))):
             # two pots on a burner: one each
             found, reading.meant, reading.approach = None, {}, []
         if found is None:
             found = self._of_units(rows, reading)
-        return found if isinstance(found, Refused) else self._finished(*found, reading)
+        return found if isinstance(found, Refusal) else self._finished(*found, reading)
 
     def _with_one(
         self, noun: str | None, rows: Sequence[GoalRow], reading: ClauseReading
-    ) -> tuple[Formula, GoalRow | None] | Refused | None:
+    ) -> tuple[Formula, GoalRow | None] | Refusal | None:
         """The goal with one thing for all that is said of a noun, whichever it is; ``None`` where none is left open."""
         candidates = self.referents.targets(noun, reading) if noun is not None else ()
         things = tuple(n for n in candidates if n not in self.world.profiles.constants) or candidates
@@ -336,11 +341,11 @@ class GoalReader:
         ways: list[tuple[Formula, GoalRow | None]] = []
         approaches: list[list[Formula]] = []
         meant: dict[str, dict[str, None]] = {}
-        failure: Refused | None = None
+        failure: Refusal | None = None
         for name in things:
             reading.taken, reading.meant, reading.approach = {noun: name}, {}, []
             found = self._of_units(rows, reading)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 failure = failure or found
                 continue
             ways.append(found)
@@ -366,7 +371,7 @@ class GoalReader:
     def _excluded(self, formula: Formula, reading: ClauseReading) -> bool:
         """Whether it is proven that something can never be: two pots on one burner."""
         try:
-            return self.exclusions.reason(reading.state, self.grounder.cubes(formula)) is not None
+            return self.exclusions.reason(reading.state, goal_cubes(self.world.task, formula)) is not None
         except TmdError:  # too many conjunctions, which is told where the goal is finished
             return False
 
@@ -385,15 +390,15 @@ class GoalReader:
                 return meant
         return None
 
-    def _of_units(self, rows: Sequence[GoalRow], reading: ClauseReading) -> tuple[Formula, GoalRow | None] | Refused:
+    def _of_units(self, rows: Sequence[GoalRow], reading: ClauseReading) -> tuple[Formula, GoalRow | None] | Refusal:
         """What shall hold of all that the verb acts on, and the last row that says so."""
         formulas: list[Formula] = []
         used: GoalRow | None = None
         for unit in self.referents.units(reading):
             found = self._unit(rows, unit, reading)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 found = self._measured(rows, unit, reading) or found
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 return found
             formula, used = found
             formula = self._as_at_first(formula, reading)
@@ -444,24 +449,25 @@ class GoalReader:
             reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
         found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
         reading.clause = clause
-        if isinstance(found, Refused):
+        if isinstance(found, Refusal):
             return None
         if unit.direct is not None and inner in reading.meant:
             reading.meant.setdefault(unit.direct, reading.meant[inner])
         return found
 
-    def _finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refused:
+    def _finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refusal:
         if reading.clause.direct and all(
             reading.clause.phrase(n).quantifier is Quantifier.NONE for n in reading.clause.direct
         ):
             formula = negation(formula)
         try:
-            cubes = self.grounder.cubes(formula)
+            cubes = goal_cubes(self.world.task, formula)
         except TmdError as error:
-            return Refused(Why.NOT_UNDERSTOOD, error.message, error.hint)
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, error.message, error.hint)
         if not cubes:
-            return Refused(Why.CONTRADICTION, f"'{reading.clause.text}' asks for what cannot hold at the same time")
-        groups = tuple((noun, names) for noun, names in reading.meant.items() if names)
+            return Refusal(
+                RefusalKind.CONTRADICTION, f"'{reading.clause.text}' asks for what cannot hold at the same time"
+            )
         return ClauseGoal(
             reading.clause,
             formula,
@@ -470,15 +476,14 @@ class GoalReader:
             dict(reading.meant),
             tuple(reading.approach),
             tuple(reading.released),
-            groups,
             tuple(dict.fromkeys(reading.notes)),
         )
 
-    def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | Refused:
+    def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> tuple[Formula, GoalRow] | Refusal:
         """The goal of one thing; a pronoun is what it most likely means of that which a row fits."""
         if unit.direct is None or not self.referents.points_back(unit.direct):
             return self._with_places(rows, unit, reading)
-        failure: Refused | None = None
+        failure: Refusal | None = None
         held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
         reading.pronoun = unit.direct
         options = self.referents.antecedents(unit.direct, reading)
@@ -486,7 +491,7 @@ class GoalReader:
             reading.antecedent = number
             before = dict(reading.meant)
             found = self._with_rows(rows, unit, reading)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 failure = failure or found
             elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
                 if reading.awaited:
@@ -503,7 +508,7 @@ class GoalReader:
 
     def _with_places(
         self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
-    ) -> tuple[Formula, GoalRow] | Refused:
+    ) -> tuple[Formula, GoalRow] | Refusal:
         """As :meth:`_with_rows`, with places that point back: what was spoken of last and a row fits.
 
         A place may be left out (*pour the milk*) or be a pronoun (*pour the milk in it*); it is then no object of the
@@ -518,16 +523,16 @@ class GoalReader:
             for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
                 reading.antecedent = number
                 found = self._with_rows(rows, unit, reading)
-                if not isinstance(found, Refused) and (not is_object if pronoun else found[1].places):
+                if not isinstance(found, Refusal) and (not is_object if pronoun else found[1].places):
                     return found
             reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)
 
     def _with_rows(
         self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading
-    ) -> tuple[Formula, GoalRow] | Refused:
+    ) -> tuple[Formula, GoalRow] | Refusal:
         """The goal of one thing by the row with the most slots that fits and can hold."""
-        failure: Refused | None = None
+        failure: Refusal | None = None
         fitting = self.fitting.of(rows, unit, reading)
         impossible: set[str] = set()
         most = 0
@@ -537,19 +542,21 @@ class GoalReader:
             before = dict(reading.meant), list(reading.approach), list(reading.notes)
             found = self._by_row(row, unit, reading)
             shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
-            if not isinstance(found, Refused) and shorter and self.fitting.may_tell_which(row, unit, reading):
+            if not isinstance(found, Refusal) and shorter and self.fitting.may_tell_which(row, unit, reading):
                 # what holds already told which thing is meant, if the verb can do without it
                 held = self.grounder.truth(found, reading.state)
                 other = self._with_rows(shorter, unit, reading)
-                if isinstance(other, Refused):
-                    if other.why is Why.NO_SUCH_THING:  # "everything on the floor that is empty", where nothing is
+                if isinstance(other, Refusal):
+                    if (
+                        other.kind is RefusalKind.NO_SUCH_THING
+                    ):  # "everything on the floor that is empty", where nothing is
                         return other
                 elif held or not self.grounder.truth(other[0], reading.state):
                     return other
-            if not isinstance(found, Refused):
+            if not isinstance(found, Refusal):
                 return found, row
             failure = failure or found
-            if found.why is Why.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
+            if found.kind is RefusalKind.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
                 impossible.add(row.evidence)
                 most = max(most, len(row.slots))
             reading.meant, reading.approach, reading.notes = before
@@ -557,9 +564,11 @@ class GoalReader:
             return failure
         said = text_of(reading.clause)
         known = "; ".join(dict.fromkeys(row.pattern for row in rows))
-        return Refused(Why.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}")
+        return Refusal(
+            RefusalKind.NOT_UNDERSTOOD, f"'{said}' does not fit what is known of its verb", f"known: {known}"
+        )
 
-    def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refused:
+    def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refusal:
         """The goal of one thing by one row: for each combination of what stands behind the prepositions."""
         consumed: set[tuple[str, str | None]] = set()
         choices: list[list[tuple[Slot, str, str | None]]] = [[]]
@@ -573,23 +582,25 @@ class GoalReader:
         if (reading.strict or row.source == ACTIONS) and any(
             self.referents.unplaced(unit, *pair, reading) for pair in leftover
         ):
-            return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of")
+            return Refusal(
+                RefusalKind.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says a place that nothing is known of"
+            )
         unknown = self._unknown_thing(leftover, reading)
         if unknown is not None:
             return unknown
         formulas = []
         for choice in choices:
             found = self._combination(row, unit.direct, choice, leftover, reading)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 if not alternatives:
                     return found
                 continue
             formulas.append(found)
         if not formulas:
-            return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
+            return Refusal(RefusalKind.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
         return disjunction(formulas) if alternatives else conjunction(formulas)
 
-    def _unknown_thing(self, leftover: Sequence[tuple[str, str]], reading: ClauseReading) -> Refused | None:
+    def _unknown_thing(self, leftover: Sequence[tuple[str, str]], reading: ClauseReading) -> Refusal | None:
         """A thing that was named and that is not there: whatever is done without it is something else."""
         if self.nouns.guess:
             return None
@@ -608,7 +619,7 @@ class GoalReader:
         places: Sequence[tuple[Slot, str, str | None]],
         leftover: Sequence[tuple[str, str]],
         reading: ClauseReading,
-    ) -> Formula | Refused:
+    ) -> Formula | Refusal:
         slots: list[tuple[Slot, list[Referent]]] = []
         if row.direct is not None and direct is not None:
             slots.append((row.direct, self.referents.referents(direct, row, row.direct, leftover, reading)))
@@ -625,7 +636,7 @@ class GoalReader:
                     ),
                 )
             )
-        failure: Refused | None = None
+        failure: Refusal | None = None
         for chosen in product(*(options for _, options in slots)):
             if any(not referent.names for referent in chosen):
                 missing = next(referent for referent in chosen if not referent.names)
@@ -639,7 +650,7 @@ class GoalReader:
             for _, referent in pairs:
                 reading.meant[referent.noun] = referent.names
             return formula
-        return failure or Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
+        return failure or Refusal(RefusalKind.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here")
 
     def _at_origin(
         self, referent: Referent, places: Sequence[tuple[Slot, str, str | None]], reading: ClauseReading
@@ -742,16 +753,16 @@ class GoalReader:
         pairs: Sequence[tuple[str, Referent]],
         relations: Mapping[str, tuple[str, ...]],
         reading: ClauseReading,
-    ) -> Refused:
+    ) -> Refusal:
         short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
         if short is not None:
             called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
             message = f"only {called} called '{short.noun.replace('_', ' ')}', not {short.number}"
-            return Refused(Why.NO_SUCH_THING, message)
+            return Refusal(RefusalKind.NO_SUCH_THING, message)
         said = next((names for names in relations.values() if names), ("",))
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.world.task, self.grounder)
-        return Refused(Why.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")
+        return Refusal(RefusalKind.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here: {reason}")
 
 
 def _of_alternatives(parts: Sequence[Formula]) -> bool:

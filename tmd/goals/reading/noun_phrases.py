@@ -7,12 +7,13 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from functools import cached_property
 
-from tmd.goals.grounder import FALSE, TRUE, Grounder, Moments, disjunction, negation
+from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable, state_words
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
 from tmd.language.syntax.attachment import WHOLES
+from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
 from tmd.veil.world import CONTAINED, World

@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from tmd.goals.clause_goal import ClauseReading, Refused, Unit, Why
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.noun_phrases import EVERYTHING, INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import (
@@ -567,26 +568,28 @@ class Referents:
         found = self.nouns.things(f"{modifier}_{antecedent}", reading.state)
         return found if set(found) != set(whole) else ()
 
-    def not_there(self, clause: Clause) -> Refused:
+    def not_there(self, clause: Clause) -> Refusal:
         """That the thing a clause acts on is not there."""
         reading = ClauseReading(clause, 0, Moments(0, 0), Memory())
         return self.missing(Referent(clause.direct[0] if clause.direct else "it", ()), reading)
 
-    def missing(self, referent: Referent, reading: ClauseReading) -> Refused:
-        """Why a noun means nothing here."""
+    def missing(self, referent: Referent, reading: ClauseReading) -> Refusal:
+        """RefusalKind a noun means nothing here."""
         phrase = reading.clause.phrase(referent.noun)
         words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
         known = self.nouns.things(referent.noun, reading.state)
         if known and phrase.attributes:
             what = "nothing" if referent.noun in EVERYTHING else f"no {referent.noun.replace('_', ' ')}"
-            return Refused(Why.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(phrase.attributes)}")
+            return Refusal(RefusalKind.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(phrase.attributes)}")
         if known and any(r in EXCEPTING for r, _ in self.relations_of(referent.noun, reading.clause)):
-            return Refused(Why.NO_SUCH_THING, f"every '{words}' that is meant here is excepted")
+            return Refusal(RefusalKind.NO_SUCH_THING, f"every '{words}' that is meant here is excepted")
         if known:
-            return Refused(
-                Why.NOT_UNDERSTOOD,
+            return Refusal(
+                RefusalKind.NOT_UNDERSTOOD,
                 f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here",
             )
-        return Refused(
-            Why.NO_SUCH_THING, f"nothing here is called '{words}'", "name a thing that is there, or allow guesses"
+        return Refusal(
+            RefusalKind.NO_SUCH_THING,
+            f"nothing here is called '{words}'",
+            "name a thing that is there, or allow guesses",
         )

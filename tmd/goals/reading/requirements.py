@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TypeAlias
 
-from tmd.goals.clause_goal import ClauseReading, Refused, Why, text_of
-from tmd.goals.grounder import FALSE, TRUE, Moments, atoms_of, conjunction, disjunction
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.clause_goal import ClauseReading, text_of
+from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import EXCEPTING, Referents
 from tmd.goals.sources.table import (
@@ -18,6 +19,7 @@ from tmd.goals.sources.table import (
 )
 from tmd.language.clause import PERSONS, Quantifier
 from tmd.language.syntax.pronouns import is_pronoun
+from tmd.pddl.ground_formula import FALSE, TRUE, atoms_of, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula, Not
 
 Requirement: TypeAlias = Callable[[Mapping[str, str]], Formula]
@@ -313,19 +315,19 @@ class States:
         self.grounder = referents.grounder
         self.nouns = referents.nouns
 
-    def read(self, reading: ClauseReading) -> Formula | Refused:
+    def read(self, reading: ClauseReading) -> Formula | Refusal:
         """What is to be so: *the door is open*, *get the water boiling*, *there is milk in the cup*."""
         clause = reading.clause
         names = [n for n in (clause.direct or clause.objects[:1]) if n not in PERSONS] or [""]
         formulas = []
         for noun in names:
             found = self._state_of(noun, reading)
-            if isinstance(found, Refused):
+            if isinstance(found, Refusal):
                 return found
             formulas.append(found)
         return conjunction(formulas)
 
-    def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refused:
+    def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refusal:
         clause = reading.clause
         relations = self.referents.relations_of(noun, clause)
         excepted = [r for r in relations if r[0] in EXCEPTING]
@@ -334,14 +336,14 @@ class States:
         if constants:
             return self._substance_state(noun, constants, relations, reading)
         row = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
-        failure: Refused | None = None
+        failure: Refusal | None = None
         found: list[tuple[Formula, Referent]] = []
         for referent in self.referents.referents(noun, row, row.slots[0], excepted, reading):
             if not referent.names:
                 failure = failure or self.referents.missing(referent, reading)
                 continue
             said = self._thing_state(referent, relations, reading)
-            if isinstance(said, Refused):
+            if isinstance(said, Refusal):
                 failure = failure or said
             else:
                 found.append((said, referent))
@@ -370,7 +372,7 @@ class States:
 
     def _thing_state(
         self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
-    ) -> Formula | Refused:
+    ) -> Formula | Refusal:
         result = reading.clause.result
         parts: dict[str, list[Formula]] = {name: [] for name in referent.names}
         for name, said in parts.items():
@@ -388,8 +390,8 @@ class States:
                 said.append(TRUE)
         alive = [conjunction(said) for said in parts.values() if said]
         if not alive:
-            return Refused(
-                Why.NOT_UNDERSTOOD,
+            return Refusal(
+                RefusalKind.NOT_UNDERSTOOD,
                 f"nothing here says whether {referent.noun.replace('_', ' ')} is {str(result).replace('_', ' ')}",
                 "declare the adjective under 'attributes' in lexicon.yaml",
             )
@@ -401,7 +403,7 @@ class States:
 
     def _substance_state(
         self, noun: str, constants: Sequence[str], relations: Sequence[tuple[str, str]], reading: ClauseReading
-    ) -> Formula | Refused:
+    ) -> Formula | Refusal:
         """A substance is where it is contained, and as that is."""
         result = reading.clause.result
         attributes = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
@@ -426,6 +428,8 @@ class States:
                     held = Atom(atom.predicate, atom.args) if changes else TRUE
                     ways.append(conjunction((held, *placed, *(f for f in said if f is not None))))
         if not ways:
-            return Refused(Why.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says nothing that could be checked here")
+            return Refusal(
+                RefusalKind.NOT_UNDERSTOOD, f"'{text_of(reading.clause)}' says nothing that could be checked here"
+            )
         reading.meant[noun] = tuple(constants)
         return disjunction(ways)

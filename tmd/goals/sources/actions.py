@@ -28,6 +28,7 @@ from tmd.goals.sources.table import (
 )
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
+from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.model import (
     ActionSchema,
     And,
@@ -80,7 +81,7 @@ class _Words:
         self.fluent = {effect.atom.predicate for action in domain.actions for effect in action.effects}
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
         self.constants: dict[tuple[str, ...], list[str]] = {}
-        self.passing = _passing(domain)
+        self.passing = passing_predicates(domain)
         peopled = [a for a in domain.actions if any(self._kinds(p) & _PEOPLE for p in a.parameters)]
         self.actors = _ACTORS | _PEOPLE if 2 * len(peopled) > len(domain.actions) else _ACTORS
         self.actors |= self._movers()
@@ -407,12 +408,6 @@ def _verbs_of(name: str) -> Iterator[str]:
 def _placelike(parameter: TypedName, types: object) -> bool:
     """Whether a parameter may be a thing or a place, although the domain has a constant of that type (the floor)."""
     return any(t in ("object", "thing", "item", "place", "location", "physobj", "movable") for t in parameter.types)
-
-
-def _passing(domain: Domain) -> frozenset[str]:
-    from tmd.goals.clause_goal import passing_predicates
-
-    return passing_predicates(domain)
 
 
 def describe(rows: Iterable[GoalRow]) -> str:

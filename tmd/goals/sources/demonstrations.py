@@ -17,8 +17,7 @@ from itertools import product
 from typing import Any
 
 from tmd.diagnostics import TmdError
-from tmd.goals.clause_goal import passing_predicates
-from tmd.goals.grounder import FALSE, Grounder, Moments
+from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.noun_phrases import Nouns
 from tmd.goals.sources.table import (
     LEARNED,
@@ -35,6 +34,8 @@ from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
 from tmd.language.syntax.pronouns import is_pronoun
+from tmd.pddl.domain_traits import passing_predicates
+from tmd.pddl.ground_formula import FALSE
 from tmd.pddl.model import Domain, Instruction, Predicate
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_formula

@@ -139,7 +139,7 @@ def sack(model: UrdfModel, look: Appearance, parts: Parts) -> None:
     ear = 0.05
     x, y, rim = depth / 2, width / 2 - ear, height - 0.012
     model.slab((-x, -y, 0.0), (x, y, 0.008), look.colour)
-    for side in (-1, 1):
+    for side in (-1.0, 1.0):
         model.box((0.0, side * (y - 0.004), rim / 2), (2 * x, 0.008, rim), look.colour)
         model.box((side * (x - 0.004), 0.0, rim / 2), (0.008, 2 * y - 0.016, rim), look.colour)
     level, slant = rim * 0.6, math.sqrt(0.5)

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import os
-import sys
 import tempfile
 import xml.etree.ElementTree as ET
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from tmd import files
 from tmd.diagnostics import OutputError, TmdError
 from tmd.files import make_directory, read_bytes
 
@@ -52,17 +53,9 @@ def end_of(joint: ET.Element, end: str) -> str:
 
 @cache
 def cache_directory(name: str) -> Path:
-    """A directory of the user's cache, or a temporary one where that cannot be written."""
-    if sys.platform == "win32":
-        home = Path(os.environ.get("LOCALAPPDATA") or Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        home = Path.home() / "Library" / "Caches"
-    else:
-        home = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
-    try:
-        folder = make_directory(home / "tmd" / name)
-        if os.access(folder, os.W_OK):
+    """Return a directory of the user's cache, or a temporary one where that cannot be written."""
+    folder = files.cache_directory(name)
+    with suppress(OutputError):
+        if folder is not None and os.access(make_directory(folder), os.W_OK):
             return folder
-    except OutputError:
-        pass
     return Path(tempfile.mkdtemp(prefix=f"tmd-{name}-"))

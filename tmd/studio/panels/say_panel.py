@@ -11,12 +11,11 @@ from html import escape
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import RefusalKind, TmdError
 from tmd.export.end_goal import asked_problem
-from tmd.goals.clause_goal import Why
 from tmd.grounded import Grounded
 from tmd.inference.energy import meaning, title
-from tmd.inference.ranking import PlanStep, RankedPlan, Refusal
+from tmd.inference.ranking import PlanStep, RankedPlan, RejectedProposal
 from tmd.pddl.model import Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.validator import Status, validate
@@ -42,7 +41,9 @@ if TYPE_CHECKING:
 _ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
 
 
-def energies(plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[Refusal] = ()) -> str:
+def energies(
+    plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[RejectedProposal] = ()
+) -> str:
     """What :func:`tmd.view.candidates.candidates` tells, as HTML that fits into a panel.
 
     Args:
@@ -107,7 +108,7 @@ def _choices(plan: RankedPlan) -> str:
     return "".join(lines)
 
 
-def _refused(refusals: Sequence[Refusal]) -> str:
+def _refused(refusals: Sequence[RejectedProposal]) -> str:
     rows = grouped(refusals)
     if not rows:
         return ""
@@ -305,7 +306,7 @@ class SayPanel:
         tried = f"try: {' '.join(example.split())}" if example else None
         if grounded.refused is not None:
             clause, refused = grounded.refused
-            shown = "show it under Demonstrate" if refused.why is Why.UNKNOWN_VERB else None
+            shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
             hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
             visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
         elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
@@ -335,11 +336,11 @@ class SayPanel:
         for handle in (self._which, self._fold, self._after):
             handle.visible = found
         self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
-        self._more.visible = found or bool(grounded.refusals)
+        self._more.visible = found or bool(grounded.rejected)
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         world_words = Wording(world.task.problem)
         self._energies.content = fragment(
-            side_by_side(grounded.plans, world, world_words) + energies(grounded.plans, lines, grounded.refusals)
+            side_by_side(grounded.plans, world, world_words) + energies(grounded.plans, lines, grounded.rejected)
         )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen

@@ -5,7 +5,7 @@ are any. ``learned.json`` is written last and has checksums: of what everything 
 Where one of them does not fit, nothing of the directory is used.
 
 What nobody saved is learned when it is first asked for, and kept in the user's cache directory, a directory for each
-:mod:`digest <tmd.inference.learned.digest>`. Where there is no place for it, it is learned each time.
+:mod:`digest <tmd.knowledge.digest>`. Where there is no place for it, it is learned each time.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ import numpy.typing as npt
 from pydantic import Field, TypeAdapter
 
 from tmd.diagnostics import OutputError, TmdError
-from tmd.files import make_directory, write_bytes
+from tmd.files import cache_directory, make_directory, write_bytes
 from tmd.goals.sources.demonstrations import learn_goals, table_from_json, table_to_json
 from tmd.goals.sources.table import GoalTable
 from tmd.inference.energy import Weights, format_weights, parse_weights
@@ -291,8 +291,8 @@ class Progress:
                 sys.stderr.flush()
 
 
-_ROOT = Path(__file__).resolve().parents[1]
-_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy.py", "inference/learned.py")
+_ROOT = Path(__file__).resolve().parent
+_SOURCES = ("pddl", "world", "language", "veil", "goals", "inference/policy.py", "knowledge.py")
 """The packages and modules of ``tmd`` whose code decides what is learned from a demonstration."""
 _DOMAIN = ("domain.pddl", "objects.yaml", "lexicon.yaml")
 
@@ -374,7 +374,7 @@ def study(corpus: Corpus, tell: Callable[[float], None] | None = None) -> Knowle
         told(_LIBRARY + (1 - _LIBRARY) * share)
 
     goals = learn_goals(demonstrations, corpus.world, corpus.lexicon)
-    return Knowledge(library, learn_policy(demonstrations, corpus.world, corpus.lexicon, random, tell=on), goals=goals)
+    return Knowledge(library, learn_policy(demonstrations, corpus.world, random, tell=on), goals=goals)
 
 
 def _counted(demonstrations: Sequence[Demonstration], tell: Callable[[float], None]) -> Iterator[Demonstration]:
@@ -410,7 +410,7 @@ def save(knowledge: Knowledge, corpus: Corpus, directory: Path, made_from: str |
         knowledge: What was learned.
         corpus: The domain.
         directory: Where to.
-        made_from: The :func:`~tmd.inference.learned.digest` of the corpus before it was read, where others may
+        made_from: The :func:`~tmd.knowledge.digest` of the corpus before it was read, where others may
             write to it meanwhile; what it is now where none is given.
 
     Raises:
@@ -468,24 +468,9 @@ def known(corpus: Corpus, root: Path | None = None, tell: Callable[[float], None
     return recall(corpus, place(corpus, root)) or _from_cache(corpus, digest(corpus), tell)
 
 
-def cache_directory() -> Path | None:
-    """The user's cache directory for what is learned; ``None`` where there can be none.
-
-    It is in ``$XDG_CACHE_HOME``, if that is an absolute path, or else in ``.cache`` of a home directory that exists.
-    """
-    given = Path(os.environ.get("XDG_CACHE_HOME", ""))
-    if given.is_absolute():
-        return given / "tmd" / "learned"
-    try:
-        home = Path.home()
-    except RuntimeError:
-        return None
-    return home / ".cache" / "tmd" / "learned" if home.is_absolute() and home.is_dir() else None
-
-
 def _from_cache(corpus: Corpus, made_from: str, tell: Callable[[float], None] | None) -> Knowledge:
     """What is kept, or else learned now and kept."""
-    cache = cache_directory()
+    cache = cache_directory("learned")
     kept = cache / corpus.folder.name / made_from[:_DIGITS] if cache is not None else None
     found = recall(corpus, kept) if kept is not None else None
     if found is None:

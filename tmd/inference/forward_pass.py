@@ -1,0 +1,277 @@
+"""Algorithm 1 of the paper (section VI-E): the forward pass over the clauses, and the best plans it leads to.
+
+α_j maps each environment that clause j can end in to the cheapest ways of getting there. The comments name the lines of
+the paper. Beyond it, others than the templates may propose (:mod:`tmd.inference.proposers`), α_j may be cut to a beam,
+and candidates wait in a queue in the order of their least possible energy, so that most of the dear ones need no
+planner. :mod:`tmd.inference.goal_pass` adds goals that every candidate must reach.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from itertools import islice
+from typing import Protocol
+
+from tmd.inference.commitments import Commitment
+from tmd.inference.config import InferenceConfig
+from tmd.inference.energy import Energy, Factors
+from tmd.inference.proposers import Instructions, Proposal, Proposer, Situation
+from tmd.inference.ranking import (
+    Choice,
+    Inferred,
+    Path,
+    PlanStep,
+    RankedPlan,
+    RejectedProposal,
+    StepGoal,
+    why_lost,
+)
+from tmd.pddl.domain_traits import passing_predicates
+from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.semantics import Constraints
+from tmd.pddl.task import Bits, Cube, Task
+from tmd.planning.result import Answer, Filled, GaveUp, NoPlanner, Planner, Unreachable
+from tmd.veil.world import World
+from tmd.world.verb_clause import VerbClause
+
+NOTHING = Choice(None, (), {}, {})
+"""The choice for a clause for which nothing is done."""
+
+
+class Planners(Protocol):
+    """The planners of one environment."""
+
+    def quick(self, task: Task) -> Planner:
+        """Return the planner that fills gaps."""
+        ...
+
+    def resort(self, task: Task) -> Planner:
+        """Return the planner that is asked where the quick one gave up."""
+        ...
+
+
+@dataclass(frozen=True)
+class Restoration:
+    """Facts that people undo unasked, as (predicate, class of the thing): the tap is turned off again.
+
+    Attributes:
+        at_once: What is undone when the clause is done that needed it.
+        at_the_end: What is undone when the whole request is done.
+    """
+
+    at_once: frozenset[tuple[str, str]] = frozenset()
+    at_the_end: frozenset[tuple[str, str]] = frozenset()
+
+
+@dataclass(frozen=True)
+class InferenceSetup:
+    """What inference works with in one environment. Nothing of a request is kept in it.
+
+    Attributes:
+        world: The environment.
+        energy: The factors with their weights.
+        planners: Its planners.
+        proposers: The sources of candidates; each also judges the candidates of the others.
+        config: The preset.
+        restoration: What people undo unasked.
+    """
+
+    world: World
+    energy: Energy
+    planners: Planners
+    proposers: tuple[Proposer, ...]
+    config: InferenceConfig
+    restoration: Restoration = field(default_factory=Restoration)
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """A way through the first steps.
+
+    Attributes:
+        path: The choices, their energy and the state they end in.
+        memory: The reader's memory.
+        kept: The commitments.
+        goals: The goals of the steps.
+        readings: For each step with several candidate goals, its index and the goal that was taken.
+    """
+
+    path: Path
+    memory: object = None
+    kept: tuple[Commitment, ...] = ()
+    goals: tuple[StepGoal, ...] = ()
+    readings: tuple[tuple[int, Formula], ...] = ()
+
+    def extended(self, choice: Choice, end: Bits) -> Way:
+        """Return the way with a choice for the next clause, which ends in ``end``."""
+        return replace(self, path=self.path.extended(choice, end))
+
+
+class ForwardPass:
+    """The forward pass over the clauses of one request.
+
+    Args:
+        setup: What inference works with.
+        clauses: The clauses.
+        task: The task of the environment, without what the request forbids.
+        top: The number of distinct plans that are wanted.
+    """
+
+    def __init__(self, setup: InferenceSetup, clauses: Sequence[VerbClause], task: Task, top: int) -> None:
+        self.setup = setup
+        self.config = setup.config
+        self.world = setup.world
+        self.clauses = clauses
+        self.task = task
+        self.top = top
+        self.planner: Planner = setup.planners.quick(task) if self.config.latent else NoPlanner()
+        self.constraints = Constraints(setup.world.task)
+        self.rejected: dict[RejectedProposal, None] = {}  # a set that keeps its order
+
+    def infer(self, state: Bits) -> Inferred:
+        """Return the best distinct plans for the clauses from ``state``."""
+        ways = [Way(Path(0.0, state))]  # α_0[E'_0] = 0
+        for number in range(len(self.clauses)):
+            ways = self._forward(number, ways)
+        return Inferred(self.ranked(ways), tuple(self.rejected))
+
+    def ranked(self, ways: Sequence[Way]) -> tuple[RankedPlan, ...]:
+        """Return the cheapest distinct plans, each with the reason why it is not the first."""
+        plans = [RankedPlan(w.path.choices, w.path.state, goals=w.goals) for w in distinct(ways, self.top)]
+        return tuple(replace(p, why=why_lost(p, plans[0])) if place else p for place, p in enumerate(plans))
+
+    def _forward(self, number: int, ways: Sequence[Way]) -> list[Way]:
+        """Forward-Inference(j): α_j from α_{j-1}."""
+        alpha = by_state(ways)
+        groups = {Situation(self.clauses, number, [way.path for way in group]): group for group in alpha.values()}
+        found: dict[Bits, list[Way]] = {}
+        for bound, situation, candidate in self.queue(groups):  # lines 3 to 7
+            if self._settled(found, bound):
+                break
+            match self._answer(situation.state, candidate.instructions):  # lines 8 and 9
+                case Filled(latent):
+                    choice, end = self._chosen(situation, candidate, latent)  # lines 10 and 11
+                    found.setdefault(end, []).extend(w.extended(choice, end) for w in groups[situation])  # line 12
+                case Unreachable(reason):
+                    self.rejected[RejectedProposal(number, candidate.source, reason)] = None
+                case GaveUp(limit):
+                    reason = f"the planner gave up at {limit}"
+                    self.rejected[RejectedProposal(number, candidate.source, reason)] = None
+        if not found:  # an unseen verb, or nothing that can be done: α_j = α_{j-1}
+            return [way.extended(NOTHING, state) for state, group in alpha.items() for way in group]
+        return self.pruned((way for group in found.values() for way in group), self.config.beam)
+
+    def queue(self, situations: Iterable[Situation]) -> list[tuple[float, Situation, Proposal]]:
+        """Return every candidate with its least possible energy, the cheapest first; the planner can only add to it."""
+        found = []
+        for situation in situations:
+            for proposed in (p for proposer in self.setup.proposers for p in proposer.propose(situation)):
+                if isinstance(proposed, RejectedProposal):
+                    self.rejected[proposed] = None
+                else:
+                    found.append((situation.ways[0].energy + proposed.energy, situation, proposed))
+        return sorted(found, key=lambda item: item[0])
+
+    def _settled(self, found: dict[Bits, list[Way]], bound: float) -> bool:
+        """Return whether no candidate of energy ``bound`` or more can enter the beam or the best plans any more.
+
+        Without a beam every candidate counts, and where weights are negative, since then ``bound`` is no bound.
+        """
+        if self.config.beam is None:
+            return False
+        least = bound + self.setup.energy.least_more()
+        cheaper = [sum(way.path.energy < least for way in ways) for ways in found.values()]
+        return sum(map(bool, cheaper)) >= self.config.beam and sum(cheaper) >= self.top
+
+    def _answer(self, state: Bits, instructions: Instructions) -> Answer:
+        """Ask callSymbolicPlanner for getConstraints: what must be done before ``instructions``."""
+        if not self.config.knowledge:
+            return Filled((), state, 0)
+        return self.planner.fill(state, self.constraints.of(instructions))
+
+    def _chosen(self, situation: Situation, candidate: Proposal, latent: Instructions) -> tuple[Choice, Bits]:
+        """Return the choice of a candidate with the planner's instructions before it, and the state it ends in."""
+        if not self.config.knowledge:  # a robot without knowledge takes its environment to stay as it was
+            return self.choice(situation.number, candidate.source, latent, candidate.instructions, candidate.raw), (
+                situation.state
+            )
+        own = candidate.instructions
+        raw, end = self.weighed(situation, candidate.names, latent, own, candidate.raw)
+        return self.choice(situation.number, candidate.source, latent, own, raw), end
+
+    def weighed(
+        self,
+        situation: Situation,
+        names: Sequence[str],
+        latent: Instructions,
+        own: Instructions,
+        raw: Factors,
+        aim: Sequence[Cube] = (),
+    ) -> tuple[Factors, Bits]:
+        """Return all factors of a candidate, and the state that it ends in (Φ, lines 10 and 11).
+
+        Args:
+            situation: The clause, and the ways to it.
+            names: The objects that the clause speaks of.
+            latent: The planner's instructions (I_jl).
+            own: The candidate's instructions (I_j).
+            raw: The factors of ψ_j that are known already.
+            aim: The goal that it reaches, where there is one.
+        """
+        energy = self.setup.energy
+        middle = self.simulated(situation.state, latent)  # E_j, line 10
+        end = self.simulated(middle, own)  # E'_j, line 11
+        factors = dict(raw)  # ψ_j
+        factors |= energy.of_end(situation.clause.verb, names, end)  # ψ'_j
+        factors |= energy.of_latent(latent, middle)  # ψ_jl and ψ'_jl
+        if aim:
+            asked = 0
+            for cube in aim:
+                asked |= cube.positive | cube.negative
+            factors["unasked"] = float(((end ^ situation.state) & self.lasting & ~asked).bit_count())
+        for proposer in self.setup.proposers:
+            factors |= proposer.judge(situation, (*latent, *own), end)
+        return factors, end
+
+    def choice(self, number: int, source: str, latent: Instructions, own: Instructions, raw: Factors) -> Choice:
+        """Return the choice of a candidate whose factors are ``raw``."""
+        steps = tuple(PlanStep(i, number, latent=True) for i in latent)
+        steps += tuple(PlanStep(i, number, latent=False) for i in own)
+        return Choice(source, steps, self.setup.energy.weigh(raw), raw)
+
+    @cached_property
+    def lasting(self) -> Bits:
+        """The atoms that do not pass by themselves."""
+        passing = passing_predicates(self.task.problem.domain)
+        return sum(1 << bit for bit, atom in enumerate(self.task.atoms) if atom.predicate not in passing)
+
+    def simulated(self, state: Bits, instructions: Iterable[Instruction]) -> Bits:
+        """Return the state after instructions (Φ)."""
+        for instruction in instructions:
+            state = self.world.task.by_instruction[instruction].apply(state)
+        return state
+
+    def pruned(self, found: Iterable[Way], beam: int | None) -> list[Way]:
+        """Return the cheapest ways to each of the ``beam`` cheapest environments; ``None`` keeps all."""
+        ends = by_state(sorted(found, key=lambda way: way.path.order))
+        return [way for group in islice(ends.values(), beam) for way in distinct(group, self.top)]
+
+
+def by_state(ways: Iterable[Way]) -> dict[Bits, list[Way]]:
+    """Group ways by the state that they end in; the order is kept."""
+    found: dict[Bits, list[Way]] = {}
+    for way in ways:
+        found.setdefault(way.path.state, []).append(way)
+    return found
+
+
+def distinct(ways: Iterable[Way], count: int) -> list[Way]:
+    """Return the ``count`` cheapest ways that differ in their instructions, the cheapest first."""
+    kept: dict[Instructions, Way] = {}
+    for way in sorted(ways, key=lambda way: way.path.order):
+        if len(kept) == count:
+            break
+        kept.setdefault(way.path.instructions, way)
+    return list(kept.values())

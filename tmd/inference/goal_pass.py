@@ -1,0 +1,554 @@
+"""The forward pass over steps with goals. Not in the paper.
+
+Templates, policy and planner propose *how*; the candidate goals of a step (:mod:`tmd.readers.interface`) say *what*. A
+proposal that does not reach the goal, or that undoes what an earlier step reached, is completed by the planner, and is
+dropped where that fails; objects that it handles for nothing are left alone. The energy ranks the rest, the reader's
+prior being one factor. What was opened or switched on by the way is put back where people do so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import islice
+
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.inference.commitments import (
+    Commitment,
+    aims,
+    combined,
+    commitments_of,
+    constrained,
+    kept_throughout,
+    violated,
+)
+from tmd.inference.energy import Factors
+from tmd.inference.forward_pass import NOTHING, ForwardPass, InferenceSetup, Way
+from tmd.inference.proposers import PLANNER_SOURCE, POLICY_SOURCE, Instructions, Proposal, Situation
+from tmd.inference.ranking import Choice, Inferred, LostGoal, Path, PlanStep, StepGoal
+from tmd.pddl.ground_formula import TRUE, goal_cubes
+from tmd.pddl.model import And, Formula, Instruction
+from tmd.pddl.semantics import Constraints
+from tmd.pddl.task import Bits, Cube
+from tmd.planning.gap_filler import eliminate, untouched
+from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
+from tmd.readers.interface import CandidateGoal, Dialogue, Question, QuestionOption, Step
+from tmd.veil.library import tidy
+
+_MOST_FURTHER_STEPS = 4
+"""Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it."""
+_MOST_READINGS = 4
+"""Maximum number of different readings of a request that are followed at a time, each with a beam of its own."""
+_FORBIDDEN = Refusal(RefusalKind.CONTRADICTION, "every plan that was found does what the request forbids")
+PRIOR = "prior"
+"""The factor of the reader's prior: the negative logarithm of its belief in the candidate goal."""
+_Executable = tuple[Proposal, Instructions, Instructions]
+"""A proposal that can be carried out, the planner's instructions before it, and its own instructions."""
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A candidate goal of a step in one state, with what must hold beside it.
+
+    Attributes:
+        step: The step.
+        goal: The candidate.
+        already: Whether it holds already.
+        aims: What to plan for: the goal with all commitments, then with ever fewer of them.
+        ways: Conditions to be reached on the way, before the goal.
+    """
+
+    step: Step
+    goal: CandidateGoal
+    already: bool = False
+    aims: tuple[tuple[Cube, ...], ...] = ()
+    ways: tuple[tuple[Cube, ...], ...] = ()
+
+
+class GoalPass(ForwardPass):
+    """The forward pass over the steps of one dialogue.
+
+    Args:
+        setup: What inference works with.
+        dialogue: The request as it was read.
+        top: The number of distinct plans that are wanted.
+        chosen: For steps of :attr:`Dialogue.steps` that the user was asked about, the goal that is meant.
+    """
+
+    def __init__(self, setup: InferenceSetup, dialogue: Dialogue, top: int, chosen: Mapping[int, Formula]) -> None:
+        task = constrained(setup.world.task, dialogue.constraints)
+        super().__init__(setup, dialogue.clauses, task, top)
+        self.constraints = Constraints(self.task)
+        self.dialogue = dialogue
+        self.chosen = chosen
+        self._resort: Planner | None = None
+        self._may_go_far = True
+        self._far_answers: dict[tuple[Bits, tuple[Cube, ...]], Answer] = {}
+
+    def infer(self, state: Bits) -> Inferred:
+        """Return the best distinct plans for the steps from ``state``, or the reason why there is none."""
+        dialogue = self.dialogue
+        if dialogue.refusal is not None:
+            return Inferred((), (), (0, dialogue.refusal))
+        kept = kept_throughout(dialogue.constraints.kept, -1, self.task)
+        ways = [Way(Path(0.0, state), dialogue.memory, kept)]
+        for number, step in enumerate(dialogue.steps):
+            found = self._over(number, step, ways)
+            if isinstance(found, Refusal):
+                return Inferred((), tuple(self.rejected), (step.number, found))
+            ways = found
+        refusal = self._without_effect(ways)
+        if refusal is None:
+            ways = [w for way in ways if self._respects_constraints(w := self._finished(way, state), state)]
+            refusal = None if ways else _FORBIDDEN
+        if refusal is not None:
+            return Inferred((), tuple(self.rejected), (0, refusal))
+        return Inferred(self.ranked(ways), tuple(self.rejected), question=self._question(ways))
+
+    def _over(self, number: int, step: Step, ways: Sequence[Way]) -> list[Way] | Refusal:
+        """Return the best ways that lead on over one step, from each of the ways so far."""
+        found: list[Way] = []
+        refusal: Refusal | None = None
+        for way in ways:
+            self._may_go_far = not found  # the far planner takes long: only on the best way that leads on
+            answer = self._from(number, step, way)
+            if isinstance(answer, Refusal):
+                refusal = refusal or answer
+            else:
+                found += answer
+        if not found:
+            assert refusal is not None
+            return refusal
+        beam = self.config.beam and max(self.config.beam, self.top)
+        readings: dict[tuple[tuple[int, Formula], ...], list[Way]] = {}
+        for way in sorted(found, key=lambda way: way.path.order):
+            readings.setdefault(way.readings, []).append(way)
+        return [way for group in islice(readings.values(), _MOST_READINGS) for way in self.pruned(group, beam)]
+
+    def _from(self, number: int, step: Step, way: Way) -> list[Way] | Refusal:
+        """Return the ways over one step from one way, over all its candidate goals."""
+        read = self.dialogue.goals(step, way.path.state, way.memory)
+        if isinstance(read, Refusal):
+            return self._without_goal(step, way, read)
+        keeps = kept_throughout(read.keeps, step.number, self.task)
+        way = replace(way, memory=read.memory, kept=(*way.kept, *keeps))
+        if not read.goals:
+            goal = StepGoal(step.number, step.text, None, note=read.note)
+            return [_taken(way, NOTHING, way.path.state, goal)]
+        candidates = [goal for goal in read.goals if goal.formula == self.chosen.get(number, goal.formula)]
+        if len(candidates) < 2:
+            return self._to_candidate(step, way, (candidates or read.goals)[0])
+        return self._to_candidates(number, step, way, candidates)
+
+    def _to_candidates(
+        self, number: int, step: Step, way: Way, candidates: Sequence[CandidateGoal]
+    ) -> list[Way] | Refusal:
+        """Return the ways to several candidate goals; each says why the other candidates lost."""
+        reached: dict[int, list[Way]] = {}
+        refusals: dict[int, Refusal] = {}
+        for place, candidate in enumerate(candidates):
+            taken = replace(way, readings=(*way.readings, (number, candidate.formula)))
+            answer = self._to_candidate(step, taken, candidate)
+            if isinstance(answer, Refusal):
+                refusals[place] = answer
+            else:
+                reached[place] = answer
+        if not reached:
+            return refusals[0]
+        least = {place: min(w.path.energy for w in ways) for place, ways in reached.items()}
+        found = []
+        for own, ways in reached.items():
+            others = tuple(
+                LostGoal(other.formula, other.explanation, _why_lost(refusals.get(place), least.get(place), least[own]))
+                for place, other in enumerate(candidates)
+                if place != own
+            )
+            found += [replace(w, goals=(*w.goals[:-1], replace(w.goals[-1], others=others))) for w in ways]
+        return found
+
+    def _to_candidate(self, step: Step, way: Way, goal: CandidateGoal) -> list[Way] | Refusal:
+        """Return the ways to one candidate goal."""
+        if step.jointly and goal.formula != TRUE:
+            way = replace(way, kept=tuple(replace(k, hard=True) if k.clause == step.number else k for k in way.kept))
+        target = self._target(step, way, goal)
+        if isinstance(target, Refusal):
+            return target
+        if not target.already:
+            return self._towards(way, target)
+        kept = way.kept
+        memory = way.memory
+        if goal.formula != TRUE:
+            kept = self._kept_after(target, way, way.path.state)
+            memory = self.dialogue.reached(goal, way.path.state, way.memory)
+        choice = self._with_prior(NOTHING, goal)
+        return [_taken(replace(way, memory=memory, kept=kept), choice, way.path.state, _step_goal(target))]
+
+    def _question(self, ways: Sequence[Way]) -> Question | None:
+        """Return a question about the first step in which readings of nearly equal energy have different goals."""
+        best, *others = sorted(ways, key=lambda way: way.path.order)
+        near = [way for way in others if way.path.energy <= best.path.energy + self.config.close]
+        for place, (number, formula) in enumerate(best.readings):
+            rivals = [w.readings[place][1] for w in near if len(w.readings) > place and w.readings[place][0] == number]
+            formulas = tuple(dict.fromkeys((formula, *rivals)))
+            if len(formulas) > 1:
+                text = f"What is meant by '{self.dialogue.steps[number].text}'?"
+                return Question(text, number, tuple(QuestionOption("", each) for each in formulas))
+        return None
+
+    def _target(self, step: Step, way: Way, goal: CandidateGoal) -> Target | Refusal:
+        """Return what to plan for to reach a goal on a way."""
+        if goal.formula == TRUE:
+            return Target(step, goal, already=True)
+        own = tuple(a for a in aims(goal.cubes, way.kept, goal.released, self.task) if a)
+        hard = [k for k in way.kept if k.hard]
+        if not own or (hard and not combined(goal.cubes, hard)):
+            return Refusal(RefusalKind.CONTRADICTION, f"'{step.clause.text}' contradicts what was said before")
+        held = any(cube.holds(way.path.state) for cube in own[0])
+        ways = () if held else tuple(cubes for f in goal.via if (cubes := goal_cubes(self.task, f)))
+        return Target(step, goal, held, own, ways)
+
+    def _kept_after(self, target: Target, way: Way, end: Bits) -> tuple[Commitment, ...]:
+        """Return the commitments after a step that ended in ``end``."""
+        goal = target.goal
+        cube = next((c for c in goal.cubes if c.holds(end)), goal.cubes[0])
+        hard = {k.ways[:1] for k in way.kept if k.hard}
+        fresh = tuple(k for k in commitments_of(cube, target.step.number, self.task) if k.ways[:1] not in hard)
+        literals = {k.ways[:1] for k in fresh}
+        still = tuple(
+            k for k in way.kept if (k.hard or any(c.holds(end) for c in k.ways)) and k.ways[:1] not in literals
+        )
+        return (*still, *fresh)
+
+    def _with_prior(self, choice: Choice, goal: CandidateGoal) -> Choice:
+        """Return a choice with the reader's prior among its factors."""
+        if not goal.log_prior:
+            return choice
+        raw = {**choice.raw, PRIOR: -goal.log_prior}
+        return replace(choice, raw=raw, factors=self.setup.energy.weigh(raw))
+
+    # ------------------------------------------------------------------ steps without a goal
+
+    def _without_goal(self, step: Step, way: Way, refusal: Refusal) -> list[Way] | Refusal:
+        """Return what demonstrations show for a verb whose goal is unknown, or a guess where guesses are allowed."""
+        guess = self.config.guess
+        groups = None
+        if not guess:
+            groups = self.dialogue.handled(step) if refusal.kind is RefusalKind.UNKNOWN_VERB else None
+            if groups is None or not step.main:
+                return refusal
+        proposed = self._proposed(step, way) if step.main else []
+        if groups is not None:
+            proposed = [(c, end) for c, end in proposed if all(_handles(c, g.names, g.every, self) for g in groups)]
+            if not proposed:
+                return refusal
+            # the note says that the step is done as it was shown, which the policy's own sequences were not
+            proposed = [each for each in proposed if each[0].source != POLICY_SOURCE] or proposed
+        verb = step.clause.verb.replace("_", " ")
+        note = (
+            f"a guess: {refusal.message}" if guess else f"copied from a demonstration; the goal of '{verb}' is unknown"
+        )
+        goal = StepGoal(step.number, step.text, None, note=note)
+        return [_taken(way, choice, end, goal) for choice, end in proposed or [(NOTHING, way.path.state)]]
+
+    def _proposed(self, step: Step, way: Way) -> list[tuple[Choice, Bits]]:
+        """Return what templates and policy propose for a step without a goal, as far as it can be carried out."""
+        return [
+            self._weighed(step, way, candidate.source, latent, own, candidate.raw)
+            for candidate, latent, own in self._executables(step, way)
+        ]
+
+    def _without_effect(self, ways: Sequence[Way]) -> Refusal | None:
+        """Return a refusal where no predicate of the domain can represent what was asked: *fold the blanket*."""
+        asked = [step for step in self.dialogue.steps if step.main and step.direct]
+        goals = [goal for way in ways[:1] for goal in way.goals]
+        constraints = self.dialogue.constraints
+        if (
+            not asked
+            or not goals
+            or self.config.guess
+            or constraints.never
+            or constraints.kept
+            or constraints.untouched
+        ):
+            return None
+        if any(goal.formula != TRUE or not goal.row for goal in goals):
+            return None
+        text = asked[0].text or asked[0].clause.verb.replace("_", " ")
+        message = f"no predicate of this domain can represent the result of '{text}'"
+        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say what shall be different afterwards, or allow guesses")
+
+    def _respects_constraints(self, way: Way, first: Bits) -> bool:
+        """Return whether a way brings about nothing that the request forbids."""
+        constraints = self.dialogue.constraints
+        if not constraints.never:
+            return True
+        return violated(self.task, constraints, list(self._trace(first, way.path.instructions))) is None
+
+    # ------------------------------------------------------------------ planning
+
+    def _towards(self, way: Way, target: Target) -> list[Way] | Refusal:
+        """Return every way of reaching a goal that was proposed or planned."""
+        found = self._reaching(way, target)
+        state = way.path.state
+        if isinstance(found, Refusal) and self._reached_bit_by_bit(target, state):
+            note = "postponed: will be achieved together with the next clause"
+            goal = replace(_step_goal(target), formula=None, note=note)
+            memory = self.dialogue.reached(target.goal, state, way.memory)
+            return [_taken(replace(way, memory=memory), NOTHING, state, goal)]
+        if isinstance(found, Refusal):
+            return self._without_goal(target.step, way, found)
+        ways = []
+        for choice, end in found:
+            kept = self._kept_after(target, way, end)
+            memory = self.dialogue.reached(target.goal, end, way.memory)
+            own = self._with_prior(choice, target.goal)
+            ways.append(_taken(replace(way, memory=memory, kept=kept), own, end, _step_goal(target)))
+        return ways
+
+    def _reached_bit_by_bit(self, target: Target, state: Bits) -> bool:
+        """Return whether each part of a goal can be reached, but not all at once, and the next clause goes on with it.
+
+        *Pick up the boxes and the cans and put them in the bag*: nobody has so many hands.
+        """
+        formula = target.goal.formula
+        if not isinstance(formula, And) or not target.step.continued:
+            return False
+        return all(isinstance(self.planner.fill(state, goal_cubes(self.task, p)), Filled) for p in formula.parts)
+
+    def _reaching(self, way: Way, target: Target) -> list[tuple[Choice, Bits]] | Refusal:
+        """Return what is planned and proposed for the first aim that can be reached.
+
+        Proposals come before the far planner: what was shown is at hand, and better than any plan.
+        """
+        state = way.path.state
+        begun: Instructions = ()
+        for ways in target.ways:
+            answer: Answer = self.planner.fill(state, ways)
+            if isinstance(answer, GaveUp):
+                answer = self._far(state, ways)
+            if isinstance(answer, Filled):
+                begun, state = (*begun, *answer.plan), answer.state
+            elif isinstance(answer, Unreachable) and not self.config.guess:
+                return _impossible(target, answer.reason)
+        proposals = list(self._executables(target.step, way)) if target.step.main else []
+        reason = ""
+        for aim, answer in self._attempts(state, target.aims):
+            if isinstance(answer, Unreachable):
+                reason = reason or answer.reason
+                continue
+            found = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
+            if isinstance(answer, GaveUp) and not found:
+                answer = self._far(state, aim)
+                if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
+                    continue
+            if isinstance(answer, Unreachable):
+                reason = reason or answer.reason
+            if isinstance(answer, Filled):
+                own = self._restored(way, (*begun, *answer.plan), target)
+                found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
+            if found:
+                return found
+        if reason:
+            return _impossible(target, reason)
+        return Refusal(
+            RefusalKind.GAVE_UP,
+            f"no plan was found for '{target.step.text}'; nothing is proven",
+            "ask another planner with --planner",
+        )
+
+    def _attempts(self, state: Bits, own: Sequence[tuple[Cube, ...]]) -> Iterator[tuple[tuple[Cube, ...], Answer]]:
+        """Yield the aims that are worth a try, each with the quick planner's answer.
+
+        Keeping what earlier steps reached may cost a few steps. If it costs more, nobody meant it: the kettle stays hot
+        no longer when its water is poured over the noodles.
+        """
+        *stronger, last = own
+        least = self.planner.fill(state, last)
+        for aim in stronger if not isinstance(least, Unreachable) else ():
+            if isinstance(least, Filled) and any(cube.holds(least.state) for cube in aim):
+                yield aim, least
+                continue
+            answer = self.planner.fill(state, aim)
+            if isinstance(least, Filled):
+                if isinstance(answer, Filled) and len(answer.plan) <= len(least.plan) + _MOST_FURTHER_STEPS:
+                    yield aim, answer
+            else:
+                yield aim, answer
+        yield last, least
+
+    def _worth_it(self, state: Bits, answer: Filled, least: Sequence[Cube]) -> bool:
+        """Return whether keeping earlier goals costs no more steps than people would take for it."""
+        if self._far_answers.get((state, tuple(least))) is answer:
+            return True
+        bare = self._far(state, least)
+        return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
+
+    def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:
+        """Return the answer of the planner that goes further than the quick one."""
+        if not (self._may_go_far and self.config.last_resort):
+            return GaveUp("the quick planner")
+        asked = state, tuple(aim)
+        if asked not in self._far_answers:
+            self._far_answers[asked] = self._asked_afar(state, aim)
+        return self._far_answers[asked]
+
+    def _asked_afar(self, state: Bits, aim: Sequence[Cube]) -> Answer:
+        if self._resort is None:
+            self._resort = self.setup.planners.resort(self.task)
+        # facts that hold already are seldom undone on the way and slow the planner down: first without them
+        open_ = tuple(dict.fromkeys(Cube(c.positive & ~state, c.negative & state) for c in aim))
+        answer = self._resort.fill(state, open_)
+        if isinstance(answer, Filled) and not any(cube.holds(answer.state) for cube in aim):
+            answer = self._resort.fill(state, aim)
+        if isinstance(answer, Filled):
+            shorter = eliminate(answer.plan, self.task, state, aim)
+            return Filled(shorter, self.simulated(state, shorter), len(shorter))
+        return answer
+
+    # ------------------------------------------------------------------ proposals
+
+    def _executables(self, step: Step, way: Way) -> Iterator[_Executable]:
+        """Yield the likeliest candidates that can be carried out, each with what must be done before it."""
+        situation = Situation(self.clauses, step.number, [way.path])
+        candidates = (candidate for _, _, candidate in self.queue([situation]))
+        for candidate in islice(candidates, self.config.tried):
+            if any(i not in self.task.by_instruction for i in candidate.instructions):
+                continue
+            answer = self.planner.fill(way.path.state, self.constraints.of(candidate.instructions))
+            if isinstance(answer, Filled):
+                yield candidate, answer.plan, candidate.instructions
+
+    def _completed(
+        self, way: Way, proposal: _Executable, target: Target, aim: tuple[Cube, ...]
+    ) -> tuple[Choice, Bits] | None:
+        """Return a proposal completed to the goal; ``None`` where that takes too much, or a condition on the way fails.
+
+        Objects that it handles for nothing are left alone.
+        """
+        candidate, latent, own = proposal
+        state = way.path.state
+
+        def on_the_way(instructions: Sequence[Instruction]) -> bool:
+            trace = list(self._trace(state, instructions))
+            return all(any(cube.holds(s) for s in trace for cube in ways) for ways in target.ways)
+
+        def reached(instructions: Sequence[Instruction]) -> bool:
+            end = self.simulated(state, instructions)
+            return any(cube.holds(end) for cube in aim) and on_the_way(instructions)
+
+        whole = (*latent, *own)
+        if not on_the_way(whole):
+            return None
+        answer = self.planner.fill(self.simulated(state, whole), aim)
+        if not isinstance(answer, Filled):
+            return None
+        whole = tidy((*whole, *answer.plan), self.world, state)
+        kept = list(untouched(whole, self.task, state, reached, self.lasting, self._contents))
+        first = [i for i in latent if kept and kept[0] == i and kept.pop(0)]
+        rest = self._restored(way, (*first, *kept), target)[len(first) :]
+        return self._weighed(target.step, way, candidate.source, tuple(first), rest, candidate.raw, aim)
+
+    def _weighed(
+        self,
+        step: Step,
+        way: Way,
+        source: str,
+        latent: Instructions,
+        own: Instructions,
+        raw: Factors,
+        aim: Sequence[Cube] = (),
+    ) -> tuple[Choice, Bits]:
+        """Return the choice of a candidate, and the state it ends in; ``aim`` is what it reaches."""
+        situation = Situation(self.clauses, step.number, [way.path])
+        arguments = [a for i in own for a in i.args]
+        names = self.world.mentions.meant(situation.clause, arguments, way.path.state)
+        if source == PLANNER_SOURCE:
+            raw = {**raw, **self.setup.energy.of_sequence(own, len(own), names)}
+        factors, end = self.weighed(situation, names, latent, own, raw, aim)
+        return self.choice(step.number, source, latent, own, factors), end
+
+    @cached_property
+    def _contents(self) -> Bits:
+        """The atoms that say what is in what: food may be cooked by waiting, but it does not leave."""
+        constants = set(self.world.profiles.constants)
+        inside = (len(a.args) == 2 and a.args[0] not in constants and a.args[1] in constants for a in self.task.atoms)
+        return sum(1 << bit for bit, found in enumerate(inside) if found)
+
+    def _trace(self, state: Bits, instructions: Sequence[Instruction]) -> Iterator[Bits]:
+        yield state
+        for instruction in instructions:
+            state = self.world.task.by_instruction[instruction].apply(state)
+            yield state
+
+    # ------------------------------------------------------------------ restoration
+
+    def _restored(self, way: Way, instructions: Instructions, target: Target) -> Instructions:
+        """Return a sequence for a step, followed by what people undo at once when it is done."""
+        end = self.simulated(way.path.state, instructions)
+        kept = self._kept_after(target, way, end)
+        return (*instructions, *self._undone(way.path.state, end, kept, self.setup.restoration.at_once))
+
+    def _undone(
+        self, before: Bits, end: Bits, kept: Sequence[Commitment], known: frozenset[tuple[str, str]]
+    ) -> Instructions:
+        """Return the instructions that undo what people undo by themselves, where that is a short way."""
+        kinds = self.world.mentions.kinds
+        asked = 0
+        for commitment in kept:
+            for way in commitment.ways[:1]:
+                asked |= way.positive
+        undone = 0
+        for atom in self.task.names(end & ~before & ~asked) if known else ():
+            if len(atom.args) == 1 and (atom.predicate, kinds.get(atom.args[0], "")) in known:
+                undone |= 1 << self.task.index[atom]
+        goal = combined((Cube(0, undone),), kept) if undone else ()
+        answer = self.planner.fill(end, goal) if goal else None
+        return answer.plan if isinstance(answer, Filled) else ()
+
+    def _finished(self, way: Way, first: Bits) -> Way:
+        """Return a way through all steps, followed by what people put back in the end."""
+        done = self._undone(first, way.path.state, way.kept, self.setup.restoration.at_the_end)
+        if not done or not way.path.choices:
+            return way
+        last, goal = way.path.choices[-1], way.goals[-1]
+        steps = (*last.steps, *(PlanStep(i, goal.clause, latent=True) for i in done))
+        path = replace(way.path, choices=(*way.path.choices[:-1], replace(last, steps=steps)))
+        path = replace(path, state=self.simulated(way.path.state, done))
+        return replace(way, path=path, goals=(*way.goals[:-1], replace(goal, last=goal.last + len(done))))
+
+
+def _taken(way: Way, choice: Choice, end: Bits, goal: StepGoal) -> Way:
+    """Return a way with the choice for one more step, and with its goal."""
+    before = len(way.path.instructions)
+    placed = replace(goal, first=before, last=before + len(choice.steps))
+    return replace(way.extended(choice, end), goals=(*way.goals, placed))
+
+
+def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) -> bool:
+    """Return whether a choice handles one, or every one, of some objects; a part stands for its whole as well."""
+    profiles = own.world.profiles
+    handled = {arg for taken in choice.steps for arg in taken.instruction.args}
+    handled |= {profiles.wholes[name] for name in handled if name in profiles.wholes}
+    return names <= handled if every else bool(names & handled)
+
+
+def _impossible(target: Target, reason: str) -> Refusal:
+    return Refusal(RefusalKind.IMPOSSIBLE, f"'{target.step.text}' cannot be done here: {reason}")
+
+
+def _why_lost(refusal: Refusal | None, energy: float | None, best: float) -> str:
+    """Return why another candidate goal was not taken."""
+    if refusal is not None or energy is None:
+        return refusal.message if refusal is not None else "no plan was found"
+    if energy > best:
+        return f"energy {energy - best:+.4g}"
+    return "it costs more in the end"
+
+
+def _step_goal(target: Target) -> StepGoal:
+    goal = target.goal
+    notes = (("nothing that a state shows",) if goal.formula == TRUE else ()) + goal.notes
+    note = "; ".join(n for n in notes if n)
+    step = target.step
+    return StepGoal(step.number, step.text, goal.formula, goal.source, goal.explanation, target.already, note)

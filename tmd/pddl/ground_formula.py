@@ -1,0 +1,101 @@
+"""Formulas over ground atoms: their algebra, and the cubes that planners search for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from tmd.diagnostics import TmdError
+from tmd.pddl.grounding.ground_task import ground_condition
+from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or
+from tmd.pddl.task import Cube, Task
+
+TRUE, FALSE = And(), Or()
+"""The formulas that hold in every state, and in none."""
+_MOST_ALTERNATIVES = (8, 3, 1)
+"""Limits on the alternatives of a disjunction, tried in turn where a formula has too many cases."""
+
+
+def goal_cubes(task: Task, formula: Formula) -> tuple[Cube, ...]:
+    """Compile a ground formula to cubes; where there are too many cases, only the first alternatives are kept.
+
+    Raises:
+        TmdError: There are too many cases even with one alternative for each disjunction.
+    """
+    try:
+        return ground_condition(task, formula)
+    except TmdError:
+        *more, last = _MOST_ALTERNATIVES
+    for most in more:
+        try:
+            return ground_condition(task, fewer(formula, most))
+        except TmdError:
+            continue
+    return ground_condition(task, fewer(formula, last))
+
+
+def negation(formula: Formula) -> Formula:
+    """Negate a ground formula; ``not`` stands at atoms only."""
+    match formula:
+        case Atom():
+            return Not(formula)
+        case Not(part):
+            return part
+        case And(parts):
+            return disjunction(negation(part) for part in parts)
+        case Or(parts):
+            return conjunction(negation(part) for part in parts)
+    raise TypeError(f"not ground: {formula}")
+
+
+def conjunction(parts: Iterable[Formula]) -> Formula:
+    """Conjoin formulas, flattened and without those that always hold."""
+    kept: dict[Formula, None] = {}
+    for part in parts:
+        if part == FALSE:
+            return FALSE
+        kept.update(dict.fromkeys(part.parts if isinstance(part, And) else (part,)))
+    return next(iter(kept)) if len(kept) == 1 else And(tuple(kept))
+
+
+def disjunction(parts: Iterable[Formula]) -> Formula:
+    """Disjoin formulas, flattened and without those that never hold."""
+    kept: dict[Formula, None] = {}
+    for part in parts:
+        if part == TRUE:
+            return TRUE
+        kept.update(dict.fromkeys(part.parts if isinstance(part, Or) else (part,)))
+    return next(iter(kept)) if len(kept) == 1 else Or(tuple(kept))
+
+
+def atoms_of(formula: Formula) -> frozenset[GroundAtom]:
+    """Return the atoms of a ground formula."""
+    match formula:
+        case Atom(predicate, terms):
+            return frozenset((GroundAtom(predicate, terms),))
+        case Not(part):
+            return atoms_of(part)
+        case And(parts) | Or(parts):
+            return frozenset[GroundAtom]().union(*(atoms_of(part) for part in parts))
+    raise TypeError(f"not ground: {formula}")
+
+
+def only_negative(formula: Formula) -> bool:
+    """Return whether every atom of a ground formula is negated."""
+    match formula:
+        case Atom():
+            return False
+        case Not():
+            return True
+        case And(parts) | Or(parts):
+            return all(only_negative(part) for part in parts)
+    return False
+
+
+def fewer(formula: Formula, most: int) -> Formula:
+    """Keep at most ``most`` alternatives of each disjunction."""
+    match formula:
+        case And(parts):
+            return conjunction(fewer(part, most) for part in parts)
+        case Or(parts):
+            return disjunction(fewer(part, most) for part in parts[:most])
+    return formula
