@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from weakref import WeakKeyDictionary
 
 from tmd.diagnostics import Refusal, RefusalKind
@@ -79,18 +80,8 @@ def ground(
     restoration = restoration_of(goals, config)
 
     def inferred(dialogue: Dialogue, chosen: Mapping[int, Formula]) -> Inferred:
-        return infer(
-            dialogue,
-            world,
-            library,
-            energy,
-            planners,
-            config,
-            policy=policy,
-            restoration=restoration,
-            top=top,
-            chosen=chosen,
-        )
+        further = partial(infer, policy=policy, restoration=restoration, top=top, chosen=chosen)
+        return further(dialogue, world, library, energy, planners, config)
 
     dialogue = reader.begin(request, world, world.task.init)
     found, question = _asked(dialogue, inferred, ask)

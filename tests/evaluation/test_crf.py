@@ -30,7 +30,7 @@ ABSENT = {
     "no_latent": (*LATENT, *OURS),
     "no_nl": ("nl", "pcc", "cons", *OURS),
     "no_domain": ("cons", *LATENT, *OURS),
-    "paper_extended_learned": ("words", "generated"),
+    "paper_extended_learned": ("words", "generated", "prior"),
 }
 """The factors that a row does not have."""
 EXAMPLES = 4
