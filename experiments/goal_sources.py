@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from tmd.evaluation.sentence_tests import Outcome, SentenceTest, judge, read_sentences, summary
+from tmd.evaluation.sentence_tests import Outcome, judge, summary
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED
 from tmd.goals.tables import goal_tables
@@ -27,6 +27,7 @@ from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
 from tmd.readers.rules import RuleDialogue
 from tmd.veil.corpus import Corpus
+from tmd.veil.sentence_file import SentenceTest, read_sentences
 from tmd.world.folder import find_domain, find_problems
 
 SHARE = 4

@@ -13,7 +13,7 @@ import pytest
 PACKAGE = Path(__file__).parents[1] / "tmd"
 LAYERS = (
     ("diagnostics",),
-    ("files", "lock", "yaml_nodes"),
+    ("files", "lock", "yaml_nodes", "json_record"),
     ("pddl", "language"),
     ("world", "planning", "format"),
     ("veil", "datasets", "robot"),
@@ -34,7 +34,7 @@ LAYER = {package: number for number, layer in enumerate(LAYERS) for package in l
 HEAVY = {
     "unified_planning", "up_fast_downward", "numba", "pybullet", "rich", "joblib",
     "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
-    "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco",
+    "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco", "openai",
 }  # fmt: skip
 MODULES = sorted(PACKAGE.rglob("*.py"))
 

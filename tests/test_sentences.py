@@ -12,16 +12,9 @@ import tmd
 from tests.cli.conftest import run_tmd
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.domain_kit import DomainKit
-from tmd.evaluation.sentence_tests import (
-    Outcome,
-    SentenceResult,
-    SentenceTest,
-    judge,
-    read_sentences,
-    report,
-    summary,
-)
+from tmd.evaluation.sentence_tests import Outcome, SentenceResult, judge, report, summary
 from tmd.pddl.reading.reader import with_goal
+from tmd.veil.sentence_file import SentenceTest, read_sentences
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = sorted(ROOT.glob("problems/*/*.sentences.jsonl"))

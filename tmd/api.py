@@ -34,12 +34,12 @@ if TYPE_CHECKING:
     from tmd.check.report import CheckReport as CheckReport
     from tmd.datasets.veil500.report import check_veil500 as check_veil500
     from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
-    from tmd.evaluation.sentence_tests import read_sentences as read_sentences
     from tmd.format.files import format_file as format_file
     from tmd.records.run import RecordedRun as RecordedRun
     from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
     from tmd.robot_trials.experiment import run_experiment as run_experiment
+    from tmd.veil.sentence_file import read_sentences as read_sentences
     from tmd.world.scaffold import Scaffold
 
 _LATER = {
@@ -50,7 +50,7 @@ _LATER = {
     "carry_out_predictions": "tmd.robot_trials.experiment",
     "check_veil500": "tmd.datasets.veil500.report",
     "format_file": "tmd.format.files",
-    "read_sentences": "tmd.evaluation.sentence_tests",
+    "read_sentences": "tmd.veil.sentence_file",
     "run_experiment": "tmd.robot_trials.experiment",
 }
 """What takes long to import, or belongs to few, with the modules that are imported when it is first used."""

@@ -26,6 +26,8 @@ class ExitCode(IntEnum):
     """A check ended and found faults."""
     NOT_EXECUTED = 14
     """The robot stopped before everything that its plan is for was brought about."""
+    QUESTION = 15
+    """Two readings of the request differ, and nobody answered which one is meant; the plan is for the likelier one."""
     GAVE_UP = 20
     """A search ended at its limit: nothing is proven."""
     USAGE = 30
@@ -40,6 +42,8 @@ class ExitCode(IntEnum):
     """Output could not be written; nothing was half-written."""
     PLANNER_FAILED = 35
     """A planner died, or what it gave is no plan."""
+    MODEL_FAILED = 36
+    """The language model cannot be asked, or gives no answer."""
     INTERNAL = 39
     """A fault of tmd itself."""
     INTERRUPTED = 130
@@ -156,5 +160,8 @@ class OutputError(TmdError):
 
 class PlannerError(TmdError):
     """A planner died, or what it gave is no plan."""
+
+    MODEL_FAILED = 36
+    """The language model cannot be asked, or gives no answer."""
 
     exit_code = ExitCode.PLANNER_FAILED

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from tmd.diagnostics import TmdError
 from tmd.ground import Ask
@@ -18,20 +18,26 @@ from tmd.knowledge import Knowledge, known
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.model import GroundAtom, Instruction, Problem
 from tmd.pddl.reading.reader import with_goal
+from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.validator import validate
 from tmd.planning.backends import IN_PROCESS
 from tmd.readers.interface import Reader
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World, make_world
+from tmd.world.folder import DomainFolder
 
 if TYPE_CHECKING:
-    from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest
+    from tmd.evaluation.sentence_tests import SentenceResult
+    from tmd.readers.llm.client import ModelSettings
     from tmd.records.run import RanStep, RecordedRun
     from tmd.robot.monitor.listeners import Order, Title
     from tmd.robot.skills.reachability_report import SceneSurvey
     from tmd.robot.skills.results import ExecutedStep
     from tmd.studio.server import Server
+    from tmd.veil.sentence_file import SentenceTest
 
+RULES, LLM = READERS = ("rules", "llm")
+"""The readers by name."""
 LEARNED = "learned"
 """The weights that :meth:`DomainKit.learn` saved."""
 _FILES = (".yaml", ".yml", ".pddl")
@@ -48,6 +54,7 @@ class DomainKit:
     def __init__(self, corpus: Corpus, learned: Path | None = None) -> None:
         self._corpus = corpus
         self._learned = learned
+        self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
 
     @property
     def name(self) -> str:
@@ -88,7 +95,9 @@ class DomainKit:
         weights: str | Path | None = None,
         beam: int | None = None,
         trim: int | None = None,
-        reader: Reader | None = None,
+        reader: Reader | str = RULES,
+        llm: ModelSettings | None = None,
+        verify: bool = False,
         ask: Ask | None = None,
     ) -> Grounded:
         """Ground a text in an environment, as ``tmd ground`` does.
@@ -103,7 +112,10 @@ class DomainKit:
             weights: The factors' weights, by name or file, or ``learned``; the model's own by default.
             beam: How many states to follow from clause to clause, 0 for all; what the model says by default.
             trim: How many leading instructions of a template may be dropped; what the model says by default.
-            reader: The reader; by default the offline reader of grammar and lexicon.
+            reader: ``rules``, the offline reader of grammar and lexicon; ``llm``, a language model; or a reader of
+                your own.
+            llm: How the language model is reached; by default as the environment variables say.
+            verify: Whether the language model is asked once more whether the plan does what was asked.
             ask: Asks the user where two readings differ; without it the likeliest is taken.
 
         Returns:
@@ -128,9 +140,32 @@ class DomainKit:
             config=config,
             planner=planner,
             top=top,
-            reader=reader,
+            reader=self.reader(reader, llm, verify=verify) if isinstance(reader, str) else reader,
             ask=ask,
         )
+
+    def reader(self, name: str, llm: ModelSettings | None = None, *, verify: bool = False) -> Reader | None:
+        """Return the reader of a name; ``None`` for the offline reader, which :meth:`ground` makes for each request.
+
+        Args:
+            name: ``rules`` or ``llm``.
+            llm: How the language model is reached; by default as the environment variables say.
+            verify: Whether the language model is asked once more whether a plan does what was asked.
+
+        Raises:
+            TmdError: There is no such reader; or there is no model, or no key for a server that needs one.
+        """
+        if name == RULES:
+            return None
+        if name != LLM:
+            raise TmdError(f"there is no reader '{name}'", hint=nearest(name, READERS, what="readers"))
+        from tmd.readers.llm.client import ModelSettings
+        from tmd.readers.llm.reader import llm_reader
+
+        key = llm or ModelSettings(), verify
+        if key not in self._readers:
+            self._readers[key] = llm_reader(self._corpus, key[0], verify=verify)
+        return self._readers[key]
 
     def run_plan(
         self,
@@ -290,7 +325,15 @@ class DomainKit:
         return found.directory
 
     def run_sentence_tests(
-        self, tests: Iterable[SentenceTest] | None = None, *, model: str = DEFAULT, guess: bool = False
+        self,
+        tests: Iterable[SentenceTest] | None = None,
+        *,
+        model: str = DEFAULT,
+        guess: bool = False,
+        reader: Reader | str = RULES,
+        llm: ModelSettings | None = None,
+        verify: bool = False,
+        jobs: int = 1,
     ) -> list[SentenceResult]:
         """Run sentence tests, as ``tmd test`` does.
 
@@ -298,6 +341,10 @@ class DomainKit:
             tests: What :func:`read_sentences` read; those of the domain by default.
             model: As for :meth:`ground`.
             guess: As for :meth:`ground`.
+            reader: As for :meth:`ground`; with more than one job, its name.
+            llm: As for :meth:`ground`.
+            verify: As for :meth:`ground`.
+            jobs: The number of processes.
 
         Returns:
             What became of each; ``.outcome.passed`` says whether that is right.
@@ -305,17 +352,26 @@ class DomainKit:
         Raises:
             TmdError: There are no tests, or one names what is not there; with its place.
         """
-        from tmd.evaluation.sentence_tests import domain_sentences, judge
+        from tmd.evaluation.runs.backends import in_processes
+        from tmd.veil.sentence_file import domain_sentences
 
-        results = []
-        for test in domain_sentences(self._corpus.directory) if tests is None else tests:
-            try:
-                problem = self.problem(test.environment)
-            except TmdError as error:
-                raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
-            grounded = self.ground(test.text, test.environment, model=model, guess=guess)
-            results.append(judge(test, grounded, problem))
-        return results
+        chosen = list(domain_sentences(self._corpus.directory) if tests is None else tests)
+        options = {"model": model, "guess": guess, "reader": reader, "llm": llm, "verify": verify}
+        if jobs == 1:
+            return [self._judged(test, options) for test in chosen]
+        place = self._corpus.folder.path, self._corpus.directory, self._learned
+        tasks = [(place, number, test, options) for number, test in enumerate(chosen)]
+        found = dict(in_processes(_judged_elsewhere, tasks, jobs))
+        return [found[number] for number in range(len(chosen))]
+
+    def _judged(self, test: SentenceTest, options: Mapping[str, Any]) -> SentenceResult:
+        from tmd.evaluation.sentence_tests import judge
+
+        try:
+            problem = self.problem(test.environment)
+        except TmdError as error:
+            raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
+        return judge(test, self.ground(test.text, test.environment, **options), problem)
 
     def open_studio(
         self, environment: str | Path | None = None, *, host: str = "127.0.0.1", port: int = 8080
@@ -364,6 +420,18 @@ class DomainKit:
             return self._corpus.world(str(environment))
         problem = self._corpus.read(Path(environment))
         return make_world(problem.name, problem, self._corpus.lexicon)
+
+
+@cache
+def _kit_at(folder: Path, directory: Path, learned: Path | None) -> DomainKit:
+    return DomainKit(Corpus(DomainFolder(folder), directory), learned)
+
+
+def _judged_elsewhere(
+    place: tuple[Path, Path, Path | None], number: int, test: SentenceTest, options: Mapping[str, Any]
+) -> tuple[int, SentenceResult]:
+    """Run a sentence test in a process of its own; the kit is made once for each process."""
+    return number, _kit_at(*place)._judged(test, options)
 
 
 class _Steps:

@@ -86,7 +86,8 @@ class Grounded:
                 ),
                 *guessed,
             ]
-        told = [*self.dialogue.notes, *told]
+        asked = [f"{self.question.text} The likeliest meaning is taken"] if self.question is not None else []
+        told = [*self.dialogue.notes, *asked, *told]
         return tuple(dict.fromkeys(told))
 
     @property

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
-from tmd.records.json_record import JsonRecord, json_value
+from tmd.json_record import JsonRecord, json_value
 from tmd.records.run import FaultRecord, RanStep
 
 Key: TypeAlias = tuple[str, str, str, int]

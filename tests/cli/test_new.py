@@ -11,10 +11,10 @@ from hypothesis import strategies as st
 
 from tests.cli.conftest import ROOT, Tmd
 from tmd.diagnostics import ExitCode, TmdError
-from tmd.evaluation.sentence_tests import read_sentences
 from tmd.knowledge import study
 from tmd.language.lexicon.file import read_lexicon
 from tmd.veil.corpus import Corpus
+from tmd.veil.sentence_file import read_sentences
 from tmd.world.folder import DomainFolder
 from tmd.world.scaffold import STARTS, scaffold
 

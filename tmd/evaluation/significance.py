@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from itertools import combinations, product
+from math import comb
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -134,6 +135,18 @@ def holm(values: Sequence[float]) -> list[float]:
         most = max(most, min(1.0, (len(values) - rank) * values[i]))
         corrected[i] = most
     return corrected
+
+
+def mcnemar(only_a: int, only_b: int) -> float:
+    """Return the two-sided p-value of McNemar's exact test.
+
+    Args:
+        only_a: The number of cases that only the first of two passes.
+        only_b: The number of cases that only the second passes.
+    """
+    n = only_a + only_b
+    tail = sum(comb(n, k) for k in range(min(only_a, only_b) + 1))
+    return min(1.0, float(2 * tail / 2**n))
 
 
 def _key(prediction: dict[str, Any]) -> _Key:

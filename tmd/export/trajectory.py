@@ -20,7 +20,7 @@ from typing import IO, Any, Self
 import yaml
 
 from tmd.diagnostics import MissingToolError, OutputError
-from tmd.records.json_record import rounded
+from tmd.json_record import rounded
 from tmd.records.trajectory import SampleLine, SceneLine, pose_record
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose

@@ -5,9 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from tmd.diagnostics import TmdError
+from tmd.pddl.derived import unfolded_condition
+from tmd.pddl.grounding.ground_action import Work
 from tmd.pddl.grounding.ground_task import ground_condition
-from tmd.pddl.model import And, Atom, Formula, GroundAtom, Not, Or
-from tmd.pddl.task import Cube, Task
+from tmd.pddl.model import (
+    And,
+    Atom,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Not,
+    Or,
+    Universe,
+    universe,
+)
+from tmd.pddl.semantics import Binding, bindings, instantiate, size
+from tmd.pddl.task import Bits, Cube, Task
 
 TRUE, FALSE = And(), Or()
 """The formulas that hold in every state, and in none."""
@@ -31,6 +47,58 @@ def goal_cubes(task: Task, formula: Formula) -> tuple[Cube, ...]:
         except TmdError:
             continue
     return ground_condition(task, fewer(formula, last))
+
+
+def instantiated(task: Task, formula: Formula) -> Formula:
+    """Spread the quantifiers of a closed formula out, over atoms that may change; everything else is evaluated.
+
+    Raises:
+        LimitError: The formula is too large.
+    """
+    formula = unfolded_condition(formula, task.problem.domain)
+    objects = universe(task.problem)
+    Work().spend(size(formula, objects), "a condition")
+    return _instantiated(formula, {}, task, objects)
+
+
+def _instantiated(formula: Formula, binding: Binding, task: Task, objects: Universe) -> Formula:
+    def inner(part: Formula, further: Binding = binding) -> Formula:
+        return _instantiated(part, further, task, objects)
+
+    match formula:
+        case Atom():
+            atom = instantiate(formula, binding)
+            if atom in task.index:
+                return Atom(atom.predicate, atom.args)
+            return TRUE if atom in task.static else FALSE
+        case Equals(left, right):
+            return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
+        case Not(part):
+            return negation(inner(part))
+        case And(parts):
+            return conjunction(map(inner, parts))
+        case Or(parts):
+            return disjunction(map(inner, parts))
+        case Imply(left, right):
+            return disjunction((negation(inner(left)), inner(right)))
+        case Forall(parameters, part):
+            return conjunction(inner(part, each) for each in bindings(parameters, objects, binding))
+        case Exists(parameters, part):
+            return disjunction(inner(part, each) for each in bindings(parameters, objects, binding))
+
+
+def holds_in(task: Task, formula: Formula, state: Bits) -> bool:
+    """Return whether a ground formula over atoms that may change holds in a state."""
+    match formula:
+        case Atom(predicate, terms):
+            return bool(state >> task.index[GroundAtom(predicate, terms)] & 1)
+        case Not(part):
+            return not holds_in(task, part, state)
+        case And(parts):
+            return all(holds_in(task, part, state) for part in parts)
+        case Or(parts):
+            return any(holds_in(task, part, state) for part in parts)
+    raise TypeError(f"not ground: {formula}")
 
 
 def negation(formula: Formula) -> Formula:

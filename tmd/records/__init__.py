@@ -16,6 +16,6 @@ module               format
 ``schemas``          all of them as JSON Schema: ``python -m tmd.records DIR`` writes the files
 ===================  ==========================================================================
 
-Begin with :mod:`tmd.records.json_record`, what all of them share. What fills them stands beside what it tells of:
+Begin with :mod:`tmd.json_record`, what all of them share. What fills them stands beside what it tells of:
 :mod:`tmd.view.grounding_record`, :mod:`tmd.robot_trials.trials`, :mod:`tmd.evaluation.runs.jobs`.
 """

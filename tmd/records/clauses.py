@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from tmd.json_record import JsonRecord
 from tmd.language.clause import (
     Clause,
     Condition,
@@ -16,7 +17,6 @@ from tmd.language.clause import (
     Span,
     clause_json,
 )
-from tmd.records.json_record import JsonRecord
 
 Place = tuple[int, int]
 """Where a piece of text begins and ends: characters from 0, the end is the first after it."""

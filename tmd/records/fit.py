@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tmd.records.json_record import JsonRecord
+from tmd.json_record import JsonRecord
 
 
 class CurvePoint(JsonRecord):

@@ -8,11 +8,12 @@ from pydantic import Field, field_validator, model_validator
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import Choice, PlanStep, RankedPlan, RejectedProposal, StepGoal
+from tmd.json_record import JsonRecord
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import parse
+from tmd.readers.interface import Usage
 from tmd.records.clauses import ParsedRecord
-from tmd.records.json_record import JsonRecord
 
 
 class InstructionRecord(JsonRecord):
@@ -42,6 +43,14 @@ class ChoiceRecord(JsonRecord):
     factors: dict[str, float] = Field(description="What each factor adds to the energy.")
 
 
+class OtherGoal(JsonRecord):
+    """Another candidate goal of a step, and why it was not taken."""
+
+    pddl: str
+    row: str | None
+    why: str
+
+
 class GoalRecord(JsonRecord):
     """What one step of the text asks for. Its part of the plan is ``steps[first:last]``."""
 
@@ -49,12 +58,13 @@ class GoalRecord(JsonRecord):
     text: str
     pddl: str | None = Field(description="Null where nothing is to be done, or where no goal is known.")
     words: str | None
-    source: str | None = Field(description="Where its meaning comes from: declared, learned or actions.")
+    source: str | None = Field(description="Where its meaning comes from: declared, learned, actions or model.")
     row: str | None
     already: bool = Field(description="It held already, so nothing is done for it.")
     note: str | None
     first: int = Field(ge=0)
     last: int = Field(ge=0)
+    others: tuple[OtherGoal, ...] = Field((), description="The other candidate goals of the step.")
 
     @field_validator("pddl")
     @classmethod
@@ -139,6 +149,38 @@ class RefusedText(JsonRecord):
     hint: str | None
 
 
+class ModelUse(JsonRecord):
+    """The effort of the language model that read a request."""
+
+    model: str
+    prompt_tokens: int = Field(ge=0)
+    completion_tokens: int = Field(ge=0)
+    seconds: float = Field(ge=0, description="Time spent waiting for the server.")
+    cached: int = Field(ge=0, description="Replies that came from the cache.")
+    corrections: int = Field(ge=0, description="How often a reply was sent back.")
+    digests: tuple[str, ...] = Field(description="Of the replies; they name the files of the cache.")
+
+    @classmethod
+    def of(cls, usage: Usage) -> Self:
+        """Return the effort as a record."""
+        return cls(**{name: getattr(usage, name) for name in cls.model_fields})
+
+
+class OptionRecord(JsonRecord):
+    """An answer to a question."""
+
+    answer: str
+    goal: str = Field(description="The goal of the step in that case, as PDDL.")
+
+
+class QuestionRecord(JsonRecord):
+    """A question to the user that was not answered; the plans are for its first option."""
+
+    text: str
+    step: int = Field(ge=0)
+    options: tuple[OptionRecord, ...]
+
+
 class MadeWith(JsonRecord):
     """What decides the plans beside text and environment."""
 
@@ -176,6 +218,8 @@ class GroundingRecord(ParsedRecord, GroundedText):
     warnings: tuple[str, ...]
     environment_file: str | None = Field(description=_FILE)
     made_with: MadeWith
+    reader: ModelUse | None = Field(None, description="Of the language model; left out where rules read the text.")
+    question: QuestionRecord | None = Field(None, description="Left out where there is none.")
 
     @model_validator(mode="after")
     def _is_of_one_piece(self) -> Self:

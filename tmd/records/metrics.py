@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from tmd.records.json_record import JsonRecord
+from tmd.json_record import JsonRecord
 from tmd.records.prediction import PredictionRecord
 
 SUCCESS = "success"

@@ -6,7 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from tmd.records.json_record import JsonRecord
+from tmd.json_record import JsonRecord
 
 FORMAT: Literal["tmd-plan-1"] = "tmd-plan-1"
 

@@ -6,7 +6,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Field
 
-from tmd.records.json_record import JsonRecord
+from tmd.json_record import JsonRecord
 
 Score: TypeAlias = Annotated[float, Field(ge=0, le=100, strict=True)]
 

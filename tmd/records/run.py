@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 from pydantic import Field
 
 from tmd.diagnostics import Location, TmdError
+from tmd.json_record import JsonRecord, json_value
 from tmd.pddl.model import Instruction
 from tmd.records.grounding import GroundingRecord, InstructionRecord
-from tmd.records.json_record import JsonRecord, json_value
 from tmd.robot.sim.engine import STEPS_PER_SECOND
 
 if TYPE_CHECKING:

@@ -10,6 +10,7 @@ from pydantic.json_schema import GenerateJsonSchema
 
 from tmd.files import make_directory, write_text
 from tmd.format.json_layout import lay_out
+from tmd.readers.llm.reply import Reply
 from tmd.records.clauses import ParsedRecord
 from tmd.records.fit import Fit
 from tmd.records.grounding import GoalOnlyRecord, GroundingRecord
@@ -17,7 +18,7 @@ from tmd.records.metrics import Metrics
 from tmd.records.plan import PlanRecord
 from tmd.records.prediction import PredictionRecord
 from tmd.records.run import RunEvent, RunRecord
-from tmd.records.sentence_test import SentenceReport
+from tmd.records.sentence_test import ReaderComparison, SentenceReport
 from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
@@ -28,6 +29,8 @@ FORMATS: dict[str, Any] = {
     "run": RunRecord,
     "run-log": RunEvent,
     "test": SentenceReport,
+    "test-compare": ReaderComparison,
+    "llm-reply": Reply,
     "plan": PlanRecord,
     "prediction": PredictionRecord,
     "metrics": Metrics,

@@ -6,7 +6,8 @@ from enum import StrEnum
 
 from pydantic import Field
 
-from tmd.records.json_record import JsonRecord
+from tmd.json_record import JsonRecord
+from tmd.records.grounding import ModelUse
 
 
 class Outcome(StrEnum):
@@ -27,7 +28,10 @@ class Outcome(StrEnum):
 
 
 class SentenceSummary(JsonRecord):
-    """How many there are of each outcome; ``wrong_warned`` are those of the wrong ones that came with a warning."""
+    """How many tests have each outcome; ``wrong_warned`` are the wrong ones that came with a warning.
+
+    The last four are of the language model, and are left out where none was asked.
+    """
 
     n: int
     right: int
@@ -36,6 +40,10 @@ class SentenceSummary(JsonRecord):
     refused: int
     impossible: int
     impossible_refused: int
+    prompt_tokens: int = 0
+    completion_tokens: int = 0
+    seconds: float = 0.0
+    corrections: int = 0
 
 
 class SentenceCase(JsonRecord):
@@ -47,6 +55,13 @@ class SentenceCase(JsonRecord):
     goals: tuple[str, ...] = Field(description="The goals of its steps, as PDDL.")
     warnings: tuple[str, ...]
     reason: str = Field(description="Why there is no plan, or why it is wrong; empty otherwise.")
+    model: ModelUse | None = Field(None, description="The effort of the language model; left out where none read it.")
+
+
+class KindSummary(SentenceSummary):
+    """The tests of one kind."""
+
+    kind: str
 
 
 class SentenceReport(JsonRecord):
@@ -56,4 +71,21 @@ class SentenceReport(JsonRecord):
     REMAKE = "make it again with tmd test --json"
 
     summary: SentenceSummary
+    kinds: tuple[KindSummary, ...] = Field(description="The same for the tests of each kind; a test may have several.")
+    reader: str
     cases: tuple[SentenceCase, ...]
+
+
+class ReaderComparison(JsonRecord):
+    """``tmd test --compare A,B --json``: two readers on the same tests."""
+
+    WHAT = "what tmd test --compare --json prints"
+    REMAKE = "make it again with tmd test --compare --json"
+
+    a: SentenceReport
+    b: SentenceReport
+    both: int = Field(description="Tests that both pass.")
+    only_a: int
+    only_b: int
+    neither: int
+    p: float = Field(description="McNemar's exact test, two-sided, of no difference.")

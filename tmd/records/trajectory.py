@@ -6,7 +6,7 @@ from typing import Literal, TypeAlias
 
 from pydantic import Field
 
-from tmd.records.json_record import JsonRecord, rounded
+from tmd.json_record import JsonRecord, rounded
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample
 

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 from tmd.diagnostics import Refusal
 from tmd.export.end_goal import end_goal
 from tmd.grounded import Grounded
-from tmd.inference.ranking import RankedPlan
+from tmd.inference.ranking import LostGoal, RankedPlan
+from tmd.json_record import rounded
+from tmd.pddl.model import Formula, Problem
 from tmd.pddl.task import Task
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula
+from tmd.readers.interface import Question
 from tmd.records.clauses import ParsedRecord
 from tmd.records.grounding import (
     ChoiceRecord,
@@ -18,12 +22,16 @@ from tmd.records.grounding import (
     GroundedStep,
     GroundingRecord,
     MadeWith,
+    ModelUse,
+    OptionRecord,
+    OtherGoal,
+    QuestionRecord,
     RankedPlanRecord,
     RefusedTemplate,
     RefusedText,
 )
-from tmd.records.json_record import rounded
 from tmd.view.goals import ShownGoal, in_words
+from tmd.view.wording import Wording
 
 
 def grounding_record(
@@ -43,6 +51,11 @@ def grounding_record(
     """
     task = grounded.world.task
     pairs = zip(grounded.plans, grounded.verdicts, strict=True)
+    optional: dict[str, Any] = {}  # keys that are left out where there is nothing to say
+    if grounded.usage is not None:
+        optional["reader"] = ModelUse.of(grounded.usage)
+    if grounded.question is not None:
+        optional["question"] = question_record(grounded)
     return GroundingRecord(
         text=grounded.parsed.text,
         domain=domain,
@@ -56,7 +69,31 @@ def grounding_record(
         warnings=grounded.warnings,
         environment_file=environment_file,
         made_with=MadeWith.model_validate(made_with),
+        **optional,
     )
+
+
+def question_record(grounded: Grounded) -> QuestionRecord:
+    """Return the question of a request as a record."""
+    question = grounded.question
+    assert question is not None
+    options = zip(question.options, option_texts(question, grounded.world.task.problem), strict=True)
+    return QuestionRecord(
+        text=question.text,
+        step=question.step,
+        options=tuple(OptionRecord(answer=text, goal=flat(option.formula)) for option, text in options),
+    )
+
+
+def option_texts(question: Question, problem: Problem) -> list[str]:
+    """Return the answers to a question: the reader's own words, or else the goals in words."""
+    wording = Wording(problem)
+    return [option.answer or wording.condition(option.formula) for option in question.options]
+
+
+def flat(formula: Formula) -> str:
+    """Return a formula on one line."""
+    return " ".join(format_formula(formula).split())
 
 
 def _plan(plan: RankedPlan, verdict: Verdict, task: Task) -> RankedPlanRecord:
@@ -96,7 +133,12 @@ def _goal(shown: ShownGoal) -> GoalRecord:
         note=goal.note or None,
         first=goal.first,
         last=goal.last,
+        **({"others": tuple(map(_other, goal.others))} if goal.others else {}),
     )
+
+
+def _other(lost: LostGoal) -> OtherGoal:
+    return OtherGoal(pddl=flat(lost.formula), row=lost.row or None, why=lost.why)
 
 
 def _refused(refused: tuple[int, Refusal] | None) -> RefusedText | None:

@@ -13,6 +13,7 @@ from tmd.export.record import parse_record
 from tmd.export.strips import restored
 from tmd.files import read_bytes
 from tmd.grounded import why_refused
+from tmd.json_record import json_value
 from tmd.language import parse
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
@@ -22,7 +23,6 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import nearest, read_standard_input, read_text
 from tmd.pddl.validator import Verdict
 from tmd.records.grounding import GroundingRecord
-from tmd.records.json_record import json_value
 from tmd.records.plan import FORMAT
 from tmd.records.run import RunRecord, RunRequest, read_log
 from tmd.veil.corpus import Corpus

@@ -9,6 +9,7 @@ import click
 
 from tmd.cli.errors import one_line
 from tmd.cli.inputs.limits import limit_options
+from tmd.cli.inputs.reading import ReadingOptions, reading_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
@@ -32,6 +33,7 @@ _ALL = "all"
 @limit_options
 @click.option("--text", metavar="TEXT", help="What was said, for an environment (YAML or PDDL).")
 @click.option("--text-file", metavar="FILE", help="A file with what was said; - is standard input.")
+@reading_options
 @click.option(
     "--goal",
     metavar="CONDITION|asked|changed",
@@ -54,6 +56,7 @@ def command(
     memory: int | None,
     text: str | None,
     text_file: str | None,
+    reading: ReadingOptions,
     goal: str | None,
     example: str | None,
     model: str | None,
@@ -76,7 +79,7 @@ def command(
     names = _chosen(formats)
     check_directory(directory, overwrite=overwrite)
     spoken = None if text is None and text_file is None else short_enough(said(text, text_file))
-    request = ExportRequest(source, domain, plan, planner, spoken, goal, example, model, seconds, memory)
+    request = ExportRequest(source, domain, plan, planner, spoken, goal, example, model, seconds, memory, reading)
     found = planned_source(roots, request)
     if isinstance(found, NoPlan):
         emit(f"{'invalid' if found.code is ExitCode.INVALID_PLAN else 'no plan'}: {found.reason}\n", error=True)

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import click
 
 from tmd.cli.inputs.grounding import GroundingOptions, answer, grounding_options
+from tmd.cli.inputs.reading import ReadingOptions, ask_on_terminal, reading_options
 from tmd.cli.inputs.text import said, text_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode
 from tmd.veil.roots import Roots
+
+if TYPE_CHECKING:
+    from tmd.ground import Ask
+    from tmd.readers.interface import Question
 
 
 @click.command("ground", short_help="Ground a text in an environment: ranked, validated plans.")
@@ -21,6 +28,9 @@ from tmd.veil.roots import Roots
 @text_options
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @grounding_options
+@reading_options
+@click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
+@click.option("--verbose", is_flag=True, help="Print what the language model took: tokens, seconds, corrections.")
 @click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -31,13 +41,17 @@ def command(
     text_file: str | None,
     domain_name: str | None,
     options: GroundingOptions,
+    reading: ReadingOptions,
+    ask: bool,
+    verbose: bool,
     goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
     """Ground what was said in an environment.
 
     What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
-    the time. Ends with 12 where no plan was found.
+    the time. Ends with 12 where no plan was found, and with 15 where two readings of the request differ and nobody said
+    which one is meant; the plan is then for the likelier one.
     """
     from tmd.cli.show.grounding import grounded_text, remarks, whole_goal_text
     from tmd.inference.config import preset
@@ -45,13 +59,29 @@ def command(
 
     if goal_only and not preset(options.model_name).goals:
         raise click.UsageError(f"the model {options.model_name} knows no goals: leave --model out")
-    found = answer(roots, short_enough(said(text, text_file)), environment, domain_name, options)
+    if ask and text_file == "-":
+        raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
+    request = short_enough(said(text, text_file))
+    asking = _asking(roots, environment, domain_name) if ask else None
+    found = answer(roots, request, environment, domain_name, options, reading, asking)
     grounded = found.grounded
     if as_json:
         record = found.record(environment)
         emit_json((record.goal_only() if goal_only else record).to_value())
     else:
         emit(whole_goal_text(grounded) if goal_only else grounded_text(grounded))
-    for line in remarks(grounded):
+    for line in remarks(grounded, verbose=verbose):
         emit(line, error=True)
-    return ExitCode.NOT_GROUNDED if grounded.reason else ExitCode.OK
+    return found.code
+
+
+def _asking(roots: Roots, environment: str, domain: str | None) -> Ask:
+    """Return a function that asks the user a question on the terminal."""
+    from tmd.view.grounding_record import option_texts
+
+    _, world = roots.world(environment, domain)
+
+    def ask(question: Question) -> int | None:
+        return ask_on_terminal(question, option_texts(question, world.task.problem))
+
+    return ask

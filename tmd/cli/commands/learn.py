@@ -54,7 +54,7 @@ def command(
 
 
 def _report(corpus: Corpus, found: LearnedDomain) -> dict[str, object]:
-    from tmd.records.json_record import rounded
+    from tmd.json_record import rounded
 
     library, reward = found.knowledge.library, found.knowledge.reward
     verbs = sorted(library.verbs(), key=lambda verb: (-len(library.templates(verb)), verb))

@@ -10,6 +10,7 @@ import click
 
 from tmd import __version__
 from tmd.cli.inputs.grounding import environment_file, learned_option
+from tmd.cli.inputs.reading import ReadingOptions, reading_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.veil.roots import Roots
@@ -54,6 +55,7 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option("--goal", metavar="CONDITION", help="Find a plan for this PDDL condition, such as (on a b).")
 @click.option("--domain", "domain_name", metavar="NAME", help="The domain; the environment's own by default.")
 @learned_option
+@reading_options
 @click.option("--planner", metavar="NAME", help="Planner for gaps and replanning; in-process by default.")
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
 @click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
@@ -97,6 +99,7 @@ def command(
     goal: str | None,
     domain_name: str | None,
     learned: Path | None,
+    reading: ReadingOptions,
     planner: str | None,
     repairs: int,
     kinematic: bool,
@@ -165,7 +168,7 @@ def command(
         if orders is None and goal is not None:
             orders = orders_of_goal(goal, world, planner)
         elif orders is None:
-            orders = orders_of_text(spoken or "", corpus, world, environment, chosen, learned)
+            orders = orders_of_text(spoken or "", corpus, world, environment, chosen, reading, learned)
         for line in orders.remarks:
             emit(line, error=True)
         asked = RunRequest(

@@ -2,20 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from tmd.cli.inputs.grounding import learned_option
+from tmd.cli.inputs.reading import ReadingOptions, reading_options
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.inference.config import DEFAULT
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
-    from tmd.evaluation.sentence_tests import SentenceResult, SentenceTest
+    from tmd.evaluation.sentence_tests import SentenceResult
+    from tmd.veil.sentence_file import SentenceTest
 
 
 @click.command("test", short_help="Run sentence tests: does each request end in what was asked?")
@@ -29,6 +31,9 @@ if TYPE_CHECKING:
 )
 @click.option("--model", "model_name", default=DEFAULT, show_default=True, metavar="NAME", help="The model.")
 @click.option("--guess", is_flag=True, help="Plan even where what was said is not understood or cannot be done.")
+@reading_options
+@click.option("--compare", metavar="A,B", help="Run the tests with two readers, and compare them: rules,llm.")
+@click.option("--jobs", type=click.IntRange(1, 64), default=1, show_default=True, help="Processes.")
 @learned_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -38,6 +43,9 @@ def command(
     cases: tuple[Path, ...],
     model_name: str,
     guess: bool,
+    reading: ReadingOptions,
+    compare: str | None,
+    jobs: int,
     learned: Path | None,
     as_json: bool,
 ) -> ExitCode:
@@ -46,18 +54,32 @@ def command(
     A test is a line of JSON: {"id", "domain", "environment", "text", "goal"}; the goal is a PDDL condition that must
     hold at the end of the first plan, or null where the request must be refused. Ends with 1 where a test fails.
     """
-    from tmd.evaluation.sentence_tests import report
+    from tmd.evaluation.sentence_tests import compared, report
 
-    results = list(_run(roots, _tests(roots, domain, cases), model_name, guess, learned))
+    tests = _tests(roots, domain, cases)
+    options = {
+        "model": model_name, "guess": guess, "reader": reading.reader, "llm": reading.settings(),
+        "verify": reading.verify, "jobs": jobs,
+    }  # fmt: skip
+    if compare is not None:
+        readers = _two_readers(compare)
+        found = [_run(roots, tests, learned, {**options, "reader": reader}) for reader in readers]
+        comparison = compared(found[0], found[1], readers)
+        if as_json:
+            emit_json(comparison.to_value())
+        else:
+            emit(_side_by_side(found, readers, comparison.p))
+        return ExitCode.OK if all(r.outcome.passed for results in found for r in results) else ExitCode.TESTS_FAILED
+    results = _run(roots, tests, learned, options)
     if as_json:
-        emit_json(report(results).to_value())
+        emit_json(report(results, reading.reader).to_value())
     else:
         emit(_text(results))
     return ExitCode.OK if all(result.outcome.passed for result in results) else ExitCode.TESTS_FAILED
 
 
 def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[SentenceTest]:
-    from tmd.evaluation.sentence_tests import domain_sentences, read_sentences
+    from tmd.veil.sentence_file import domain_sentences, read_sentences
 
     if bool(domain) == bool(cases):
         raise TmdError("name a domain, or files with --cases", hint="tmd test kitchen")
@@ -66,21 +88,31 @@ def _tests(roots: Roots, domain: str | None, cases: Sequence[Path]) -> list[Sent
     return [test for path in cases for test in read_sentences(path)]
 
 
+def _two_readers(given: str) -> tuple[str, str]:
+    names = tuple(name.strip() for name in given.split(","))
+    if len(names) != 2 or set(names) - {"rules", "llm"}:
+        raise click.UsageError("--compare takes two readers: rules,llm")
+    return names[0], names[1]
+
+
 def _run(
-    roots: Roots, tests: Sequence[SentenceTest], model: str, guess: bool, learned: Path | None
-) -> Iterator[SentenceResult]:
+    roots: Roots, tests: Sequence[SentenceTest], learned: Path | None, options: Mapping[str, Any]
+) -> list[SentenceResult]:
+    """Run the tests, domain after domain; the results are in the order of the tests."""
     from tmd.domain_kit import DomainKit
 
-    kits: dict[str, DomainKit] = {}
-    for test in tests:
-        if test.domain not in kits:
-            kits[test.domain] = DomainKit(roots.corpus(roots.folder(test.domain)), learned)
-        yield from kits[test.domain].run_sentence_tests([test], model=model, guess=guess)
+    found: dict[int, SentenceResult] = {}
+    for domain in dict.fromkeys(test.domain for test in tests):
+        own = [number for number, test in enumerate(tests) if test.domain == domain]
+        kit = DomainKit(roots.corpus(roots.folder(domain)), learned)
+        results = kit.run_sentence_tests([tests[number] for number in own], **options)
+        found.update(zip(own, results, strict=True))
+    return [found[number] for number in range(len(tests))]
 
 
 def _text(results: Sequence[SentenceResult]) -> str:
-    """Every failure, then the counts, by kind where the tests have kinds."""
-    from tmd.evaluation.sentence_tests import summary
+    """Return every failure, then the counts, by kind where the tests have kinds."""
+    from tmd.evaluation.sentence_tests import by_kind
 
     lines = []
     for result in results:
@@ -93,14 +125,47 @@ def _text(results: Sequence[SentenceResult]) -> str:
             if result.plan:
                 lines.append(f"    plan: {' '.join(result.plan)}")
             lines += [f"    warning: {warning}" for warning in result.warnings]
-    kinds = sorted({kind for result in results for kind in result.test.kinds})
-    for kind in kinds:
-        own = [result for result in results if kind in result.test.kinds]
-        lines.append(f"{kind}: {sum(r.outcome.passed for r in own)} of {len(own)}")
+    for kind, own in by_kind(results).items():
+        lines.append(f"{kind}: {_passed(own)} of {len(own)}")
+    lines.append(_total(results))
+    return "\n".join(lines) + "\n"
+
+
+def _passed(results: Sequence[SentenceResult]) -> int:
+    return sum(result.outcome.passed for result in results)
+
+
+def _total(results: Sequence[SentenceResult]) -> str:
+    """Return the counts on one line, with the effort of the language model where one was asked."""
+    from tmd.evaluation.sentence_tests import summary
+
     counts = summary(results)
-    doable = counts.n - counts.impossible
-    lines.append(
-        f"{counts.right} of {doable} right, {counts.wrong} wrong ({counts.wrong_warned} with a warning), "
-        f"{counts.refused} refused; {counts.impossible_refused} of {counts.impossible} impossible ones refused"
+    line = (
+        f"{counts.right} of {counts.n - counts.impossible} right, "
+        f"{counts.wrong} wrong ({counts.wrong_warned} with a warning), {counts.refused} refused; "
+        f"{counts.impossible_refused} of {counts.impossible} impossible ones refused"
     )
+    if "seconds" not in counts.model_fields_set:
+        return line
+    return (
+        f"{line}; {counts.prompt_tokens} + {counts.completion_tokens} tokens, {counts.seconds:.1f} s, "
+        f"{counts.corrections} corrections"
+    )
+
+
+def _side_by_side(found: Sequence[Sequence[SentenceResult]], readers: tuple[str, str], p: float) -> str:
+    """Return the tests that the readers pass, kind by kind, and the test of the difference."""
+    from tmd.evaluation.sentence_tests import by_kind
+
+    first, second = found
+    width = max((len(kind) for kind in by_kind(first)), default=3)
+    lines = [f"{'':{width}}  {readers[0]:>6}  {readers[1]:>6}  of"]
+    others = by_kind(second)
+    for kind, own in (*by_kind(first).items(), ("all", first)):
+        theirs = others.get(kind, second)
+        lines.append(f"{kind:{width}}  {_passed(own):>6}  {_passed(theirs):>6}  {len(own)}")
+    lines += [f"{reader}: {_total(results)}" for reader, results in zip(readers, found, strict=True)]
+    one, other = (sum(a.outcome.passed and not b.outcome.passed for a, b in zip(x, y, strict=True))
+                  for x, y in ((first, second), (second, first)))  # fmt: skip
+    lines.append(f"only {readers[0]}: {one}, only {readers[1]}: {other}; McNemar's exact test: p = {p:.4g}")
     return "\n".join(lines) + "\n"

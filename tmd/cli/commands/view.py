@@ -9,6 +9,7 @@ import click
 from click.core import ParameterSource
 
 from tmd.cli.inputs.grounding import GroundingOptions, grounding_options
+from tmd.cli.inputs.reading import ReadingOptions, reading_options
 from tmd.cli.inputs.text import text_options
 from tmd.cli.output import emit
 from tmd.diagnostics import ExitCode
@@ -17,7 +18,7 @@ from tmd.veil.roots import Roots
 if TYPE_CHECKING:
     from tmd.view.sources import FoundSubject
 
-_OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim")
+_OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim", "reader", "llm_model", "llm_url", "verify")
 
 
 @click.command("view", short_help="Write one HTML page of a plan, a run or a demonstration.")
@@ -39,6 +40,7 @@ _OF_GROUNDING = ("top", "planner", "model_name", "weights", "beam", "trim")
 )
 @click.option("--out", metavar="FILE|-", help="The page; beside what it shows by default. - is standard output.")
 @grounding_options
+@reading_options
 @click.pass_context
 def command(
     ctx: click.Context,
@@ -52,6 +54,7 @@ def command(
     strip: Path | None,
     out: str | None,
     options: GroundingOptions,
+    reading: ReadingOptions,
 ) -> ExitCode:
     """Write one HTML page: what was said, what it means here, the plan step by step, and the candidates.
 
@@ -73,7 +76,8 @@ def command(
     from tmd.view.sources import STANDARD, ViewRequest, subject_of_file
 
     if source is None:
-        found = _subject_of_text(roots, short_enough(said(text, text_file)), environment or "", domain_name, options)
+        spoken = short_enough(said(text, text_file))
+        found = _subject_of_text(roots, spoken, environment or "", domain_name, options, reading)
     else:
         found = subject_of_file(roots, ViewRequest(source, environment, domain_name, problem, demonstration, strip))
     target = out or (STANDARD if source == STANDARD else str(found.beside))
@@ -90,7 +94,12 @@ def command(
 
 
 def _subject_of_text(
-    roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions
+    roots: Roots,
+    text: str,
+    environment: str,
+    domain: str | None,
+    options: GroundingOptions,
+    reading: ReadingOptions,
 ) -> FoundSubject:
     """Ground a text now.
 
@@ -102,7 +111,7 @@ def _subject_of_text(
     from tmd.view.sources import FoundSubject, made_rows
     from tmd.view.subject import text_subject
 
-    found = answer(roots, text, environment, domain, options)
+    found = answer(roots, text, environment, domain, options, reading)
     rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
     told = tuple(remarks(found.grounded))
     return FoundSubject(

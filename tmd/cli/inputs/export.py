@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import click
 
+from tmd.cli.inputs.reading import ReadingOptions
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.export.planned_problem import Planned, planned, with_outcome
 from tmd.pddl.model import TRUE, Instruction, Problem
@@ -36,6 +37,7 @@ class ExportRequest:
     model: str | None = None
     seconds: float | None = None
     memory: int | None = None
+    reading: ReadingOptions = field(default_factory=ReadingOptions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +88,7 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     corpus, world = roots.world(asked.source, asked.domain)
     problem = replace(world.task.problem, goal=TRUE)  # what a PDDL environment has as its goal nobody asked for
     if asked.text is not None:
-        orders = orders_of_text(asked.text, corpus, world, asked.source, asked.planner or IN_PROCESS)
+        orders = orders_of_text(asked.text, corpus, world, asked.source, asked.planner or IN_PROCESS, asked.reading)
         if orders.status:
             return NoPlan(orders.remarks[-1].strip().removeprefix("no plan: "), orders.code)
         goal = _goal(asked, orders.grounding.plans[0].goal if orders.grounding else None)
@@ -103,8 +105,8 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
 def _of_json(roots: Roots, path: Path, asked: ExportRequest) -> Planned | NoPlan:
     """A plan of ``tmd ground --json``, or what ``tmd export --format json`` wrote."""
     from tmd.export.record import parse_record
+    from tmd.json_record import json_value
     from tmd.records.grounding import GroundingRecord
-    from tmd.records.json_record import json_value
     from tmd.records.plan import FORMAT
 
     text = read_text(path)

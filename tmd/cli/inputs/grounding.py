@@ -11,10 +11,13 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from tmd import __version__
+from tmd.cli.inputs.reading import ReadingOptions
+from tmd.diagnostics import ExitCode
 from tmd.inference.config import DEFAULT, PRESETS, InferenceConfig
 from tmd.veil.roots import Roots
 
 if TYPE_CHECKING:
+    from tmd.ground import Ask
     from tmd.grounded import Grounded
     from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
@@ -62,6 +65,13 @@ class Answer:
     grounded: Grounded
     corpus: Corpus
     made_with: dict[str, object]
+
+    @property
+    def code(self) -> ExitCode:
+        """The exit code."""
+        if self.grounded.reason:
+            return ExitCode.NOT_GROUNDED
+        return ExitCode.OK if self.grounded.question is None else ExitCode.QUESTION
 
     def record(self, environment: str) -> GroundingRecord:
         """What ``tmd ground --json`` prints; ``environment`` is as it was given."""
@@ -118,7 +128,15 @@ _OPTIONS = (
 )
 
 
-def answer(roots: Roots, text: str, environment: str, domain: str | None, options: GroundingOptions) -> Answer:
+def answer(
+    roots: Roots,
+    text: str,
+    environment: str,
+    domain: str | None,
+    options: GroundingOptions,
+    reading: ReadingOptions,
+    ask: Ask | None = None,
+) -> Answer:
     """Ground a text in an environment.
 
     Raises:
@@ -138,6 +156,10 @@ def answer(roots: Roots, text: str, environment: str, domain: str | None, option
         weights=options.weights,
         beam=options.beam,
         trim=options.trim,
+        reader=reading.reader,
+        llm=reading.settings(),
+        verify=reading.verify,
+        ask=ask,
     )
     made = made_with(options.planner, options.model_name, grounded.config, options.weights, options.top)
     return Answer(grounded, corpus, made)

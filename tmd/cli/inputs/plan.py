@@ -10,6 +10,7 @@ from tmd.diagnostics import ExitCode, TmdError
 from tmd.robot.monitor.listeners import Order
 
 if TYPE_CHECKING:
+    from tmd.cli.inputs.reading import ReadingOptions
     from tmd.records.grounding import GroundingRecord
     from tmd.veil.corpus import Corpus
     from tmd.veil.world import World
@@ -22,7 +23,7 @@ class Orders:
     Attributes:
         orders: The plan.
         code: ``OK``, or what the program ends with because there is none.
-        status: ``not_grounded``, ``unreachable``, ``gave_up`` or ``invalid_plan``; empty for a plan.
+        status: ``not_grounded``, ``question``, ``unreachable``, ``gave_up`` or ``invalid_plan``; empty for a plan.
         remarks: Lines for standard error.
         grounding: What ``tmd ground --json`` prints of the text; nothing where there was none.
     """
@@ -35,9 +36,17 @@ class Orders:
 
 
 def orders_of_text(
-    text: str, corpus: Corpus, world: World, environment: str, planner: str, learned: Path | None = None
+    text: str,
+    corpus: Corpus,
+    world: World,
+    environment: str,
+    planner: str,
+    reading: ReadingOptions,
+    learned: Path | None = None,
 ) -> Orders:
     """Ground a text, as ``tmd ground`` does with its usual options; ``environment`` is as it was given.
+
+    Where two readings of the text differ there is no plan: the robot does not guess.
 
     Raises:
         TmdError: The planner is unknown or not installed, or the demonstrations are wrong.
@@ -46,11 +55,16 @@ def orders_of_text(
     from tmd.cli.show.grounding import remarks
     from tmd.domain_kit import DomainKit, orders_of
 
-    grounded = DomainKit(corpus, learned).ground(text, world, planner=planner)
+    kit = DomainKit(corpus, learned)
+    grounded = kit.ground(
+        text, world, planner=planner, reader=reading.reader, llm=reading.settings(), verify=reading.verify
+    )
     told = tuple(remarks(grounded))
     record = Answer(grounded, corpus, made_with(planner)).record(environment)
     if grounded.reason:
         return Orders((), ExitCode.NOT_GROUNDED, "not_grounded", told, record)
+    if grounded.question is not None:
+        return Orders((), ExitCode.QUESTION, "question", told, record)
     return Orders(tuple(orders_of(grounded)), remarks=told, grounding=record)
 
 

@@ -8,12 +8,14 @@ from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
 from tmd.inference.energy import title
 from tmd.inference.ranking import RankedPlan
+from tmd.json_record import rounded
 from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, print_clause
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula, format_problem
-from tmd.records.json_record import rounded
+from tmd.readers.interface import Usage
 from tmd.view.goals import ShownGoal, in_words
+from tmd.view.grounding_record import flat, option_texts
 
 _MOODS = {Mood.AVOID: "not to be done", Mood.KEEP: "to be kept"}
 
@@ -104,7 +106,8 @@ def _below(shown: ShownGoal) -> list[str]:
     if goal.formula is None or not shown.asked:
         return []
     source = f"   {goal.source}: {goal.row}" if goal.source else ""
-    return [f"{format_formula(goal.formula)}{source}", *([f"note: {goal.note}"] if goal.note else [])]
+    others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others]
+    return [f"{format_formula(goal.formula)}{source}", *([f"note: {goal.note}"] if goal.note else []), *others]
 
 
 def whole_goal_text(grounded: Grounded) -> str:
@@ -113,10 +116,25 @@ def whole_goal_text(grounded: Grounded) -> str:
     return "" if problem is None else format_problem(problem)
 
 
-def remarks(grounded: Grounded) -> list[str]:
-    """Lines for standard error: its warnings, and why there is no plan if there is none."""
+def remarks(grounded: Grounded, *, verbose: bool = False) -> list[str]:
+    """Return lines for standard error: warnings, a question, the model's effort, and why there is no plan."""
     lines = [f"warning: {warning}\n" for warning in grounded.warnings]
+    if grounded.question is not None:
+        texts = option_texts(grounded.question, grounded.world.task.problem)
+        lines += [f"question: {grounded.question.text} {' / '.join(texts)} (answer with --ask)\n"]
+    if verbose and grounded.usage is not None:
+        lines.append(f"{usage_text(grounded.usage)}\n")
     return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
+
+
+def usage_text(usage: Usage) -> str:
+    """Return the effort of a language model on one line."""
+    replies = len(usage.digests)
+    return (
+        f"model {usage.model}: {replies} {'reply' if replies == 1 else 'replies'} ({usage.cached} cached), "
+        f"{usage.prompt_tokens} + {usage.completion_tokens} tokens, {usage.seconds:.1f} s, "
+        f"{usage.corrections} corrections"
+    )
 
 
 def grounded_text(grounded: Grounded) -> str:

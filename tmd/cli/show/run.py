@@ -10,8 +10,8 @@ from typing import IO, Literal, Self
 
 from tmd.cli.output import emit, emit_json
 from tmd.diagnostics import OutputError
+from tmd.json_record import JsonRecord
 from tmd.pddl.model import GroundAtom
-from tmd.records.json_record import JsonRecord
 from tmd.records.run import (
     BeginEvent,
     EndEvent,

@@ -8,11 +8,11 @@ from pathlib import Path
 
 from tmd.diagnostics import TmdError
 from tmd.evaluation.runs.config import BUNDLED
+from tmd.json_record import json_value
 from tmd.pddl.model import Instruction, Problem
 from tmd.pddl.plan_file import parse_instruction
 from tmd.pddl.reading.syntax import nearest, read_text
 from tmd.records.fit import Fit
-from tmd.records.json_record import json_value
 from tmd.records.metrics import Metrics
 from tmd.records.prediction import PredictionRecord
 from tmd.veil.roots import Roots

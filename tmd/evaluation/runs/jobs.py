@@ -24,11 +24,11 @@ from tmd.evaluation.runs.dataset import Dataset, Example, open_dataset
 from tmd.evaluation.runs.folds import Fold, folds_of
 from tmd.files import make_directory, write_text
 from tmd.inference.energy import Weights
+from tmd.json_record import DIGITS
 from tmd.language.clause import Span
 from tmd.language.syntax.tokens import Kind, tokenise
 from tmd.pddl.model import Instruction
 from tmd.records.fit import CurvePoint, Fit, WorldFit
-from tmd.records.json_record import DIGITS
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 from tmd.veil.demonstration import Segment
 

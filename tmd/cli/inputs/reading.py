@@ -1,0 +1,90 @@
+"""The options that say how a request is read: by rules or by a language model."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields
+from functools import wraps
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+
+if TYPE_CHECKING:
+    from tmd.readers.interface import Question
+    from tmd.readers.llm.client import CacheMode, ModelSettings
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True, slots=True)
+class ReadingOptions:
+    """How requests are read; the fields are options."""
+
+    reader: str = "rules"
+    llm_model: str | None = None
+    llm_url: str | None = None
+    llm_cache: CacheMode = "on"
+    verify: bool = False
+
+    def settings(self) -> ModelSettings:
+        """Return how the language model is reached."""
+        from tmd.readers.llm.client import ModelSettings
+
+        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache)
+
+    def check(self) -> None:
+        """Refuse options of a language model where none is asked.
+
+        Raises:
+            click.UsageError: There are such options.
+        """
+        given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
+        if self.reader != "llm" and given:
+            raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
+
+
+_OPTIONS = (
+    click.option(
+        "--reader",
+        type=click.Choice(["rules", "llm"]),
+        default="rules",
+        show_default=True,
+        help="Read requests by grammar and lexicon, or with a language model.",
+    ),
+    click.option("--llm-model", metavar="NAME", help="The language model; $OPENAI_MODEL by default."),
+    click.option("--llm-url", metavar="URL", help="Its server; $OPENAI_BASE_URL, or else OpenAI's, by default."),
+    click.option(
+        "--llm-cache",
+        type=click.Choice(["on", "off", "only"]),
+        default="on",
+        show_default=True,
+        help="Use replies that were kept; 'only' never asks the server.",
+    ),
+    click.option("--verify", is_flag=True, help="Ask the language model whether the plan does what was asked."),
+)
+
+
+def reading_options(command: _Command) -> Callable[..., Any]:
+    """The options that say how a request is read; the command gets them as ``reading``."""
+
+    @wraps(command)
+    def bundled(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
+        reading = ReadingOptions(**{field.name: given.pop(field.name) for field in fields(ReadingOptions)})
+        reading.check()
+        return command(*args, reading=reading, **given)
+
+    found: Callable[..., Any] = bundled
+    for option in reversed(_OPTIONS):
+        found = option(found)
+    return found
+
+
+def ask_on_terminal(question: Question, texts: list[str]) -> int | None:
+    """Ask the user a question on standard error; ``None`` where standard input ends."""
+    click.echo(question.text, err=True)
+    for number, text in enumerate(texts, start=1):
+        click.echo(f"  {number}. {text}", err=True)
+    try:
+        return int(click.prompt("Which one", type=click.IntRange(1, len(texts)), err=True)) - 1
+    except click.Abort:
+        return None

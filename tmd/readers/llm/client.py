@@ -1,0 +1,257 @@
+"""An OpenAI-compatible server, and the cache of its replies.
+
+Nothing of the key is ever written or printed: messages of the server are scrubbed.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
+
+from tmd.diagnostics import ExitCode, MissingToolError, OutputError, TmdError
+from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
+
+if TYPE_CHECKING:
+    from openai import OpenAI
+
+Messages: TypeAlias = Sequence[Mapping[str, str]]
+CacheMode: TypeAlias = Literal["on", "off", "only"]
+KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
+"""The environment variables for key, address and model."""
+_NO_KEY = "none"
+"""The key that is sent to servers that need none."""
+_MAY_BE_REFUSED = ("response_format", "seed", "temperature")
+"""Parameters that some models refuse; a request is repeated without them."""
+
+
+class ModelError(TmdError):
+    """The language model cannot be asked, or gives no answer."""
+
+    exit_code = ExitCode.MODEL_FAILED
+
+
+@dataclass(frozen=True, slots=True)
+class ModelSettings:
+    """How a language model is reached.
+
+    Attributes:
+        model: The name of the model; ``$OPENAI_MODEL`` by default.
+        url: The address of the server, such as ``http://localhost:8000/v1``; ``$OPENAI_BASE_URL``, or else OpenAI's, by
+            default.
+        key: The key; ``$OPENAI_API_KEY`` by default. Servers with an address of their own may need none.
+        cache: ``on`` keeps replies and uses them again, ``only`` never asks the server, ``off`` always does.
+        timeout: Seconds to wait for a reply.
+        seed: The seed that is sent to the server.
+    """
+
+    model: str | None = None
+    url: str | None = None
+    key: str | None = field(default=None, repr=False)
+    cache: CacheMode = "on"
+    timeout: float = 120.0
+    seed: int = 0
+
+    def resolved(self) -> ModelSettings:
+        """Return the settings with what the environment variables add.
+
+        Raises:
+            ModelError: There is no model, or no key for a server that needs one.
+        """
+        model = self.model or os.environ.get(MODEL)
+        url = self.url or os.environ.get(URL)
+        key = self.key or os.environ.get(KEY)
+        if not model:
+            raise ModelError("no language model is named", hint=f"give --llm-model, or set ${MODEL}")
+        if not key and not url and self.cache != "only":
+            raise ModelError("there is no key for the language model", hint=f"set ${KEY}, or give --llm-url")
+        return ModelSettings(model, url, key or _NO_KEY, self.cache, self.timeout, self.seed)
+
+
+@dataclass(frozen=True, slots=True)
+class Completion:
+    """One reply.
+
+    Attributes:
+        text: The reply.
+        digest: The digest of model, messages and schema.
+        prompt_tokens: As the server counts them.
+        completion_tokens: Likewise.
+        seconds: Time spent waiting; 0 for a cached reply.
+        cached: Whether it comes from the cache.
+    """
+
+    text: str
+    digest: str
+    prompt_tokens: int = 0
+    completion_tokens: int = 0
+    seconds: float = 0.0
+    cached: bool = False
+
+
+class ModelClient:
+    """Asks a language model.
+
+    Args:
+        settings: How it is reached; environment variables fill in what is missing.
+
+    Raises:
+        ModelError: There is no model, or no key for a server that needs one.
+    """
+
+    def __init__(self, settings: ModelSettings) -> None:
+        self.settings = settings.resolved()
+        self._refused: set[str] = set()
+        self._client: OpenAI | None = None
+
+    @property
+    def model(self) -> str:
+        """The name of the model."""
+        return self.settings.model or ""
+
+    def complete(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> Completion:
+        """Return the reply to ``messages``, which should follow ``schema``.
+
+        Raises:
+            ModelError: The server cannot be reached, refuses, or sends no text; or there is no cached reply where only
+                such are wanted.
+            MissingToolError: The package ``openai`` is not installed.
+        """
+        digest = self._digest(messages, schema)
+        if self.settings.cache != "off" and (kept := _recall(digest)) is not None:
+            return kept
+        if self.settings.cache == "only":
+            raise ModelError(f"there is no cached reply {digest[:12]}", hint="run once without --llm-cache only")
+        began = time.monotonic()
+        text, used = self._ask(messages, name, schema)
+        found = Completion(text, digest, *used, round(time.monotonic() - began, 3))
+        if self.settings.cache == "on":
+            _keep(found, self.model)
+        return found
+
+    def _digest(self, messages: Messages, schema: Mapping[str, Any]) -> str:
+        asked = {"model": self.model, "messages": list(messages), "schema": schema}
+        return hashlib.sha256(json.dumps(asked, sort_keys=True, ensure_ascii=False).encode()).hexdigest()
+
+    def _ask(self, messages: Messages, name: str, schema: Mapping[str, Any]) -> tuple[str, tuple[int, int]]:
+        if find_spec("openai") is None:
+            raise MissingToolError("the package openai is not installed", hint="pip install 'tmd[llm]'")
+        import openai
+
+        given: dict[str, Any] = {
+            "temperature": 0,
+            "seed": self.settings.seed,
+            "response_format": {
+                "type": "json_schema",
+                "json_schema": {"name": name, "strict": True, "schema": schema},
+            },
+        }
+        if self._client is None:
+            self._client = openai.OpenAI(
+                api_key=self.settings.key, base_url=self.settings.url, timeout=self.settings.timeout, max_retries=2
+            )
+        while True:
+            options = {key: value for key, value in given.items() if key not in self._refused}
+            try:
+                said = cast(Any, list(messages))
+                answer = self._client.chat.completions.create(model=self.model, messages=said, **options)
+                break
+            except openai.APIStatusError as error:
+                refused = _refused_parameter(error.status_code, str(error), options)
+                if refused is None:
+                    raise self._status_error(error.status_code, str(error), error.response.headers) from None
+                self._refused.add(refused)
+            except openai.APITimeoutError:
+                message = f"no reply within {self.settings.timeout:.0f} s from {self._place()}"
+                raise ModelError(message, hint="try again later, or use a quicker model") from None
+            except openai.APIConnectionError as error:
+                reason = self._scrubbed(str(error.__cause__ or error))
+                raise ModelError(f"{self._place()} cannot be reached: {reason}", hint="check --llm-url") from None
+            except (openai.OpenAIError, ValueError, TypeError) as error:
+                raise ModelError(f"{self._place()} sent no usable answer: {self._scrubbed(str(error))}") from None
+        return self._text_of(answer)
+
+    def _text_of(self, answer: Any) -> tuple[str, tuple[int, int]]:  # noqa: ANN401 - servers send anything
+        try:
+            choice = answer.choices[0]
+            text = choice.message.content or getattr(choice.message, "refusal", None) or ""
+        except (AttributeError, IndexError, TypeError):
+            text = None
+        if not isinstance(text, str) or not text.strip():
+            raise ModelError(f"{self._place()} sent an empty answer", hint="check that the model is a chat model")
+        used = getattr(answer, "usage", None)
+        counts = (getattr(used, name, 0) or 0 for name in ("prompt_tokens", "completion_tokens"))
+        sent, received = (count if isinstance(count, int) else 0 for count in counts)
+        return text, (sent, received)
+
+    def _status_error(self, status: int, message: str, headers: Mapping[str, str]) -> ModelError:
+        place, told = self._place(), self._scrubbed(message)
+        if status == 401:
+            return ModelError(f"{place} refuses the key (401)", hint=f"check ${KEY}")
+        if status == 404:
+            return ModelError(f"{place} knows no model '{self.model}' (404)", hint="check --llm-model and --llm-url")
+        if status == 429:
+            wait = headers.get("retry-after")
+            again = f"; it asks to wait {wait} s" if wait else ""
+            return ModelError(f"{place} has no room for this request now (429){again}", hint="try again later")
+        return ModelError(f"{place} answers with status {status}: {told}")
+
+    def _place(self) -> str:
+        return self.settings.url or "the OpenAI server"
+
+    def _scrubbed(self, text: str) -> str:
+        """Return a message on one line, without the key."""
+        key = self.settings.key or ""
+        line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
+        return (line.replace(key, "***") if len(key) > 4 else line)[:300]
+
+
+def _refused_parameter(status: int, message: str, options: Mapping[str, Any]) -> str | None:
+    """Return the parameter that a server refuses, to be left out; ``None`` where that is not the reason."""
+    if status not in (400, 422):
+        return None
+    said = message.lower()
+    named = next((name for name in _MAY_BE_REFUSED if name in options and name in said), None)
+    schema = "response_format" if "response_format" in options and ("schema" in said or "format" in said) else None
+    return named or schema
+
+
+def _file(digest: str) -> Path | None:
+    folder = cache_directory("llm")
+    return None if folder is None else folder / digest[:2] / f"{digest}.json"
+
+
+def _recall(digest: str) -> Completion | None:
+    path = _file(digest)
+    if path is None:
+        return None
+    try:
+        kept = json.loads(read_bytes(path))
+        return Completion(
+            str(kept["reply"]), digest, int(kept["prompt_tokens"]), int(kept["completion_tokens"]), cached=True
+        )
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return None
+
+
+def _keep(found: Completion, model: str) -> None:
+    path = _file(found.digest)
+    if path is None:
+        return
+    value = {
+        "model": model,
+        "reply": found.text,
+        "prompt_tokens": found.prompt_tokens,
+        "completion_tokens": found.completion_tokens,
+    }
+    try:
+        make_directory(path.parent)
+        write_bytes(path, (json.dumps(value, ensure_ascii=False, indent=1) + "\n").encode())
+    except OutputError:
+        return  # a cache that cannot be written costs the next run a question

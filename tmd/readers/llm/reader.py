@@ -1,0 +1,264 @@
+"""The language model as a reader.
+
+The model proposes steps with PDDL goals. Every formula is checked (:mod:`tmd.readers.llm.checking`). Faults go back to
+the model, and so do goals that are proven unreachable, at most :data:`MOST_CORRECTIONS` times. After that the request
+is refused.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from tmd.diagnostics import Refusal, RefusalKind, TmdError
+from tmd.language.clause import Clause, Parsed
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.ground_formula import holds_in
+from tmd.pddl.model import Formula, Instruction
+from tmd.pddl.task import Bits
+from tmd.readers.interface import (
+    CandidateGoal,
+    Dialogue,
+    HandledGroup,
+    PlanConstraints,
+    Question,
+    Step,
+    StepGoals,
+    Usage,
+)
+from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
+from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
+from tmd.readers.llm.prompt import Example, Prompt, changes, filled, one_line, prompt_for
+from tmd.readers.llm.reply import Judgement, Reply, read_judgement, read_reply, schema_of
+from tmd.veil.corpus import Corpus
+from tmd.veil.sentence_file import SUFFIX, read_sentences
+from tmd.veil.world import World
+
+MOST_CORRECTIONS = 2
+"""How often a model may correct its reading of a request."""
+_MOST_FAULTS = 8
+"""Maximum number of faults that are sent back at a time."""
+
+
+def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False) -> LLMReader:
+    """Return a reader for a domain, with its sentence tests as examples.
+
+    Raises:
+        ModelError: There is no model, or no key for a server that needs one.
+        TmdError: A file of sentence tests is wrong.
+    """
+    tests = [t for path in sorted(corpus.directory.glob(f"*{SUFFIX}")) for t in read_sentences(path)]
+    examples = [Example(test.text, test.goal) for test in tests]
+    return LLMReader(ModelClient(settings), corpus.lexicon, examples, verify=verify)
+
+
+class LLMReader:
+    """Reads requests with a language model.
+
+    Args:
+        client: Asks the model.
+        lexicon: The words of the domain.
+        examples: Requests of the domain with their goals.
+        verify: Whether the model is asked once more whether a plan does what was asked.
+    """
+
+    def __init__(
+        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[Example] = (), *, verify: bool = False
+    ) -> None:
+        self._client = client
+        self._lexicon = lexicon
+        self._examples = tuple(examples)
+        self._verify = verify
+
+    def begin(self, request: str, world: World, state: Bits) -> LLMDialogue:
+        """Read a request that is made in ``state``.
+
+        Raises:
+            ModelError: The model cannot be asked, or gives no answer.
+            MissingToolError: The package ``openai`` is not installed.
+        """
+        prompt = prompt_for(request, world, state, self._lexicon, self._examples)
+        messages = ({"role": "system", "content": prompt.system}, {"role": "user", "content": prompt.user})
+        return self._read(request, world, prompt, messages, Usage(self._client.model))
+
+    def objection(self, dialogue: Dialogue, plan: Sequence[Instruction], world: World) -> str | None:
+        """Return why the model thinks that a plan is not what was asked; ``None`` where it agrees or is not asked.
+
+        Raises:
+            ModelError: As :meth:`begin`.
+        """
+        if not self._verify or not isinstance(dialogue, LLMDialogue) or not plan:
+            return None
+        added, deleted = changes(world, plan)
+        text = filled(
+            "verify",
+            environment_text=dialogue.prompt.environment,
+            plan=" ".join(instruction.pddl() for instruction in plan),
+            added=added,
+            deleted=deleted,
+            request=one_line(dialogue.parsed.text),
+        )
+        answer = self._client.complete([{"role": "user", "content": text}], "judgement", schema_of(Judgement))
+        dialogue.usage = _with(dialogue.usage, answer)
+        try:
+            judgement = read_judgement(answer.text)
+        except TmdError as error:
+            return f"the plan could not be verified: {error.message}"
+        return None if judgement.correct else one_line(judgement.reason)[:300] or "the plan is not what was asked"
+
+    def revise(self, dialogue: Dialogue, reason: str) -> LLMDialogue | None:
+        """Ask the model for another reading, telling it why the last one has no acceptable plan.
+
+        Raises:
+            ModelError: As :meth:`begin`.
+        """
+        assert isinstance(dialogue, LLMDialogue)
+        if dialogue.usage.corrections >= MOST_CORRECTIONS:
+            return None
+        messages = (*dialogue.messages, _user(filled("unreachable", reason=reason)))
+        usage = replace(dialogue.usage, corrections=dialogue.usage.corrections + 1)
+        return self._read(dialogue.parsed.text, dialogue.world, dialogue.prompt, messages, usage)
+
+    def _read(
+        self, request: str, world: World, prompt: Prompt, messages: tuple[Mapping[str, str], ...], usage: Usage
+    ) -> LLMDialogue:
+        """Ask, and send faults back until there are none or no more corrections are left."""
+        checker = ReplyChecker(request, world)
+        while True:
+            answer = self._client.complete(messages, "reading", schema_of(Reply))
+            usage = _with(usage, answer)
+            messages = (*messages, {"role": "assistant", "content": answer.text})
+            try:
+                found = checker.read(read_reply(answer.text))
+            except TmdError as error:
+                found = [error.message]
+                messages = (*messages[:-1], {"role": "assistant", "content": answer.text[:2000]})
+            if isinstance(found, ModelReading):
+                return LLMDialogue(found, world, prompt, messages, usage)
+            if usage.corrections >= MOST_CORRECTIONS:
+                message = f"the model's reading cannot be used: {found[0]}"
+                refusal = Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say it in other words, or use another model")
+                reading = ModelReading(Parsed(request, ()), refusal=refusal)
+                return LLMDialogue(reading, world, prompt, messages, usage)
+            faults = "\n".join(f"- {one_line(fault)}" for fault in found[:_MOST_FAULTS])
+            messages = (*messages, _user(filled("correction", faults=faults)))
+            usage = replace(usage, corrections=usage.corrections + 1)
+
+
+@dataclass(frozen=True, slots=True)
+class _Guard:
+    """The last guard, and whether it held.
+
+    Attributes:
+        when: The guard of the step before; ``None`` where that had none.
+        held: Whether the last guard held when it was evaluated; ``None`` where there was none yet.
+    """
+
+    when: Formula | None = None
+    held: bool | None = None
+
+
+class LLMDialogue:
+    """A request as a language model read it.
+
+    Args:
+        reading: The checked reply.
+        world: The environment.
+        prompt: The prompt.
+        messages: All messages so far.
+        usage: The effort so far.
+    """
+
+    def __init__(
+        self,
+        reading: ModelReading,
+        world: World,
+        prompt: Prompt,
+        messages: tuple[Mapping[str, str], ...],
+        usage: Usage,
+    ) -> None:
+        self.reading = reading
+        self.world = world
+        self.prompt = prompt
+        self.messages = messages
+        self.usage: Usage = usage
+        self.memory: object = _Guard()
+
+    @property
+    def parsed(self) -> Parsed:
+        """The clauses, and the pieces of text that no step covers."""
+        return self.reading.parsed
+
+    @property
+    def clauses(self) -> Sequence[Clause]:
+        """The clause of each step."""
+        return self.reading.parsed.clauses
+
+    @property
+    def steps(self) -> Sequence[Step]:
+        """The steps in the order of doing."""
+        return self.reading.steps
+
+    @property
+    def constraints(self) -> PlanConstraints:
+        """Prohibitions and exceptions."""
+        return self.reading.constraints
+
+    @property
+    def refusal(self) -> Refusal | None:
+        """Why the model refuses the request."""
+        return self.reading.refusal
+
+    @property
+    def question(self) -> Question | None:
+        """The model's question to the user."""
+        return self.reading.question
+
+    @property
+    def notes(self) -> Sequence[str]:
+        """What the model was not shown."""
+        return self.prompt.notes
+
+    @property
+    def asks(self) -> bool:
+        """Always: what asks for nothing is refused."""
+        return True
+
+    def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
+        """Return the candidate goals of a step, if its guard holds in ``state``."""
+        assert isinstance(step, ModelStep) and isinstance(memory, _Guard)
+        if step.otherwise:
+            if memory.held is not False:
+                return StepGoals((), memory, "the condition before it held")
+            return StepGoals(step.candidates, memory)
+        if step.when is None:
+            return StepGoals(step.candidates, replace(memory, when=None))
+        if step.when != memory.when:  # steps that share a guard share its evaluation
+            memory = _Guard(step.when, holds_in(self.world.task, step.when, state))
+        return (
+            StepGoals(step.candidates, memory) if memory.held else StepGoals((), memory, "the condition does not hold")
+        )
+
+    def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
+        """Return the memory as it is: the model has named its objects."""
+        return memory
+
+    def handled(self, step: Step) -> Sequence[HandledGroup] | None:
+        """Return ``None``: every step has a goal."""
+        return None
+
+
+def _user(text: str) -> Mapping[str, str]:
+    return {"role": "user", "content": text}
+
+
+def _with(usage: Usage, answer: Completion) -> Usage:
+    """Return the effort with one more reply."""
+    return replace(
+        usage,
+        prompt_tokens=usage.prompt_tokens + answer.prompt_tokens,
+        completion_tokens=usage.completion_tokens + answer.completion_tokens,
+        seconds=usage.seconds + answer.seconds,
+        cached=usage.cached + answer.cached,
+        digests=(*usage.digests, answer.digest),
+    )

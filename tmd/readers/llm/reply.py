@@ -1,0 +1,149 @@
+"""The reply of a language model: the classes that its JSON schema is generated from."""
+
+from __future__ import annotations
+
+import json
+import re
+from enum import StrEnum
+from functools import cache
+from typing import Any
+
+from pydantic import Field, ValidationError
+
+from tmd.diagnostics import TmdError
+from tmd.json_record import JsonRecord
+
+MOST_CHARACTERS = 200_000
+"""Longer replies are refused unread."""
+_FENCE = re.compile(r"^\s*```[\w-]*\n(.*?)\n?```\s*$", re.DOTALL)
+
+
+class ReplyStep(JsonRecord):
+    """One step: a condition to be brought about."""
+
+    text: str = Field(description="The words of the request that this step covers, quoted exactly.")
+    verb: str = Field(description="The verb in its base form, such as put or turn_on.")
+    objects: list[str] = Field(description="The nouns of the step as the user said them, in order.")
+    when: str | None = Field(description="A PDDL condition that guards the step; null where there is none.")
+    otherwise: bool = Field(description="Whether the step is done exactly when the guard of the step before failed.")
+    via: list[str] = Field(description="PDDL conditions that must hold on the way, one after the other.")
+    goal: str = Field(description="The PDDL condition that must hold when the step is done.")
+
+
+class ReplyConstraint(JsonRecord):
+    """A prohibition or an exception, which holds throughout."""
+
+    text: str = Field(description="The words of the request, quoted exactly.")
+    never: str | None = Field(description="A PDDL condition that no action may bring about.")
+    untouched: list[str] = Field(description="Objects that no action may handle.")
+
+
+class ReplyRefusalKind(StrEnum):
+    """Kinds of reasons to refuse a request."""
+
+    MISSING = "missing"
+    IMPOSSIBLE = "impossible"
+    UNSAFE = "unsafe"
+    NO_REQUEST = "no-request"
+    NOT_UNDERSTOOD = "not-understood"
+
+
+class ReplyRefusal(JsonRecord):
+    """A request that must not or cannot be carried out."""
+
+    kind: ReplyRefusalKind
+    reason: str = Field(description="One short sentence to the user.")
+
+
+class ReplyOption(JsonRecord):
+    """One possible meaning of a step."""
+
+    answer: str = Field(description="The answer in the user's words.")
+    goal: str = Field(description="The goal of the step in that case.")
+
+
+class ReplyQuestion(JsonRecord):
+    """A question back to the user, where two meanings differ and nothing decides."""
+
+    text: str
+    step: int = Field(description="The number of the step that it is about, counted from 0.")
+    options: list[ReplyOption] = Field(description="Two to four, the likeliest first.")
+
+
+class Reply(JsonRecord):
+    """The reading of a request."""
+
+    thoughts: str = Field(description="What is asked, which objects are meant and why, in one to three sentences.")
+    refusal: ReplyRefusal | None
+    steps: list[ReplyStep]
+    final: str | None = Field(description="All that must hold when everything is done, where no step's goal says it.")
+    constraints: list[ReplyConstraint]
+    questions: list[ReplyQuestion]
+
+
+class Judgement(JsonRecord):
+    """The model's verdict on a plan."""
+
+    thoughts: str
+    correct: bool = Field(description="Whether the changes are what was asked, and nothing that matters beside it.")
+    reason: str = Field(description="What is wrong; empty where nothing is.")
+
+
+@cache
+def schema_of(record: type[JsonRecord]) -> dict[str, Any]:
+    """Return the JSON schema of a reply, in the subset that servers accept for structured output."""
+    schema = record.model_json_schema()
+    for part in (schema, *schema.get("$defs", {}).values()):
+        part.pop("title", None)
+        for property_ in part.get("properties", {}).values():
+            property_.pop("title", None)
+    return schema
+
+
+def read_reply(text: str) -> Reply:
+    """Read a reply: JSON, or JSON in a fence of Markdown.
+
+    Raises:
+        TmdError: The reply is too long, not JSON, or JSON of another shape; the message is meant for the model.
+    """
+    value = _json_of(text)
+    try:
+        return Reply.model_validate(value)
+    except ValidationError as error:
+        raise TmdError(_shape_fault(error)) from None
+
+
+def read_judgement(text: str) -> Judgement:
+    """Read a verdict.
+
+    Raises:
+        TmdError: As :func:`read_reply`.
+    """
+    try:
+        return Judgement.model_validate(_json_of(text))
+    except ValidationError as error:
+        raise TmdError(_shape_fault(error)) from None
+
+
+def _json_of(text: str) -> object:
+    if len(text) > MOST_CHARACTERS:
+        raise TmdError(f"the reply has {len(text):,} characters, more than {MOST_CHARACTERS:,}")
+    fenced = _FENCE.match(text)
+    body = (fenced[1] if fenced else text).strip()
+    if not body.startswith("{"):
+        raise TmdError("the reply is not a JSON object; write the object and nothing else")
+    try:
+        return json.loads(body)
+    except RecursionError:
+        raise TmdError("the JSON of the reply is nested too deeply") from None
+    except ValueError as error:
+        where = f" (line {error.lineno}, column {error.colno})" if isinstance(error, json.JSONDecodeError) else ""
+        cut = isinstance(error, json.JSONDecodeError) and error.pos >= len(body)
+        what = "the JSON of the reply ends in the middle" if cut else "the reply is not valid JSON"
+        raise TmdError(f"{what}{where}") from None
+
+
+def _shape_fault(error: ValidationError) -> str:
+    first = error.errors(include_url=False, include_input=False)[0]
+    place = ".".join(map(str, first["loc"]))
+    return f"the reply has another shape: {f'{place}: ' if place else ''}{' '.join(first['msg'].split())[:200]}"
