@@ -28,7 +28,7 @@ from tmd.world.folder import DomainFolder
 
 if TYPE_CHECKING:
     from tmd.evaluation.sentence_tests import SentenceResult
-    from tmd.readers.llm.client import ModelSettings
+    from tmd.readers.llm.client import ModelError, ModelSettings
     from tmd.records.run import RanStep, RecordedRun
     from tmd.robot.monitor.listeners import Order, Title
     from tmd.robot.skills.reachability_report import SceneSurvey
@@ -351,27 +351,43 @@ class DomainKit:
 
         Raises:
             TmdError: There are no tests, or one names what is not there; with its place.
+            ModelError: The language model cannot be asked. Where that may pass, all other tests are run first.
         """
         from tmd.evaluation.runs.backends import in_processes
+        from tmd.readers.llm.client import ModelError
         from tmd.veil.sentence_file import domain_sentences
 
         chosen = list(domain_sentences(self._corpus.directory) if tests is None else tests)
         options = {"model": model, "guess": guess, "reader": reader, "llm": llm, "verify": verify}
         if jobs == 1:
-            return [self._judged(test, options) for test in chosen]
-        place = self._corpus.folder.path, self._corpus.directory, self._learned
-        tasks = [(place, number, test, options) for number, test in enumerate(chosen)]
-        found = dict(in_processes(_judged_elsewhere, tasks, jobs))
-        return [found[number] for number in range(len(chosen))]
+            results = [self._judged(test, options) for test in chosen]
+        else:
+            place = self._corpus.folder.path, self._corpus.directory, self._learned
+            tasks = [(place, number, test, options) for number, test in enumerate(chosen)]
+            found = dict(in_processes(_judged_elsewhere, tasks, jobs))
+            results = [found[number] for number in range(len(chosen))]
+        unread = [result for result in results if isinstance(result, TmdError)]
+        if unread:
+            message = f"{len(unread)} of {len(chosen)} requests were not read: {unread[0].message}"
+            raise ModelError(message, hint="run the command again: replies that came are kept", passing=True)
+        return [result for result in results if not isinstance(result, TmdError)]
 
-    def _judged(self, test: SentenceTest, options: Mapping[str, Any]) -> SentenceResult:
+    def _judged(self, test: SentenceTest, options: Mapping[str, Any]) -> SentenceResult | ModelError:
+        """Run a sentence test; a failure of the language model that may pass does not end the others."""
         from tmd.evaluation.sentence_tests import judge
+        from tmd.readers.llm.client import ModelError
 
         try:
             problem = self.problem(test.environment)
         except TmdError as error:
             raise TmdError(f"'{test.id}': {error.message}", location=test.location, hint=error.hint) from None
-        return judge(test, self.ground(test.text, test.environment, **options), problem)
+        try:
+            grounded = self.ground(test.text, test.environment, **options)
+        except ModelError as error:
+            if error.passing:
+                return error
+            raise
+        return judge(test, grounded, problem)
 
     def open_studio(
         self, environment: str | Path | None = None, *, host: str = "127.0.0.1", port: int = 8080
@@ -429,7 +445,7 @@ def _kit_at(folder: Path, directory: Path, learned: Path | None) -> DomainKit:
 
 def _judged_elsewhere(
     place: tuple[Path, Path, Path | None], number: int, test: SentenceTest, options: Mapping[str, Any]
-) -> tuple[int, SentenceResult]:
+) -> tuple[int, SentenceResult | ModelError]:
     """Run a sentence test in a process of its own; the kit is made once for each process."""
     return number, _kit_at(*place)._judged(test, options)
 

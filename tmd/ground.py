@@ -130,17 +130,24 @@ def restoration_of(goals: GoalTable | None, config: InferenceConfig) -> Restorat
 def _asked(
     dialogue: Dialogue, inferred: Callable[[Dialogue, Mapping[int, Formula]], Inferred], ask: Ask | None
 ) -> tuple[Inferred, Question | None]:
-    """Return the plans, after asking every question that can be answered, and the question that was not answered."""
+    """Return the plans, after asking every question that can be answered, and the question that was not answered.
+
+    Of a reader's question that was not answered, the likeliest option that can be carried out is taken.
+    """
     chosen: dict[int, Formula] = {}
+    question = dialogue.question
+    answer = ask(question) if question is not None and ask is not None else None
+    if question is not None and answer is None:
+        attempts = [inferred(dialogue, {question.step: option.formula}) for option in question.options]
+        return next((found for found in attempts if found.plans), attempts[0]), question
     while True:
+        if question is not None and answer is not None:
+            chosen[question.step] = question.options[answer].formula
         found = inferred(dialogue, chosen)
-        question = next((q for q in (dialogue.question, found.question) if q and q.step not in chosen), None)
-        if question is None or not found.plans or ask is None:
+        question = found.question if found.plans else None
+        answer = ask(question) if question is not None and ask is not None else None
+        if question is None or answer is None:
             return found, question
-        answer = ask(question)
-        if answer is None:
-            return found, question
-        chosen[question.step] = question.options[answer].formula
 
 
 def _objection(reader: Reader, dialogue: Dialogue, found: Inferred, world: World) -> Refusal | None:

@@ -24,13 +24,14 @@ class ReadingOptions:
     llm_model: str | None = None
     llm_url: str | None = None
     llm_cache: CacheMode = "on"
+    llm_timeout: float = 600.0
     verify: bool = False
 
     def settings(self) -> ModelSettings:
         """Return how the language model is reached."""
         from tmd.readers.llm.client import ModelSettings
 
-        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache)
+        return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
 
     def check(self) -> None:
         """Refuse options of a language model where none is asked.
@@ -60,6 +61,14 @@ _OPTIONS = (
         show_default=True,
         help="Use replies that were kept; 'only' never asks the server.",
     ),
+    click.option(
+        "--llm-timeout",
+        type=click.FloatRange(0.1, 86_400),
+        default=600.0,
+        show_default=True,
+        metavar="SECONDS",
+        help="How long to wait for a reply.",
+    ),
     click.option("--verify", is_flag=True, help="Ask the language model whether the plan does what was asked."),
 )
 
@@ -70,7 +79,8 @@ def reading_options(command: _Command) -> Callable[..., Any]:
     @wraps(command)
     def bundled(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
         reading = ReadingOptions(**{field.name: given.pop(field.name) for field in fields(ReadingOptions)})
-        reading.check()
+        if not given.get("compare"):  # a comparison asks a language model whatever --reader says
+            reading.check()
         return command(*args, reading=reading, **given)
 
     found: Callable[..., Any] = bundled

@@ -11,6 +11,7 @@ import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
@@ -32,9 +33,22 @@ _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 
 
 class ModelError(TmdError):
-    """The language model cannot be asked, or gives no answer."""
+    """The language model cannot be asked, or gives no answer.
+
+    Args:
+        message: What is wrong, in one line.
+        hint: What to do about it.
+        passing: Whether another request, or the same one later, may well be answered.
+    """
 
     exit_code = ExitCode.MODEL_FAILED
+
+    def __init__(self, message: str, *, hint: str | None = None, passing: bool = False) -> None:
+        super().__init__(message, hint=hint)
+        self.passing = passing
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return partial(ModelError, hint=self.hint, passing=self.passing), (self.message,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +69,7 @@ class ModelSettings:
     url: str | None = None
     key: str | None = field(default=None, repr=False)
     cache: CacheMode = "on"
-    timeout: float = 120.0
+    timeout: float = 600.0
     seed: int = 0
 
     def resolved(self) -> ModelSettings:
@@ -169,7 +183,9 @@ class ModelClient:
                 self._refused.add(refused)
             except openai.APITimeoutError:
                 message = f"no reply within {self.settings.timeout:.0f} s from {self._place()}"
-                raise ModelError(message, hint="try again later, or use a quicker model") from None
+                raise ModelError(
+                    message, hint="try again later, or give a longer --llm-timeout", passing=True
+                ) from None
             except openai.APIConnectionError as error:
                 reason = self._scrubbed(str(error.__cause__ or error))
                 raise ModelError(f"{self._place()} cannot be reached: {reason}", hint="check --llm-url") from None
@@ -199,8 +215,9 @@ class ModelClient:
         if status == 429:
             wait = headers.get("retry-after")
             again = f"; it asks to wait {wait} s" if wait else ""
-            return ModelError(f"{place} has no room for this request now (429){again}", hint="try again later")
-        return ModelError(f"{place} answers with status {status}: {told}")
+            message = f"{place} has no room for this request now (429){again}"
+            return ModelError(message, hint="try again later", passing=True)
+        return ModelError(f"{place} answers with status {status}: {told}", passing=status >= 500)
 
     def _place(self) -> str:
         return self.settings.url or "the OpenAI server"

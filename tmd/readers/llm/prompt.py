@@ -6,15 +6,16 @@ The words are in ``prompt.txt``; this module fills them in.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
-from itertools import pairwise
+from itertools import islice, pairwise
 from string import Template
 
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy
+from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
 from tmd.veil.world import World
@@ -26,10 +27,12 @@ _MOST_OBJECTS = 120
 _MOST_ROWS = 12
 _LONGEST_ROW = 300
 """Characters after which a row or an example is left out: nobody learns from it."""
-_MOST_OF_ROWS = 1_600
+_MOST_OF_ROWS = 1_400
 """Maximum number of characters of all rows together."""
-_MOST_EXAMPLES = 5
-_MOST_REFUSED = 2
+_FEWEST_EXAMPLES, _MOST_EXAMPLES = 2, 4
+_MOST_CHARACTERS = 20_000
+"""Beyond this length a prompt has the fewest examples."""
+_EXAMPLES = "Requests in other environments, with what holds when all of their steps are done there:"
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,20 +91,25 @@ def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, exampl
         predicates="\n".join(_predicates(domain, {atom.predicate for atom in world.task.static})),
         actions="\n".join(map(_action, domain.actions)),
     )
-    environment = {
+    system = f"{sections()['system']}\n\n{described}"
+    near = list(_chosen(request, examples))
+    parts = {
+        "request": one_line(request),
         "environment": world.name,
         "objects": "\n".join(_objects(world, shown)),
         "facts": "\n".join(_facts(world, state, shown)),
         "vocabulary": _lines("Words of this domain:", _vocabulary(request, domain, lexicon)),
-        "examples": _lines("Requests in other environments of this domain:", _chosen(request, examples)),
     }
-    user = filled("environment", request=one_line(request), **environment)
+    for count in range(_MOST_EXAMPLES, _FEWEST_EXAMPLES - 1, -1):
+        user = filled("environment", **parts, examples=_lines(_EXAMPLES, near[:count]))
+        if len(system) + len(user) <= _MOST_CHARACTERS:
+            break
     alone = user[: user.rindex("<request>")].strip()
     hidden = len(world.profiles.objects) - len(shown)
     notes = (f"the language model was shown {len(shown)} of {len(shown) + hidden} objects",) if hidden else ()
     if hidden:
         user = f"Only objects that the request may concern are shown; {hidden} others are left out.\n\n{user}"
-    return Prompt(f"{sections()['system']}\n\n{described}", user, alone, notes)
+    return Prompt(system, user, alone, notes)
 
 
 def one_line(text: str) -> str:
@@ -124,11 +132,12 @@ def changes(world: World, plan: Sequence[Instruction]) -> tuple[str, str]:
 
 
 def _predicates(domain: Domain, static: set[str]) -> Iterable[str]:
-    """Yield a line for each predicate that may hold in the environment."""
+    """Yield a line for each predicate that may hold in the environment, or that an action shown in full names."""
     changing = {effect.atom.predicate for action in domain.actions for effect in action.effects}
     changing |= {axiom.head.predicate for axiom in domain.derived}
+    named = {name for a in domain.actions if not a.comment for name in predicates_of(a.precondition)}
     for predicate in domain.predicates:
-        if predicate.name not in changing and predicate.name not in static:
+        if predicate.name not in changing | static | named:
             continue
         mark = "" if predicate.name in changing else "*"
         comment = f" ; {one_line(predicate.comment)}" if predicate.comment else ""
@@ -169,12 +178,13 @@ def _objects(world: World, shown: set[str]) -> Iterable[str]:
 def _facts(world: World, state: Bits, shown: set[str]) -> Iterable[str]:
     """Yield a line for each predicate, with the arguments of its true atoms.
 
-    Predicates that hold of everything with itself, such as *belongs to the same thing*, say nothing.
+    Predicates that hold of nearly everything with itself, such as *belongs to the same thing*, are left out.
     """
     task = world.task
     known = shown | set(world.profiles.constants)
     atoms = [a for a in (*sorted(task.static), *task.names(state)) if known.issuperset(a.args)]
-    reflexive = {a.predicate for a in task.static if len(a.args) == 2 and a.args[0] == a.args[1]}
+    loops = Counter(a.predicate for a in task.static if len(a.args) == 2 and a.args[0] == a.args[1])
+    reflexive = {name for name, count in loops.items() if 2 * count > len(world.profiles.objects)}
     by_predicate: dict[str, list[GroundAtom]] = {}
     for atom in atoms:
         if atom.predicate not in reflexive:
@@ -187,7 +197,7 @@ def _facts(world: World, state: Bits, shown: set[str]) -> Iterable[str]:
 def _fact_line(name: str, arguments: Sequence[tuple[str, ...]]) -> str:
     """Return the true atoms of one predicate on a line; a first argument that all share stands before the colon."""
     firsts = {args[0] for args in arguments if len(args) > 1}
-    if len(firsts) == 1 and len(arguments) > 2:
+    if len(firsts) == 1 and len(arguments) > 4:
         name, arguments = f"{name} {firsts.pop()}", [args[1:] for args in arguments]
     joint = " " if all(len(args) == 1 for args in arguments) else "; "
     return f"{name}: {joint.join(map(' '.join, arguments))}".rstrip(": ")
@@ -256,7 +266,7 @@ def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]
     while sum(map(len, short)) > _MOST_OF_ROWS:
         short.remove(max(short, key=len))
     if short:
-        yield "verbs, (was f): f holds when the step begins, (first f): before the request"
+        yield "verbs; (was f): f held when the step began, (first f): before the request; write neither, name objects"
         yield from (f"  {row}" for row in short)
     names = {t.name for t in domain.types} | {c.name for c in domain.constants}
     for noun in dict.fromkeys((*pairs, *words, *(w.removesuffix("s") for w in words))):
@@ -271,14 +281,13 @@ def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]
 
 
 def _chosen(request: str, examples: Sequence[Example]) -> Iterable[str]:
-    """Yield the examples that share most words with a request, never the request itself."""
+    """Yield the examples with a goal that share most words with a request, never the request itself."""
     own = set(_words(request))
     others = [e for e in examples if set(_words(e.request)) != own]
     near = sorted(others, key=lambda e: (-len(own.intersection(_words(e.request))), len(e.request), e.request))
-    goals = [e for e in near if e.goal is not None and len(e.goal) <= _LONGEST_ROW][:_MOST_EXAMPLES]
-    refused = [e for e in near if e.goal is None][:_MOST_REFUSED]
-    for example in (*goals, *refused):
-        yield f"  {one_line(example.request)} => {example.goal or 'refused'}"
+    short = (e for e in near if e.goal is not None and len(e.goal) <= _LONGEST_ROW)
+    for example in islice(short, _MOST_EXAMPLES):
+        yield f"  {one_line(example.request)} => {example.goal}"
 
 
 def _lines(heading: str, lines: Iterable[str]) -> str:
