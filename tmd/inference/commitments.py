@@ -151,15 +151,15 @@ _ALWAYS = Cube(0, 0)
 def _without(operator: Operator, forbidden: Iterable[Cube]) -> Operator | None:
     """Return an operator restricted to states in which it brings about none of the ``forbidden`` cubes.
 
-    ``None`` where it always does. An effect under a condition is forbidden where the condition holds. Effects of two
-    conditions that only together complete a cube are not seen: :func:`violated` checks whole plans.
+    ``None`` where it always does. Each effect under a condition is looked at together with the unconditional ones, but
+    not together with effects under other conditions: :func:`violated` checks whole plans.
     """
     states: dict[Cube, None] = {}
     for cube in forbidden:
         if (always := _brought_about(cube, operator.add, operator.delete)) is not None:
             states[always] = None
         for condition, add, delete in operator.conditional:
-            further = _brought_about(cube, add, delete)
+            further = _brought_about(cube, operator.add | add, operator.delete | delete)
             if further is not None and not (
                 further.positive & condition.negative | further.negative & condition.positive
             ):
