@@ -84,7 +84,7 @@ def ground(
         return further(dialogue, world, library, energy, planners, config)
 
     dialogue = reader.begin(request, world, world.task.init)
-    found, question = _asked(dialogue, inferred, ask)
+    found, question = _asked(dialogue, inferred, ask or _nobody)
     while (objection := _objection(reader, dialogue, found, world)) is not None:
         again = reader.revise(dialogue, objection.message)
         if again is None:
@@ -92,22 +92,26 @@ def ground(
             found = replace(found, plans=(), refused=(number, objection))
             break
         dialogue = again
-        found, question = _asked(dialogue, inferred, ask)
+        found, question = _asked(dialogue, inferred, ask or _nobody)
+    return _grounded(dialogue, found, world, library, config, question)
+
+
+def _grounded(
+    dialogue: Dialogue,
+    found: Inferred,
+    world: World,
+    library: Library,
+    config: InferenceConfig,
+    question: Question | None,
+) -> Grounded:
+    """Return the result, with the validator's verdict on each plan."""
     unseen = tuple(dict.fromkeys(c.verb for c in dialogue.clauses if not library.propose(c)))
     known = config.goals or len(unseen) < len(dialogue.clauses)
     plans = tuple(plan for plan in found.plans if plan.instructions or (known and dialogue.asks))
     verdicts = tuple(validate(world.task.problem, plan.instructions) for plan in plans)
+    open_question = question if plans else None
     return Grounded(
-        dialogue,
-        plans,
-        verdicts,
-        found.rejected,
-        unseen,
-        world,
-        library,
-        config,
-        found.refused,
-        question if plans else None,
+        dialogue, plans, verdicts, found.rejected, unseen, world, library, config, found.refused, open_question
     )
 
 
@@ -128,7 +132,7 @@ def restoration_of(goals: GoalTable | None, config: InferenceConfig) -> Restorat
 
 
 def _asked(
-    dialogue: Dialogue, inferred: Callable[[Dialogue, Mapping[int, Formula]], Inferred], ask: Ask | None
+    dialogue: Dialogue, inferred: Callable[[Dialogue, Mapping[int, Formula]], Inferred], ask: Ask
 ) -> tuple[Inferred, Question | None]:
     """Return the plans, after asking every question that can be answered, and the question that was not answered.
 
@@ -136,18 +140,21 @@ def _asked(
     """
     chosen: dict[int, Formula] = {}
     question = dialogue.question
-    answer = ask(question) if question is not None and ask is not None else None
-    if question is not None and answer is None:
-        attempts = [inferred(dialogue, {question.step: option.formula}) for option in question.options]
-        return next((found for found in attempts if found.plans), attempts[0]), question
+    if question is not None:
+        answer = ask(question)
+        if answer is None:
+            attempts = [inferred(dialogue, {question.step: option.formula}) for option in question.options]
+            return next((found for found in attempts if found.plans), attempts[0]), question
+        chosen[question.step] = question.options[answer].formula
     while True:
-        if question is not None and answer is not None:
-            chosen[question.step] = question.options[answer].formula
         found = inferred(dialogue, chosen)
-        question = found.question if found.plans else None
-        answer = ask(question) if question is not None and ask is not None else None
-        if question is None or answer is None:
-            return found, question
+        if found.question is None or (answer := ask(found.question)) is None:
+            return found, found.question
+        chosen[found.question.step] = found.question.options[answer].formula
+
+
+def _nobody(question: Question) -> int | None:
+    """Return ``None``: nobody is there to answer."""
 
 
 def _objection(reader: Reader, dialogue: Dialogue, found: Inferred, world: World) -> Refusal | None:

@@ -68,7 +68,7 @@ def main(copies: int) -> None:
 
 def policy(demonstrations: Sequence[Demonstration], corpus: Corpus) -> Reward:
     """The policy that they teach."""
-    return learn_policy(demonstrations, corpus.world, corpus.lexicon, np.random.default_rng(0))
+    return learn_policy(demonstrations, corpus.world, np.random.default_rng(0))
 
 
 def learning(demonstrations: Sequence[Demonstration], corpus: Corpus, seconds: float) -> None:

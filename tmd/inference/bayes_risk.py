@@ -36,6 +36,8 @@ _SEED = 0
 _FILLED = 3
 """How many instructions may be put before one that does not apply; with more it is left out."""
 _SHARE_OF_IED = 0.5
+_STATED = frozenset({"declared", "model"})
+"""Sources of goals that every plan must reach, so that drawn sequences are no candidates."""
 
 Drawn = Sequence[tuple[Instruction, ...]]
 """A sequence that was drawn, clause by clause."""
@@ -67,7 +69,7 @@ def decided(
         return replace(inferred, plans=inferred.plans[:top])
     drawn = policy.sample(clauses, config.samples, np.random.default_rng(_SEED))
     plans = {plan.instructions: plan for plan in inferred.plans}
-    open_ended = not any(goal.source == "declared" for plan in inferred.plans for goal in plan.goals)
+    open_ended = not any(goal.source in _STATED for plan in inferred.plans for goal in plan.goals)
     if open_ended and config.drawn_candidates:
         completer = SequenceCompleter(world, planner)
         for sequence in dict.fromkeys(tuple(sequence) for sequence in drawn):

@@ -125,6 +125,11 @@ class StepGoal:
     last: int = 0
     others: tuple[LostGoal, ...] = ()
 
+    @property
+    def origin(self) -> str:
+        """The source, with the row that the goal was read by where there is one."""
+        return f"{self.source}: {self.row}" if self.row else self.source
+
 
 @dataclass(frozen=True, slots=True)
 class RankedPlan:

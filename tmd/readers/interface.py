@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Protocol
 
-from tmd.diagnostics import Refusal
+from tmd.diagnostics import Refusal as Refusal  # part of the interface
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.task import Bits, Cube
 from tmd.world.verb_clause import VerbClause
@@ -142,6 +142,7 @@ class Usage:
         cached: The number of replies that came from the cache.
         corrections: How often a reply was sent back with an error.
         digests: The digests of the replies, in order; they name the files of the cache.
+        thoughts: The model's own explanation of its reading.
     """
 
     model: str
@@ -151,6 +152,7 @@ class Usage:
     cached: int = 0
     corrections: int = 0
     digests: tuple[str, ...] = ()
+    thoughts: str = ""
 
 
 @dataclass(frozen=True, slots=True)

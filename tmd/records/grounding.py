@@ -159,6 +159,7 @@ class ModelUse(JsonRecord):
     cached: int = Field(ge=0, description="Replies that came from the cache.")
     corrections: int = Field(ge=0, description="How often a reply was sent back.")
     digests: tuple[str, ...] = Field(description="Of the replies; they name the files of the cache.")
+    thoughts: str = Field(description="The model's own explanation of its reading.")
 
     @classmethod
     def of(cls, usage: Usage) -> Self:

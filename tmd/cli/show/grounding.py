@@ -105,7 +105,7 @@ def _below(shown: ShownGoal) -> list[str]:
     goal = shown.goal
     if goal.formula is None or not shown.asked:
         return []
-    source = f"   {goal.source}: {goal.row}" if goal.source else ""
+    source = f"   {goal.origin}" if goal.source else ""
     others = [f"not taken: {flat(other.formula)}   {other.why}" for other in goal.others]
     return [f"{format_formula(goal.formula)}{source}", *([f"note: {goal.note}"] if goal.note else []), *others]
 
@@ -123,7 +123,7 @@ def remarks(grounded: Grounded, *, verbose: bool = False) -> list[str]:
         texts = option_texts(grounded.question, grounded.world.task.problem)
         lines += [f"question: {grounded.question.text} {' / '.join(texts)} (answer with --ask)\n"]
     if verbose and grounded.usage is not None:
-        lines.append(f"{usage_text(grounded.usage)}\n")
+        lines += [f"{usage_text(grounded.usage)}\n", f"thoughts: {grounded.usage.thoughts}\n"]
     return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
 
 

@@ -60,6 +60,7 @@ class ModelReading:
         constraints: Prohibitions and exceptions.
         refusal: Why the model refuses the request; ``None`` where it does not.
         question: Its question to the user; ``None`` where it has none.
+        thoughts: Its own explanation.
     """
 
     parsed: Parsed
@@ -67,6 +68,7 @@ class ModelReading:
     constraints: PlanConstraints = field(default_factory=PlanConstraints)
     refusal: Refusal | None = None
     question: Question | None = None
+    thoughts: str = ""
 
 
 class ReplyChecker:
@@ -86,28 +88,27 @@ class ReplyChecker:
     def read(self, reply: Reply) -> ModelReading | list[str]:
         """Return the reading, or everything that is wrong with it, in words for the model."""
         self.faults = []
+        thoughts = _short(reply.thoughts)
         if reply.refusal is not None:
-            reason = " ".join(reply.refusal.reason.split())[:300] or "no reason was given"
-            return ModelReading(Parsed(self.request, ()), refusal=Refusal(_KINDS[reply.refusal.kind], reason))
+            reason = _short(reply.refusal.reason) or "no reason was given"
+            refusal = Refusal(_KINDS[reply.refusal.kind], reason)
+            return ModelReading(Parsed(self.request, ()), refusal=refusal, thoughts=thoughts)
         if not reply.steps and not reply.constraints:
             return ["the reply has neither steps nor constraints nor a refusal"]
         if len(reply.steps) > _MOST_STEPS:
             return [f"the reply has {len(reply.steps)} steps, more than {_MOST_STEPS}"]
         clauses = tuple(self._clause(step, f"steps[{n}]") for n, step in enumerate(reply.steps))
-        question = self._question(reply.questions, len(reply.steps))
-        steps = tuple(
-            self._step(step, clauses[n], n, question[1] if question is not None and question[0].step == n else ())
-            for n, step in enumerate(reply.steps)
-        )
+        question, options = self._question(reply.questions, len(reply.steps))
+        steps = [self._step(step, clauses[n], n, options.get(n, ())) for n, step in enumerate(reply.steps)]
         if reply.final is not None and steps:
-            steps = (*steps, self._final(reply.final, clauses[-1], len(clauses) - 1))
+            steps.append(self._final(reply.final, clauses[-1], len(clauses) - 1))
         constraints = self._constraints(reply.constraints)
         if self.faults:
             return self.faults
         quotations = [s.text for s in reply.steps] + [c.text for c in reply.constraints]
-        quoted = map(self._span, quotations)
-        parsed = Parsed(self.request, clauses, self._uncovered([span for span in quoted if span is not None]))
-        return ModelReading(parsed, steps, constraints, question=question[0] if question is not None else None)
+        spans = [span for span in map(self._span, quotations) if span is not None]
+        parsed = Parsed(self.request, clauses, self._uncovered(spans))
+        return ModelReading(parsed, tuple(steps), constraints, question=question, thoughts=thoughts)
 
     # ------------------------------------------------------------------ the parts of a reply
 
@@ -179,27 +180,27 @@ class ReplyChecker:
 
     def _question(
         self, given: Sequence[ReplyQuestion], steps: int
-    ) -> tuple[Question, tuple[CandidateGoal, ...]] | None:
-        """Read the first question; its options are the candidate goals of its step."""
+    ) -> tuple[Question | None, dict[int, tuple[CandidateGoal, ...]]]:
+        """Return the first question, and its options as the candidate goals of its step."""
         if not given:
-            return None
+            return None, {}
         asked = given[0]
         if not 0 <= asked.step < steps or not 2 <= len(asked.options) <= _MOST_OPTIONS:
             self.faults.append(f"questions[0]: it needs the number of a step and 2 to {_MOST_OPTIONS} options")
-            return None
-        options: list[QuestionOption] = []
-        candidates: list[CandidateGoal] = []
+            return None, {}
+        candidates: dict[Formula, tuple[str, CandidateGoal]] = {}
         for number, option in enumerate(asked.options):
             place = f"questions[0].options[{number}].goal"
             formula = self._condition(option.goal, place)
             prior = -(number + 1) * math.log(2)  # the model names the likeliest first, and no numbers
             candidate = None if formula is None else self._candidate(formula, (), place, prior)
-            if candidate is not None and candidate.formula not in [o.formula for o in options]:
-                options.append(QuestionOption(_short(option.answer), candidate.formula))
-                candidates.append(candidate)
-        if len(options) < 2:
-            return None
-        return Question(_short(asked.text), asked.step, tuple(options)), tuple(candidates)
+            if candidate is not None:
+                candidates.setdefault(candidate.formula, (_short(option.answer), candidate))
+        if len(candidates) < 2:
+            return None, {}
+        options = tuple(QuestionOption(answer, formula) for formula, (answer, _) in candidates.items())
+        goals = tuple(candidate for _, candidate in candidates.values())
+        return Question(_short(asked.text), asked.step, options), {asked.step: goals}
 
     # ------------------------------------------------------------------ formulas
 
@@ -267,6 +268,6 @@ def _in_brackets(hint: str | None) -> str:
 
 
 def _short(text: str) -> str:
-    """Return words of a model on one line, at most 200 characters."""
+    """Return words of a model on one line, at most 300 characters."""
     line = "".join(sign if sign.isprintable() else " " for sign in text)
-    return " ".join(line.split())[:200]
+    return " ".join(line.split())[:300]

@@ -251,33 +251,41 @@ def _words(text: str) -> list[str]:
 def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]:
     """Yield how this domain means words of the request: verbs, nouns, adjectives and groups."""
     words = _words(request)
-    pairs = ["_".join(pair) for pair in pairwise(words)]
-    stems: dict[str, None] = {}
-    for word in words:
-        known = lexicon.verb(word)
-        for stem in (known[0],) if known is not None else ():
-            stems.update(dict.fromkeys((stem, lexicon.canonical_verb(stem))))
+    rows = _verb_rows(words, lexicon)
+    if rows:
+        yield "verbs; (was f): f held when the step began, (first f): before the request; write neither, name objects"
+        yield from rows
+    yield from _noun_senses(words, domain, lexicon)
+    for row in lexicon.attributes:
+        if row.pattern in words:
+            yield f"  {row.pattern}: {' '.join(row.condition.split())}"
+
+
+def _verb_rows(words: Sequence[str], lexicon: Lexicon) -> list[str]:
+    """Return the goal rows of the verbs among words, without long ones."""
+    known = [found[0] for word in words if (found := lexicon.verb(word)) is not None]
+    stems = {*known, *map(lexicon.canonical_verb, known)}
     rows = [
-        f"{row.pattern}: {' '.join(row.condition.split())}"
+        f"  {row.pattern}: {' '.join(row.condition.split())}"
         for row in lexicon.goals
         if any(verb.split("_")[0] in stems for verb in row.pattern.split()[0].split("|"))
     ]
     short = [row for row in rows if len(row) <= _LONGEST_ROW][:_MOST_ROWS]
     while sum(map(len, short)) > _MOST_OF_ROWS:
         short.remove(max(short, key=len))
-    if short:
-        yield "verbs; (was f): f held when the step began, (first f): before the request; write neither, name objects"
-        yield from (f"  {row}" for row in short)
+    return short
+
+
+def _noun_senses(words: Sequence[str], domain: Domain, lexicon: Lexicon) -> Iterable[str]:
+    """Yield the senses of nouns among words that are more than the word itself."""
     names = {t.name for t in domain.types} | {c.name for c in domain.constants}
-    for noun in dict.fromkeys((*pairs, *words, *(w.removesuffix("s") for w in words))):
+    pairs = ("_".join(pair) for pair in pairwise(words))
+    for noun in dict.fromkeys((*pairs, *words, *(word.removesuffix("s") for word in words))):
+        senses = lexicon.nouns.get(noun, ())
         if noun in lexicon.groups:
             yield f"  {noun}: all of {', '.join(lexicon.groups[noun])}"
-        elif noun in lexicon.nouns and set(lexicon.nouns[noun]) - {noun}:
-            senses = [sense for sense in lexicon.nouns[noun] if sense in names]
-            yield f"  {noun}: {', '.join(senses or lexicon.nouns[noun])}, the likeliest first"
-    for row in lexicon.attributes:
-        if row.pattern in words:
-            yield f"  {row.pattern}: {' '.join(row.condition.split())}"
+        elif set(senses) - {noun}:
+            yield f"  {noun}: {', '.join([s for s in senses if s in names] or senses)}, the likeliest first"
 
 
 def _chosen(request: str, examples: Sequence[Example]) -> Iterable[str]:

@@ -134,7 +134,7 @@ class LLMReader:
                 found = [error.message]
                 messages = (*messages[:-1], {"role": "assistant", "content": answer.text[:2000]})
             if isinstance(found, ModelReading):
-                return LLMDialogue(found, world, prompt, messages, usage)
+                return LLMDialogue(found, world, prompt, messages, replace(usage, thoughts=found.thoughts))
             if usage.corrections >= MOST_CORRECTIONS:
                 message = f"the model's reading cannot be used: {found[0]}"
                 refusal = Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say it in other words, or use another model")
