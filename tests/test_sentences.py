@@ -129,7 +129,7 @@ def test_a_test_is_judged_by_the_state_at_the_end(text: str, goal: str | None, o
     assert found.outcome.passed == (outcome in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED))
     assert bool(found.plan) == (outcome in (Outcome.RIGHT, Outcome.WRONG, Outcome.IMPOSSIBLE_PLANNED))
     assert bool(found.reason) != (outcome is Outcome.RIGHT)
-    assert report([found]).to_value()["cases"][0]["outcome"] == outcome.value
+    assert report([found], "rules").to_value()["cases"][0]["outcome"] == outcome.value
 
 
 def test_a_goal_that_is_none_is_told_with_the_id() -> None:
@@ -157,7 +157,7 @@ def test_tmd_test(tmp_path: Path, goal: str, code: int) -> None:
     ended = run_tmd(["test", "--cases", path, "--json"], ROOT)
     assert ended.code == code == (ExitCode.OK if code == 0 else ExitCode.TESTS_FAILED)
     told = json.loads(ended.out)
-    assert set(told) == {"summary", "cases"}
+    assert set(told) == {"summary", "kinds", "reader", "cases"}
     assert [case["id"] for case in told["cases"]] == ["a", "b"]
     assert all(set(c) == {"id", "outcome", "plan", "goals", "warnings", "reason"} for c in told["cases"])
     assert told["cases"][0]["plan"] == ["(moveto book1)", "(grasp book1)"]

@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     from tmd.datasets.veil500.report import check_veil500 as check_veil500
     from tmd.evaluation.runs.config import ExperimentConfig as ExperimentConfig
     from tmd.format.files import format_file as format_file
+    from tmd.readers.llm.client import ModelError as ModelError
+    from tmd.readers.llm.client import ModelSettings as ModelSettings
     from tmd.records.run import RecordedRun as RecordedRun
     from tmd.records.run import RunRecord as RunRecord
     from tmd.robot_trials.experiment import carry_out_predictions as carry_out_predictions
@@ -45,6 +47,8 @@ if TYPE_CHECKING:
 _LATER = {
     "CheckReport": "tmd.check.report",
     "ExperimentConfig": "tmd.evaluation.runs.config",
+    "ModelError": "tmd.readers.llm.client",
+    "ModelSettings": "tmd.readers.llm.client",
     "RecordedRun": "tmd.records.run",
     "RunRecord": "tmd.records.run",
     "carry_out_predictions": "tmd.robot_trials.experiment",
@@ -61,6 +65,8 @@ __all__ = [
     "ExperimentConfig",
     "Grounded",
     "Instruction",
+    "ModelError",
+    "ModelSettings",
     "NoPlanError",
     "Problem",
     "RecordedRun",

@@ -161,7 +161,4 @@ class OutputError(TmdError):
 class PlannerError(TmdError):
     """A planner died, or what it gave is no plan."""
 
-    MODEL_FAILED = 36
-    """The language model cannot be asked, or gives no answer."""
-
     exit_code = ExitCode.PLANNER_FAILED

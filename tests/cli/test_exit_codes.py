@@ -367,10 +367,14 @@ def test_where_no_error_can_be_written_the_command_goes_on(arguments: list[str],
 
 
 def test_every_code_is_provoked() -> None:
-    """The codes of the table above and those that have a test of their own (NOT_EXECUTED in test_run.py)."""
+    """The codes of the table above and those that have a test of their own.
+
+    NOT_EXECUTED has it in test_run.py, QUESTION and MODEL_FAILED in tests/readers.
+    """
     own = {
         ExitCode.TESTS_FAILED, ExitCode.UNREACHABLE, ExitCode.GAVE_UP, ExitCode.MISSING_TOOL, ExitCode.FAULTS_FOUND,
         ExitCode.INTERNAL, ExitCode.INTERRUPTED, ExitCode.NOT_EXECUTED, ExitCode.PLANNER_FAILED,
+        ExitCode.QUESTION, ExitCode.MODEL_FAILED,
     }  # fmt: skip
     assert own | {code for code, _, _ in CASES.values()} == set(ExitCode)
 

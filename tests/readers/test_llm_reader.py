@@ -17,7 +17,7 @@ from tmd.grounded import Grounded
 from tmd.pddl.semantics import holds
 from tmd.readers.llm.checking import ReplyChecker
 from tmd.readers.llm.client import ModelSettings
-from tmd.readers.llm.prompt import Example, one_line, prompt_for
+from tmd.readers.llm.prompt import SentenceExample, one_line, prompt_for
 from tmd.readers.llm.reader import MOST_CORRECTIONS
 from tmd.veil.sentence_file import SentenceTest, read_sentences
 
@@ -223,13 +223,13 @@ def test_an_answer_decides(ask: Ask, answer: int, goal: str) -> None:
 def test_a_prompt_never_has_the_request_as_an_example() -> None:
     for path in FILES:
         tests = read_sentences(path)
-        examples = [Example(test.text, test.goal) for test in tests]
+        examples = [SentenceExample(test.text, test.goal) for test in tests]
         for test in tests[:10]:
             text = _prompt(test, examples)
             assert text.count(one_line(test.text)) == 1
 
 
-def _prompt(test: SentenceTest, examples: list[Example]) -> str:
+def _prompt(test: SentenceTest, examples: list[SentenceExample]) -> str:
     own = kit(test.domain)
     world = own._corpus.world(test.environment)
     prompt = prompt_for(test.text, world, world.task.init, own.lexicon, examples)
@@ -240,7 +240,7 @@ def _prompt(test: SentenceTest, examples: list[Example]) -> str:
 def test_a_prompt_stays_small(path: Path) -> None:
     """The largest bundled prompts have 3.6 characters a token (docs/llm.md): less than 6,000 tokens."""
     tests = read_sentences(path)
-    examples = [Example(test.text, test.goal) for test in tests]
+    examples = [SentenceExample(test.text, test.goal) for test in tests]
     assert max(len(_prompt(test, examples)) for test in tests) < 21_500
 
 

@@ -164,7 +164,9 @@ class RunRecord(RunRequest):
         default=(), description="What is otherwise in the end than the plan would have left it."
     )
     fault_missing: str | None = Field(default=None, description="Why the fault that was asked for did not come about.")
-    status: Literal["done", "recovered", "stopped", "not_grounded", "unreachable", "gave_up", "invalid_plan"]
+    status: Literal[
+        "done", "recovered", "stopped", "not_grounded", "question", "unreachable", "gave_up", "invalid_plan"
+    ]
     reason: str | None
     repairs: int
     seconds: float = Field(description="Simulated time.")

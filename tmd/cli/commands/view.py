@@ -115,7 +115,11 @@ def _subject_of_text(
     rows = made_rows({**found.made_with, "domain": found.corpus.folder.name, "environment": environment})
     told = tuple(remarks(found.grounded))
     return FoundSubject(
-        text_subject(found.grounded, rows), Path(f"{found.grounded.world.name}.html"), told, of_text=True
+        text_subject(found.grounded, rows),
+        Path(f"{found.grounded.world.name}.html"),
+        told,
+        of_text=True,
+        asks=found.grounded.question is not None,
     )
 
 

@@ -90,7 +90,8 @@ def _of_environment(roots: Roots, asked: ExportRequest) -> Planned | NoPlan:
     if asked.text is not None:
         orders = orders_of_text(asked.text, corpus, world, asked.source, asked.planner or IN_PROCESS, asked.reading)
         if orders.status:
-            return NoPlan(orders.remarks[-1].strip().removeprefix("no plan: "), orders.code)
+            reason = orders.remarks[-1].strip()
+            return NoPlan(reason.removeprefix("no plan: ").removeprefix("question: "), orders.code)
         goal = _goal(asked, orders.grounding.plans[0].goal if orders.grounding else None)
         return _checked(problem, tuple(order.instruction for order in orders.orders), goal)
     if asked.plan is None:

@@ -36,7 +36,7 @@ _EXAMPLES = "Requests in other environments, with what holds when all of their s
 
 
 @dataclass(frozen=True, slots=True)
-class Example:
+class SentenceExample:
     """A request with its goal, from the sentence tests of a domain; ``None`` where it must be refused."""
 
     request: str
@@ -73,7 +73,9 @@ def filled(section: str, **values: str) -> str:
     return Template(sections()[section]).substitute(values)
 
 
-def prompt_for(request: str, world: World, state: Bits, lexicon: Lexicon, examples: Sequence[Example]) -> Prompt:
+def prompt_for(
+    request: str, world: World, state: Bits, lexicon: Lexicon, examples: Sequence[SentenceExample]
+) -> Prompt:
     """Return the prompt for a request that is made in ``state``.
 
     Args:
@@ -288,7 +290,7 @@ def _noun_senses(words: Sequence[str], domain: Domain, lexicon: Lexicon) -> Iter
             yield f"  {noun}: {', '.join([s for s in senses if s in names] or senses)}, the likeliest first"
 
 
-def _chosen(request: str, examples: Sequence[Example]) -> Iterable[str]:
+def _chosen(request: str, examples: Sequence[SentenceExample]) -> Iterable[str]:
     """Yield the examples with a goal that share most words with a request, never the request itself."""
     own = set(_words(request))
     others = [e for e in examples if set(_words(e.request)) != own]

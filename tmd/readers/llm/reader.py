@@ -28,7 +28,7 @@ from tmd.readers.interface import (
 )
 from tmd.readers.llm.checking import ModelReading, ModelStep, ReplyChecker
 from tmd.readers.llm.client import Completion, ModelClient, ModelSettings
-from tmd.readers.llm.prompt import Example, Prompt, changes, filled, one_line, prompt_for
+from tmd.readers.llm.prompt import Prompt, SentenceExample, changes, filled, one_line, prompt_for
 from tmd.readers.llm.reply import Judgement, Reply, read_judgement, read_reply, schema_of
 from tmd.veil.corpus import Corpus
 from tmd.veil.sentence_file import SUFFIX, read_sentences
@@ -48,7 +48,7 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
         TmdError: A file of sentence tests is wrong.
     """
     tests = [t for path in sorted(corpus.directory.glob(f"*{SUFFIX}")) for t in read_sentences(path)]
-    examples = [Example(test.text, test.goal) for test in tests]
+    examples = [SentenceExample(test.text, test.goal) for test in tests]
     return LLMReader(ModelClient(settings), corpus.lexicon, examples, verify=verify)
 
 
@@ -63,7 +63,7 @@ class LLMReader:
     """
 
     def __init__(
-        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[Example] = (), *, verify: bool = False
+        self, client: ModelClient, lexicon: Lexicon, examples: Sequence[SentenceExample] = (), *, verify: bool = False
     ) -> None:
         self._client = client
         self._lexicon = lexicon
