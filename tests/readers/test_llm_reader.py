@@ -12,13 +12,14 @@ from hypothesis import strategies as st
 
 from tests.readers.conftest import ROOT, Ask, Start, goals, kit, steps
 from tests.readers.fake_server import Answer, gold, reply, serve
-from tmd.diagnostics import RefusalKind
+from tmd.diagnostics import RefusalKind, TmdError
 from tmd.grounded import Grounded
 from tmd.pddl.semantics import holds
-from tmd.readers.llm.checking import ReplyChecker
+from tmd.readers.llm.checking import ModelReading, ReplyChecker
 from tmd.readers.llm.client import ModelSettings
 from tmd.readers.llm.prompt import SentenceExample, one_line, prompt_for
 from tmd.readers.llm.reader import MOST_CORRECTIONS
+from tmd.readers.llm.reply import read_reply
 from tmd.veil.sentence_file import SentenceTest, read_sentences
 
 TABLE = "02_table/corner1"
@@ -292,7 +293,19 @@ REPLIES = st.one_of(
 )  # fmt: skip
 
 
-@settings(max_examples=60)
+@settings(max_examples=150)
+@given(REPLIES)
+def test_a_reply_is_read_or_its_fault_is_named(text: str) -> None:
+    checker = ReplyChecker(TEXT, kit("02_table")._corpus.world("corner1"))
+    try:
+        found = checker.read(read_reply(text))
+    except TmdError as error:
+        assert error.message
+        return
+    assert isinstance(found, ModelReading) or (found and all(found))
+
+
+@settings(max_examples=15)
 @given(st.lists(REPLIES, min_size=3, max_size=3))
 def test_no_reply_leads_to_a_plan_that_misses_its_goals(replies: list[str]) -> None:
     left = iter(replies)
