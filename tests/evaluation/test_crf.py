@@ -30,7 +30,7 @@ ABSENT = {
     "no_latent": (*LATENT, *OURS),
     "no_nl": ("nl", "pcc", "cons", *OURS),
     "no_domain": ("cons", *LATENT, *OURS),
-    "paper_extended_learned": ("words", "generated", "prior"),
+    "paper_extended_learned": ("words", "generated"),
 }
 """The factors that a row does not have."""
 EXAMPLES = 4

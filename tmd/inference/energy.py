@@ -138,11 +138,13 @@ def kind_of(name: str, world: World) -> str:
 
 NAMES = (
     *("env", "nl", "sim", "pcc", "dscpl", "inpr", "para", "trim", "cons"),
-    *("cover", "words", "generated", "unasked", "prior"),
+    *("cover", "words", "generated", "unasked"),
     *("latent_dscpl", "latent_inpr", "latent_para", "latent_cons"),
 )
-"""The factors that are weighed. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
-OURS = ("cover", "words", "generated", "unasked", "prior")
+"""The factors whose weights are learned. Δ_jmp is not among them: its weight is infinite (section VI-F)."""
+FIXED = ("prior",)
+"""The factors whose weights are set by hand: no demonstration says how a request was misread."""
+OURS = ("cover", "words", "generated", "unasked")
 """Those of them that are not in the paper."""
 _TITLES = {
     "env": "environment distance",
@@ -205,7 +207,7 @@ _RENAMED = {"original": "paper", "hand_set": "paper_extended", "generating": "po
 
 @dataclass(frozen=True, slots=True)
 class Weights:
-    """A number for each of :data:`NAMES`; what is not named weighs nothing."""
+    """A number for each of :data:`NAMES` and :data:`FIXED`; a factor without one weighs nothing."""
 
     values: Mapping[str, float]
 
@@ -231,8 +233,9 @@ def parse_weights(text: str, file: str = "<text>") -> Weights:
         if len(words) != 2:
             raise TmdError("a line of weights is a name and a number", location=place, source=line)
         name, value = words
-        if name not in NAMES:
-            raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=nearest(name, NAMES))
+        if name not in (*NAMES, *FIXED):
+            hint = nearest(name, (*NAMES, *FIXED))
+            raise TmdError(f"there is no factor '{name}'", location=place, source=line, hint=hint)
         if name in values:
             raise TmdError(f"'{name}' has a weight already", location=place, source=line)
         try:
@@ -270,7 +273,7 @@ def named_weights(name: str) -> Weights:
 
 def format_weights(weights: Weights) -> str:
     """The text of a weights file; reading it gives the same weights."""
-    return "".join(f"{name} {weights[name]!r}\n" for name in NAMES)
+    return "".join(f"{name} {weights[name]!r}\n" for name in (*NAMES, *FIXED))
 
 
 def delta_env(instantiation: Instantiation) -> float:

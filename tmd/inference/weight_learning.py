@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from tmd.diagnostics import OutputError
 from tmd.files import make_directory
-from tmd.inference.energy import NAMES, Weights
+from tmd.inference.energy import FIXED, NAMES, Weights
 from tmd.inference.ranking import RankedPlan
 
 
@@ -97,6 +97,7 @@ def learn_weights(
         pull: How strongly weights are drawn to ``start``.
         journal: Where proposals are written down, and read again after an interruption.
     """
+    fixed = {name: start[name] for name in FIXED}
     start = Weights({name: start[name] for name in NAMES if name in factors})
     pools = [Pool() for _ in range(examples)]
     weights = start
@@ -120,7 +121,7 @@ def learn_weights(
             {"round": number, "epoch": epoch, "loss": loss, "objective": objective}
             for epoch, (loss, objective) in enumerate(zip(losses, descent.objectives, strict=True))
         ]
-    return Learned(weights, tuple(curve))
+    return Learned(_with_fixed(weights, start, fixed), tuple(curve))
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +175,13 @@ def descend(
     learned = zip(NAMES, kept / scale, strict=True)
     weights = Weights({name: float(value) for name, value in learned if name in factors})
     return Descent(weights, tuple(losses), tuple(objectives))
+
+
+def _with_fixed(learned: Weights, start: Weights, fixed: Mapping[str, float]) -> Weights:
+    """Return learned weights with those set by hand, which keep their share of the whole."""
+    before, after = (sum(abs(weights[name]) for name in NAMES) for weights in (start, learned))
+    share = after / before if before else 1.0
+    return Weights({**learned.values, **{name: value * share for name, value in fixed.items() if value}})
 
 
 def _judge(tables: Sequence[tuple[Vector, Vector]], weights: Vector) -> tuple[float, float]:

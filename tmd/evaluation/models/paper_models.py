@@ -21,7 +21,7 @@ from tmd.goals.sources.demonstrations import learn_goals
 from tmd.goals.sources.table import GoalTable
 from tmd.ground import infer, reader_of, restoration_of
 from tmd.inference.config import BAYES_RISK, GOALS, PAPER, PAPER_EXTENDED, PRESETS, InferenceConfig
-from tmd.inference.energy import NAMES, OURS, Energy, Statistics, Weights, count, named_weights
+from tmd.inference.energy import FIXED, NAMES, OURS, Energy, Statistics, Weights, count, named_weights
 from tmd.inference.ranking import RankedPlan
 from tmd.inference.weight_learning import Journal, Learned, learn_weights
 from tmd.language import parse
@@ -118,7 +118,6 @@ class Crf:
         absent = (
             *(() if config.extended else OURS),
             *(() if config.policy else ("words", "generated")),
-            *(() if config.goals else ("prior",)),
             *(() if config.language else _SPOKEN),
             *(() if config.knowledge else _BLIND),
             *(() if config.latent else _LATENT),
@@ -155,7 +154,7 @@ class Crf:
             raise TmdError(
                 f"what was learned for the world '{world}' is damaged", hint="remove fits/ of the run and run again"
             ) from None
-        strange = sorted(name for name, value in weights.items() if value and name not in self.factors)
+        strange = sorted(name for name, value in weights.items() if value and name not in (*self.factors, *FIXED))
         if strange:
             raise TmdError(
                 f"weights of another model: {', '.join(strange)}", hint="remove fits/ of the run and run again"
@@ -186,7 +185,7 @@ class Crf:
         self.goals_ = {world: self._goals(world, examples, data) for world in self.libraries_ if self.config.goals}
         self.tree_ = self._policy(examples, data)
         start = named_weights(self.config.weights)
-        mine = Weights({name: start[name] for name in self.factors})
+        mine = Weights({name: start[name] for name in (*self.factors, *FIXED)})
         self.weights_ = dict.fromkeys(self.libraries_, mine)
 
     def _learn(self, name: str, examples: Sequence[Example], data: Worlds, random: np.random.Generator) -> Learned:
