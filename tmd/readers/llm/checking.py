@@ -11,6 +11,7 @@ from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.grounder import why_never
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.parser import is_filler
+from tmd.language.syntax.pronouns import is_pronoun
 from tmd.pddl.ground_formula import FALSE, TRUE, goal_cubes, instantiated
 from tmd.pddl.model import Atom, Formula, GroundAtom, conjuncts
 from tmd.pddl.reading.reader import with_goal
@@ -101,7 +102,7 @@ class ReplyChecker:
         question, options = self._question(reply.questions, len(reply.steps))
         steps = [self._step(step, clauses[n], n, options.get(n, ())) for n, step in enumerate(reply.steps)]
         if reply.final is not None and steps:
-            steps.append(self._final(reply.final, clauses[-1], len(clauses) - 1))
+            steps.append(self._final(reply.final, len(clauses) - 1))
         constraints = self._constraints(reply.constraints)
         if self.faults:
             return self.faults
@@ -118,9 +119,9 @@ class ReplyChecker:
             self.faults.append(f"{place}.text: '{_short(step.text)}' is not a quotation of the request")
             span = Span(0, 0)
         verb = "_".join(_WORD.findall(step.verb.lower())) or "do"
-        objects = tuple(dict.fromkeys("_".join(_WORD.findall(noun.lower())) for noun in step.objects if noun.strip()))
-        text = self.request[span.start : span.end]
-        return Clause(verb, tuple(filter(None, objects)), span=span, text=text, direct=tuple(filter(None, objects)))
+        nouns = dict.fromkeys("_".join(_WORD.findall(noun.lower())) for noun in step.objects)
+        objects = tuple(noun for noun in nouns if noun and not is_pronoun(noun))
+        return Clause(verb, objects, span=span, text=self.request[span.start : span.end], direct=objects)
 
     def _step(self, step: ReplyStep, clause: Clause, number: int, options: Sequence[CandidateGoal]) -> ModelStep:
         place = f"steps[{number}]"
@@ -138,10 +139,12 @@ class ReplyChecker:
             clause, number, direct=clause.direct, candidates=candidates, when=when, otherwise=step.otherwise
         )
 
-    def _final(self, text: str, clause: Clause, number: int) -> ModelStep:
+    def _final(self, text: str, number: int) -> ModelStep:
         formula = self._reachable(text, "final")
         goal = None if formula is None else self._candidate(formula, (), "final")
-        return ModelStep(clause, number, main=False, candidates=() if goal is None else (goal,))
+        return ModelStep(
+            Clause("be", text="in the end"), number, main=False, candidates=() if goal is None else (goal,)
+        )
 
     def _candidate(
         self, formula: Formula, via: Sequence[Formula], place: str, prior: float = 0.0
