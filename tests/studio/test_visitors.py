@@ -17,7 +17,9 @@ pytest.importorskip("viser", reason="needs the extra studio")
 from experiments.studio.wire import Wire
 from tmd.diagnostics import TmdError
 from tmd.domain_kit import DomainKit
+from tmd.ground import Ask
 from tmd.grounded import Grounded
+from tmd.readers.interface import Reader
 from tmd.studio.page import EVENT
 from tmd.studio.server import Server, free_port
 from tmd.studio.studio import Studio
@@ -340,10 +342,12 @@ def test_the_plan_of_before_is_there_at_once_and_planned_again_behind(
     teacher, go_on = server.studio.teacher, Event()
     ground = teacher.ground
 
-    def late(text: str, world: World, top: int = 1) -> Grounded:
+    def late(
+        text: str, world: World, top: int = 1, *, reader: Reader | None = None, ask: Ask | None = None
+    ) -> Grounded:
         if text == f"{TEXT}.":
             assert go_on.wait(20)
-        return ground(text, world, top)
+        return ground(text, world, top, reader=reader, ask=ask)
 
     monkeypatch.setattr(teacher, "ground", late)
     link = f"?say={TEXT.replace(' ', '+')}.&step=2"
@@ -476,6 +480,7 @@ def test_the_world_is_changed_and_saved_as_an_environment(server: Server) -> Non
     directory = server.studio.corpus.directory / "environments"
     before = (directory / "corner1.yaml").read_text()
     with Wire(server.url) as visitor:
+        visitor.shows("Click on an object, or choose one")  # the panel is there, and sets its fields no more
         visitor.put("Object", "cup1")
         visitor.shows("<h4>cup1: cup")
         visitor.put("of", "shelf1")

@@ -19,7 +19,7 @@ from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
-from tmd.ground import ground
+from tmd.ground import Ask, ground
 from tmd.grounded import Grounded
 from tmd.inference.policy import Reward
 from tmd.knowledge import (
@@ -30,6 +30,9 @@ from tmd.knowledge import (
     reward_to_json,
     weights_bytes,
 )
+from tmd.readers.interface import Reader
+from tmd.readers.llm.client import URL, ModelSettings
+from tmd.readers.llm.reader import llm_reader
 from tmd.studio.demonstrations.alignment import Habits
 from tmd.veil.corpus import Corpus
 from tmd.veil.demonstration import Demonstration
@@ -41,6 +44,10 @@ _SHARE = 0.95
 """The share of the work that learning is, roughly; the rest is saving."""
 _NICE = 10
 """How much the process that learns stands back behind the studio's own (POSIX)."""
+_READERS = 8
+"""Maximum number of language-model readers that are kept."""
+_NO_KEY = "none"
+"""The key for servers that the environment does not name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -199,6 +206,7 @@ class Teacher:
         self._guard = threading.RLock()
         self._training: Training | None = None
         self._learning = False
+        self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
 
     @property
     def knowledge(self) -> Knowledge:
@@ -251,20 +259,51 @@ class Teacher:
         """Whether what is known is not yet all that the files teach: it is being learned."""
         return self._learning
 
-    def ground(self, text: str, world: World, top: int = 1) -> Grounded:
+    def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
+        """Return the reader that asks a language model; the same one for the same settings.
+
+        Args:
+            model: The name of the model; that of the environment variable where it is empty.
+            url: The address of the server; likewise.
+            verify: Whether the model is asked once more whether a plan does what was asked.
+
+        Raises:
+            ModelError: There is no model, or no key for a server that needs one.
+            TmdError: A file of sentence tests is wrong.
+        """
+        # whoever sees the page may name any server: the key goes only to the one that the environment names
+        trusted = url in ("", os.environ.get(URL, "").strip())
+        settings = ModelSettings(model or None, url or None, key=None if trusted else _NO_KEY)
+        with self._guard:
+            found = self._readers.pop((settings, verify), None) or llm_reader(self.corpus, settings, verify=verify)
+            self._readers[settings, verify] = found
+            if len(self._readers) > _READERS:
+                del self._readers[next(iter(self._readers))]
+            return found
+
+    def ground(
+        self, text: str, world: World, top: int = 1, *, reader: Reader | None = None, ask: Ask | None = None
+    ) -> Grounded:
         """Ground a text with what is known now, as ``tmd ground`` does with its usual options.
 
         What others did to the files since is taken up first, and learned in the background.
 
+        Args:
+            text: What is to be done.
+            world: The environment.
+            top: The number of distinct plans.
+            reader: The reader; by default the offline reader of grammar and lexicon.
+            ask: Answers a question of the reader; without it the likeliest option is taken.
+
         Raises:
-            TmdError: A file of demonstrations is wrong.
+            TmdError: A file of demonstrations is wrong, or the reader cannot work.
         """
         with self._guard:
             if digest(self.corpus) != self._digest:
                 self._take_up()
                 self.retrain()
             now = self._knowledge
-        return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top)
+        return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top, reader=reader, ask=ask)
 
     def close(self) -> None:
         """End what is under way."""

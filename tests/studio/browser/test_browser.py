@@ -8,12 +8,16 @@ from contextlib import contextmanager, suppress
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from threading import Thread
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 from urllib.parse import urlsplit
 
 import pytest
 
-from .conftest import Served
+from tests.readers.fake_server import Answer, asked, reply
+from tests.readers.fake_server import serve as serve_model
+from tmd.readers.llm.client import KEY, MODEL, URL
+
+from .conftest import Served, serve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
@@ -348,6 +352,52 @@ def test_what_was_typed_just_before_a_button_is_pressed_counts(table_studio: Ser
             page.evaluate(HASTE, text)
             page.mouse.click(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2)
             page.locator("ol:visible > li").last.get_by_text(end).wait_for()
+
+
+SECRET = "sk-of-this-test-only"
+ANSWERS = {"The cup": "(at cup1 shelf1 on)", "The book, but on the table": "(at book1 table1 on)"}
+
+
+def test_a_question_of_the_language_model_is_answered(browser: Browser, tmp_path: Path, screens: Path) -> None:
+    pytest.importorskip("openai", reason="needs the extra llm")
+
+    def decide(body: dict[str, Any]) -> Answer:
+        options = [{"answer": answer, "goal": goal} for answer, goal in ANSWERS.items()]
+        question = {"text": "What shall be put there, the cup or the book?", "step": 0, "options": options}
+        return Answer(reply(asked(body)[1], ANSWERS["The cup"], questions=[question]))
+
+    served = serve(tmp_path, "02_table", "--environment", "corner1")
+    with serve_model(decide) as model:
+        served.environ |= {MODEL: "fake", URL: model.url, KEY: SECRET, "XDG_CACHE_HOME": str(tmp_path / "cache")}
+        served.start()
+        try:
+            with visiting(browser, served, 900, 1000) as page:
+                page.get_by_text("Reader settings").click()
+                choose(page, "Reader", "language model")
+                page.get_by_text("Check the plan with the model").wait_for()
+                assert (entry(page, "Model").input_value(), entry(page, "Server address").input_value()) == (
+                    "fake",
+                    model.url,
+                )
+                eventually(page, NAMELESS, [])
+                page.screenshot(path=screens / "15-reader.png")
+                page.get_by_text("Reader settings").click()
+                say(page, "Put it on the shelf.")
+                told(page, "It is for the likeliest meaning")
+                page.locator("ol:visible > li").last.get_by_text("Put cup1 on shelf1").wait_for()
+                page.get_by_text("What shall be put there, the cup or the book?", exact=True).wait_for()
+                page.screenshot(path=screens / "16-question.png")
+                press(page, "The book, but on the table")
+                page.locator("ol:visible > li").last.get_by_text("Put book1 on table1").wait_for()
+                page.get_by_role("button", name="The cup", exact=True).wait_for(state="hidden")
+                page.get_by_text("Energies, and why").click()
+                page.get_by_role("heading", name="Read by the language model fake").wait_for()
+                page.wait_for_timeout(500)  # the folder opens slowly, which only the picture shows
+                page.screenshot(path=screens / "17-answered.png")
+                assert SECRET not in page.content()
+        finally:
+            served.kill()
+    assert len(model.bodies) == 1
 
 
 NAMED = {(0.2, 0.6): "counter1", (0.195, 0.44): "kettle1", (0.5, 0.3): "cupboard1_door", (0.8, 0.6): "fridge1"}

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import re
 import threading
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
+from functools import partial
 from html import escape
 from itertools import zip_longest
 from typing import TYPE_CHECKING
@@ -16,10 +20,12 @@ from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
 from tmd.inference.energy import meaning, title
 from tmd.inference.ranking import PlanStep, RankedPlan, RejectedProposal
-from tmd.pddl.model import Instruction
+from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
+from tmd.readers.interface import Question, Reader, Usage
+from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
@@ -31,11 +37,12 @@ from tmd.veil.world import World
 from tmd.view.candidates import factors_of, grouped
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
+from tmd.view.grounding_record import flat, option_texts
 from tmd.view.markup import number, style
 from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
-    from viser import GuiDropdownHandle
+    from viser import GuiButtonHandle, GuiDropdownHandle
 
 
 _ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
@@ -123,10 +130,70 @@ def _refused(refusals: Sequence[RejectedProposal]) -> str:
     )
 
 
+def effort(usage: Usage | None) -> str:
+    """Return the effort of a language model, as HTML; empty where none was asked."""
+    if usage is None:
+        return ""
+    replies = len(usage.digests)
+    lines = (
+        f"{usage.prompt_tokens:,} tokens sent, {usage.completion_tokens:,} received",
+        f"{usage.seconds:.1f} s",
+        f"{replies} {'reply' if replies == 1 else 'replies'}, {usage.cached} from the cache",
+    )
+    rows = "".join(f"<li>{line}</li>" for line in lines)
+    return f"<h4>Read by the language model {escape(usage.model)}</h4><ul>{rows}</ul>"
+
+
 TOP = 3
 """How many plans are ranked."""
 OWN = "(own words)"
+RULES, LLM = "rules", "language model"
 _FILES = ("plan", "problem", "page")
+_ADDRESS = re.compile(r"https?://([!-~]+@)?(\[[\da-fA-F:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII)
+_HINTS = {
+    "--llm-model": "the model",
+    "--llm-url": "the server address",
+    ", or give a longer --llm-timeout": "",
+    f"check ${KEY}": f"check ${KEY}; it is sent only to the server that ${URL} names",
+}
+"""Words of hints for the command line, and what the page has instead."""
+
+
+@contextmanager
+def _hints_of_the_page() -> Iterator[None]:
+    """Let the hint of an error of the language model name the fields of the page instead of options."""
+    try:
+        yield
+    except ModelError as error:
+        hint = error.hint or ""
+        for option, words in _HINTS.items():
+            hint = hint.replace(option, words)
+        raise TmdError(error.message, hint=hint or None) from None
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """A text, and how it is read.
+
+    Attributes:
+        text: The text.
+        reader: The reader that asks a language model; ``None`` for grammar and lexicon.
+        answers: The goals that were chosen in answer to questions, by the step that the question is about.
+    """
+
+    text: str
+    reader: Reader | None = None
+    answers: Mapping[int, Formula] = field(default_factory=dict)
+
+    def answer(self, question: Question) -> int | None:
+        """Return the number of the option that was chosen; ``None`` where none was, or it is not offered."""
+        formulas = [option.formula for option in question.options]
+        formula = self.answers.get(question.step)
+        return None if formula is None or formula not in formulas else formulas.index(formula)
+
+    def answered(self, step: int, formula: Formula) -> Request:
+        """Return the request with one more answer."""
+        return replace(self, answers={**self.answers, step: formula})
 
 
 class SayPanel:
@@ -139,6 +206,7 @@ class SayPanel:
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
         self._grounded: Grounded | None = None
+        self._request: Request | None = None
         self._waiting: PageLink | None = None
         self._plans: list[tuple[PlanStep, ...]] = []
         self._reels: list[Reel] = []
@@ -149,7 +217,14 @@ class SayPanel:
         self._examples: GuiDropdownHandle[str] = gui.add_dropdown("Examples", (OWN, *self._texts()))
         self._examples.on_update(guarded(self._take_example))
         self._text = gui.add_text("Text", "", multiline=True, hint="What is to be done, in English.")
-        gui.add_button("Plan it", color="blue").on_click(guarded(self.plan))
+        self._button = gui.add_button("Plan it", color="blue")
+        self._button.on_click(guarded(self.plan))
+        with gui.add_folder("Reader settings", expand_by_default=False):
+            self._add_settings()
+        self._question = gui.add_folder("Which one is meant?", visible=False)
+        with self._question:
+            self._asked_for = gui.add_html("")
+        self._options: list[GuiButtonHandle] = []
         self._understood = gui.add_html("")
         self._judged = gui.add_html("")
         self._which: GuiDropdownHandle[str] = gui.add_dropdown("Plan", ("1",), visible=False)
@@ -172,6 +247,16 @@ class SayPanel:
             self._files = gui.add_button_group("Download", _FILES)
             self._files.on_click(guarded(self._download))
 
+    def _add_settings(self) -> None:
+        """Add the fields that say how a text is read. The key is none of them: the page never has it."""
+        gui, guarded = self._visitor.client.gui, self._visitor.guarded
+        model, url = os.environ.get(MODEL, ""), os.environ.get(URL, "")
+        self._reader: GuiDropdownHandle[str] = gui.add_dropdown("Reader", (RULES, LLM))
+        self._reader.on_update(guarded(self._choose_reader))
+        self._model = gui.add_text("Model", model, hint=f"Its name; ${MODEL} if empty.", visible=False)
+        self._url = gui.add_text("Server address", url, hint=_URL_HINT, visible=False)
+        self._verify = gui.add_checkbox("Check the plan with the model", False, visible=False)
+
     def _texts(self) -> list[str]:
         return self._visitor.studio.examples(self._visitor.setting.name)
 
@@ -187,9 +272,10 @@ class SayPanel:
 
     def _clear(self) -> None:
         """No plan; the picture shows the beginning."""
-        self._grounded, self._waiting, self._plans, self._reels = None, None, [], []
+        self._grounded, self._request, self._waiting, self._plans, self._reels = None, None, None, [], []
+        self._button.disabled = False
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
-        for handle in (self._which, self._fold, self._more, self._after):
+        for handle in (self._question, self._which, self._fold, self._more, self._after):
             handle.visible = False
         self._visitor.watch(Reel(self._visitor.setting), 0)
 
@@ -199,16 +285,70 @@ class SayPanel:
         """Ground the text, and show the best plan."""
         visitor = self._visitor
         with visitor.holding():
+            if self._button.disabled:
+                return  # it was pressed twice
             visitor.stop()
             self._clear()  # what is refused must not leave another sentence's plan below it
-            begun = time.perf_counter()
             text = visitor.studio.checked_text(self._text.value)
+            self._plan(Request(text, self._chosen_reader()))
+
+    def _plan(self, request: Request) -> None:
+        """Ground a request, and show the best plan; in the background where a language model is asked."""
+        visitor = self._visitor
+        with visitor.holding():
+            if request.reader is not None:
+                # the answer may take minutes: the visitor is not held, and none of viser's few threads waits for it
+                self._waiting = link = PageLink(visitor.setting.name, request.text)
+                self._step, self._button.disabled = 0, True
+                visitor.tell("Asking the language model …", "To wait no longer, choose the reader 'rules'.")
+                self._behind(lambda: self._plan_again(link, request))
+                return
             visitor.tell("Planning …")
-            grounded = visitor.studio.teacher.ground(text, visitor.setting.world, top=TOP)
-            self._show(grounded)
+            begun = time.perf_counter()
+            grounded = self._ground(request)
+            self._show(grounded, request=request)
             took = time.perf_counter() - begun
         self._tell(grounded, took)
         visitor.keep_link()
+
+    def _ground(self, request: Request) -> Grounded:
+        visitor = self._visitor
+        world, teacher = visitor.setting.world, visitor.studio.teacher
+        with _hints_of_the_page():
+            return teacher.ground(request.text, world, top=TOP, reader=request.reader, ask=request.answer)
+
+    def _chosen_reader(self) -> Reader | None:
+        """Return the reader that asks a language model; ``None`` for grammar and lexicon.
+
+        Raises:
+            TmdError: It cannot be asked with these settings.
+        """
+        if chosen(self._reader) == RULES:
+            return None
+        model, url = self._model.value.strip(), self._url.value.strip()
+        if url and not _ADDRESS.fullmatch(url):
+            raise TmdError("that is not the address of a server", hint="such as http://localhost:8000/v1")
+        with _hints_of_the_page():
+            return self._visitor.studio.teacher.model_reader(model, url, verify=self._verify.value)
+
+    def _choose_reader(self) -> None:
+        """Show the settings of the reader, and wait no longer for one that is asked."""
+        model = chosen(self._reader) == LLM
+        for handle in (self._model, self._url, self._verify):
+            handle.visible = model
+        with self._visitor.holding():
+            if self._button.disabled and not model:
+                self._waiting, self._button.disabled = None, False
+                self._visitor.tell("The language model is not waited for any longer.")
+
+    def _answer(self, grounded: Grounded, request: Request) -> None:
+        """Ground again what a question was asked about, knowing the answer."""
+        with self._visitor.holding():
+            if self._grounded is not grounded:
+                return  # it was pressed twice, or something else was said
+            self._visitor.stop()
+            self._clear()
+            self._plan(request)
 
     def come_back(self, link: PageLink, kept: tuple[PlanStep, ...]) -> None:
         """Show the plan that the window kept at once, and plan what its address says in the background."""
@@ -226,14 +366,26 @@ class SayPanel:
                 visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
             else:
                 visitor.tell("Planning …")
-        threading.Thread(target=visitor.guarded(lambda: self._plan_again(link)), args=(None,), daemon=True).start()
+        self._behind(lambda: self._plan_again(link, Request(visitor.studio.checked_text(link.say))))
 
-    def _plan_again(self, link: PageLink) -> None:
-        """Plan what an address says, while the visitor may do something else."""
+    def _behind(self, act: Callable[[], None]) -> None:
+        """Do something in the background, and tell what goes wrong."""
+        threading.Thread(target=self._visitor.guarded(act), args=(None,), daemon=True).start()
+
+    def _plan_again(self, link: PageLink, request: Request) -> None:
+        """Plan a request, while the visitor may do something else; nothing is shown if that is another request."""
         visitor = self._visitor
         begun = time.perf_counter()
-        text = visitor.studio.checked_text(link.say)
-        grounded = visitor.studio.teacher.ground(text, visitor.setting.world, top=TOP)
+        try:
+            grounded = self._ground(request)
+        except TmdError:
+            if self._waiting is not link:
+                return
+            raise
+        finally:
+            with visitor.holding():
+                if self._waiting is link:
+                    self._button.disabled = False
         took = time.perf_counter() - begun
         with visitor.holding():
             if self._waiting is not link:
@@ -242,10 +394,10 @@ class SayPanel:
             found = [plan.steps for plan in grounded.plans]
             place = found.index(before[0]) if before and before[0] in found else link.plan - 1
             free = visitor.shows(self)
-            self._show(grounded, place if place < len(found) else 0, step, watch=free)
-        other = bool(before) and before[0] not in found
-        if free or other:
-            self._tell(grounded, took, _OTHER if other else None)
+            self._show(grounded, place if place < len(found) else 0, step, watch=free, request=request)
+            other = bool(before) and before[0] not in found
+            if free or other or request.reader is not None:
+                self._tell(grounded, took, _OTHER if other else None)
         visitor.keep_link()
 
     def looked_at(self) -> tuple[int, int, str]:
@@ -281,16 +433,16 @@ class SayPanel:
                 visitor.tell("Everything that was saved is learned.")
                 return
             grounded = self._again(saved)
-            before = self._grounded
-            same = before is not None and before.parsed.text == grounded.parsed.text
-            if same and not visitor.is_playing() and _plans(before) != _plans(grounded):
+            # what a language model read, or what was chosen in answer to a question, stays
+            same = self._request == Request(saved.text)
+            if same and not visitor.is_playing() and _plans(self._grounded) != _plans(grounded):
                 self._show(grounded)
             used = whether_used(saved.instructions, grounded, visitor.wording.instruction)
             said = " ".join(saved.text.split())
             visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
-        """The text of a demonstration, planned where it was shown."""
+        """The text of a demonstration, planned where it was shown; a language model is not asked."""
         studio = self._visitor.studio
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
@@ -298,6 +450,7 @@ class SayPanel:
         """Say what came of it: how many plans there are, with ``more`` about them, or why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
+            more = more or (_ASKED if grounded.question is not None else None)
             count = f"{len(grounded.plans)} plan{'' if len(grounded.plans) == 1 else 's'}"
             so = "" if grounded.plans[0].steps else f" {_IDLE if parsed.clauses else _FORBIDDEN}"
             visitor.tell(f"Planned in {took:.1f} s: {count}.{so}", more)
@@ -308,7 +461,8 @@ class SayPanel:
             clause, refused = grounded.refused
             shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
             hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
-            visitor.tell(f"No plan: clause {clause + 1}: {refused.message}.", hint, fault=True)
+            message = refused.message.removesuffix(".")  # a language model's own sentence has one
+            visitor.tell(f"No plan: clause {clause + 1}: {message}.", hint, fault=True)
         elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
             visitor.tell(f"No plan: this is a question; {grounded.reason}.", tried, fault=True)
         else:
@@ -326,9 +480,20 @@ class SayPanel:
         reel.become(states)
         return reel
 
-    def _show(self, grounded: Grounded, place: int = 0, step: int = 0, *, watch: bool = True) -> None:
+    def _show(
+        self,
+        grounded: Grounded,
+        place: int = 0,
+        step: int = 0,
+        *,
+        watch: bool = True,
+        request: Request | None = None,
+    ) -> None:
         """Show what a text was grounded to: the plan at ``place``, after ``step`` steps, and its picture if wanted."""
         self._grounded, self._waiting = grounded, None
+        self._request = request or Request(grounded.parsed.text)
+        self._button.disabled = False
+        self._put_question(grounded, self._request)
         world = self._visitor.setting.world
         self._plans = [plan.steps for plan in grounded.plans]
         self._reels = [self._played(plan) for plan in self._plans]
@@ -336,11 +501,13 @@ class SayPanel:
         for handle in (self._which, self._fold, self._after):
             handle.visible = found
         self._robot.visible = self._visitor.studio.executable(self._visitor.setting)
-        self._more.visible = found or bool(grounded.rejected)
+        self._more.visible = found or bool(grounded.rejected) or grounded.usage is not None
         lines = [verdict.reason if not verdict.valid else "" for verdict in grounded.verdicts]
         world_words = Wording(world.task.problem)
         self._energies.content = fragment(
-            side_by_side(grounded.plans, world, world_words) + energies(grounded.plans, lines, grounded.rejected)
+            side_by_side(grounded.plans, world, world_words)
+            + energies(grounded.plans, lines, grounded.rejected)
+            + effort(grounded.usage)
         )
         if not found:
             unseen = () if grounded.refused is not None else grounded.unseen
@@ -355,6 +522,24 @@ class SayPanel:
         )
         put(self._which, self._which.options[place])
         self._choose(place, step, watch=watch)
+
+    def _put_question(self, grounded: Grounded, request: Request) -> None:
+        """Show the question that was not answered, with a button for each option; nothing where there is none."""
+        visitor, question = self._visitor, grounded.question
+        with visitor.client.atomic(), self._question:
+            for button in self._options:
+                button.remove()
+            self._options = []
+            self._question.visible = question is not None
+            if question is None:
+                return
+            self._asked_for.content = fragment(f"<p>{escape(question.text)}</p>")
+            texts = option_texts(question, grounded.world.task.problem)
+            for option, text in zip(question.options, texts, strict=True):
+                button = visitor.client.gui.add_button(text, hint=flat(option.formula))
+                again = request.answered(question.step, option.formula)
+                button.on_click(visitor.guarded(partial(self._answer, grounded, again)))
+                self._options.append(button)
 
     def _number(self) -> int:
         return list(self._which.options).index(chosen(self._which))
@@ -473,6 +658,8 @@ class SayPanel:
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _OTHER = "It gives another plan now than the one that you looked at before."
+_ASKED = "It is for the likeliest meaning; the question below has the others."
+_URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
 
 
