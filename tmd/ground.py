@@ -164,7 +164,9 @@ def _objection(reader: Reader, dialogue: Dialogue, found: Inferred, world: World
         proven = refusal.kind in (RefusalKind.IMPOSSIBLE, RefusalKind.CONTRADICTION)
         return refusal if proven and dialogue.refusal is None else None
     objection = reader.objection(dialogue, found.plans[0].instructions, world) if found.plans else None
-    return None if objection is None else Refusal(RefusalKind.NOT_UNDERSTOOD, objection)
+    if objection is None:
+        return None
+    return Refusal(RefusalKind.NOT_UNDERSTOOD, f"the plan is not what was asked: {objection}")
 
 
 _FILLERS: WeakKeyDictionary[World, dict[int, GapFiller]] = WeakKeyDictionary()

@@ -86,7 +86,7 @@ class Grounded:
                 ),
                 *guessed,
             ]
-        asked = [f"{self.question.text} The likeliest meaning is taken"] if self.question is not None else []
+        asked = [f"{self.question.text} The likeliest meaning is taken."] if self.question is not None else []
         told = [*self.dialogue.notes, *asked, *told]
         return tuple(dict.fromkeys(told))
 
@@ -114,6 +114,8 @@ class Grounded:
         if self.refused is None:
             return ""
         clause, refused = self.refused
+        if refused is self.dialogue.refusal:  # of the whole request, not of one clause
+            return refused.message + (f" ({refused.hint})" if refused.hint else "")
         return why_refused(clause, refused.message, refused.hint)
 
     def _nouns(self) -> Iterator[str]:

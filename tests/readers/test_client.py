@@ -75,6 +75,14 @@ def test_nobody_listens(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize(
+    "url", ["http://x:abc", "http://[::1", "localhost:8000", "ftp://x/v1", "http://", "http://a b"]
+)
+def test_an_address_that_is_none(tmp_path: Path, url: str) -> None:
+    ended = ground(tmp_path, url, "--llm-model", "fake")
+    assert ended.code == ExitCode.MODEL_FAILED and "Traceback" not in ended.err and ended.err.count("error: ") == 1
+
+
 def test_no_model(tmp_path: Path) -> None:
     one_line(ground(tmp_path, "http://127.0.0.1:9/v1"), ExitCode.MODEL_FAILED, "no language model is named")
 

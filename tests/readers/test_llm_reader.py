@@ -188,7 +188,7 @@ def test_a_plan_that_the_model_does_not_accept_is_refused(ask: Ask) -> None:
         json.dumps({"thoughts": "", "correct": False, "reason": "Wrong cup."}),
     )
     grounded = ask(TABLE, text, good, no, good, no, good, no, verify=True)
-    assert grounded.plans == () and grounded.reason == "clause 1: Wrong cup."
+    assert grounded.plans == () and grounded.reason == "clause 1: the plan is not what was asked: Wrong cup."
     yes = json.dumps({"thoughts": "", "correct": True, "reason": ""})
     assert steps(ask(TABLE, text, good, yes, verify=True))
 

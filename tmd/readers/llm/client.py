@@ -8,6 +8,7 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import re
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -28,6 +29,8 @@ KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
 """The environment variables for key, address and model."""
 _NO_KEY = "none"
 """The key that is sent to servers that need none."""
+_RETRIES = 2
+_ADDRESS = re.compile(r"https?://[^\s/?#]+(/[^\s?#]*)?", re.IGNORECASE)
 _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 """Parameters that some models refuse; a request is repeated without them."""
 
@@ -83,6 +86,8 @@ class ModelSettings:
         key = self.key or os.environ.get(KEY)
         if not model:
             raise ModelError("no language model is named", hint=f"give --llm-model, or set ${MODEL}")
+        if url and not _ADDRESS.fullmatch(url):
+            raise ModelError(f"'{url[:200]}' is not the address of a server", hint="such as http://localhost:8000/v1")
         if not key and not url and self.cache != "only":
             raise ModelError("there is no key for the language model", hint=f"set ${KEY}, or give --llm-url")
         return ModelSettings(model, url, key or _NO_KEY, self.cache, self.timeout, self.seed)
@@ -166,13 +171,14 @@ class ModelClient:
                 "json_schema": {"name": name, "strict": True, "schema": schema},
             },
         }
-        if self._client is None:
-            self._client = openai.OpenAI(
-                api_key=self.settings.key, base_url=self.settings.url, timeout=self.settings.timeout, max_retries=2
-            )
         while True:
             options = {key: value for key, value in given.items() if key not in self._refused}
             try:
+                if self._client is None:
+                    own = self.settings
+                    self._client = openai.OpenAI(
+                        api_key=own.key, base_url=own.url, timeout=own.timeout, max_retries=_RETRIES
+                    )
                 said = cast(Any, list(messages))
                 answer = self._client.chat.completions.create(model=self.model, messages=said, **options)
                 break
@@ -189,7 +195,7 @@ class ModelClient:
             except openai.APIConnectionError as error:
                 reason = self._scrubbed(str(error.__cause__ or error))
                 raise ModelError(f"{self._place()} cannot be reached: {reason}", hint="check --llm-url") from None
-            except (openai.OpenAIError, ValueError, TypeError) as error:
+            except Exception as error:  # addresses that no parser takes, bodies of any shape: whatever a client raises
                 raise ModelError(f"{self._place()} sent no usable answer: {self._scrubbed(str(error))}") from None
         return self._text_of(answer)
 

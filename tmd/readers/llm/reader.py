@@ -104,7 +104,7 @@ class LLMReader:
             judgement = read_judgement(answer.text)
         except TmdError as error:
             return f"the plan could not be verified: {error.message}"
-        return None if judgement.correct else one_line(judgement.reason)[:300] or "the plan is not what was asked"
+        return None if judgement.correct else one_line(judgement.reason)[:300] or "no reason was given"
 
     def revise(self, dialogue: Dialogue, reason: str) -> LLMDialogue | None:
         """Ask the model for another reading, telling it why the last one has no acceptable plan.
