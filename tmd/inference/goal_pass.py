@@ -33,7 +33,7 @@ from tmd.pddl.semantics import Constraints
 from tmd.pddl.task import Bits, Cube
 from tmd.planning.gap_filler import eliminate, untouched
 from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
-from tmd.readers.interface import CandidateGoal, Dialogue, Question, QuestionOption, Step
+from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.veil.library import tidy
 
 _MOST_FURTHER_STEPS = 4
@@ -231,25 +231,26 @@ class GoalPass(ForwardPass):
 
     def _without_goal(self, step: Step, way: Way, refusal: Refusal) -> list[Way] | Refusal:
         """Return what demonstrations show for a verb whose goal is unknown, or a guess where guesses are allowed."""
-        guess = self.config.guess
-        groups = None
-        if not guess:
-            groups = self.dialogue.handled(step) if refusal.kind is RefusalKind.UNKNOWN_VERB else None
-            if groups is None or not step.main:
-                return refusal
-        proposed = self._proposed(step, way) if step.main else []
-        if groups is not None:
-            proposed = [(c, end) for c, end in proposed if all(_handles(c, g.names, g.every, self) for g in groups)]
-            if not proposed:
-                return refusal
-            # the note says that the step is done as it was shown, which the policy's own sequences were not
-            proposed = [each for each in proposed if each[0].source != POLICY_SOURCE] or proposed
+        text = step.text
+        if self.config.guess:
+            proposed = self._proposed(step, way) if step.main else []
+            goal = StepGoal(step.number, text, None, note=f"a guess: {refusal.message}")
+            return [_taken(way, choice, end, goal) for choice, end in proposed or [(NOTHING, way.path.state)]]
+        groups = self.dialogue.handled(step) if refusal.kind is RefusalKind.UNKNOWN_VERB and step.main else None
+        if groups is None:
+            return refusal
+        shown = [
+            (choice, end)
+            for choice, end in self._proposed(step, way)
+            if all(_handles(choice, group.names, group.every, self) for group in groups)
+        ]
+        if not shown:
+            return refusal
+        # the note says that the step is done as it was shown, which the policy's own sequences were not
+        shown = [each for each in shown if each[0].source != POLICY_SOURCE] or shown
         verb = step.clause.verb.replace("_", " ")
-        note = (
-            f"a guess: {refusal.message}" if guess else f"copied from a demonstration; the goal of '{verb}' is unknown"
-        )
-        goal = StepGoal(step.number, step.text, None, note=note)
-        return [_taken(way, choice, end, goal) for choice, end in proposed or [(NOTHING, way.path.state)]]
+        goal = StepGoal(step.number, text, None, note=f"copied from a demonstration; the goal of '{verb}' is unknown")
+        return [_taken(way, choice, end, goal) for choice, end in shown]
 
     def _proposed(self, step: Step, way: Way) -> list[tuple[Choice, Bits]]:
         """Return what templates and policy propose for a step without a goal, as far as it can be carried out."""
@@ -262,15 +263,7 @@ class GoalPass(ForwardPass):
         """Return a refusal where no predicate of the domain can represent what was asked: *fold the blanket*."""
         asked = [step for step in self.dialogue.steps if step.main and step.direct]
         goals = [goal for way in ways[:1] for goal in way.goals]
-        constraints = self.dialogue.constraints
-        if (
-            not asked
-            or not goals
-            or self.config.guess
-            or constraints.never
-            or constraints.kept
-            or constraints.untouched
-        ):
+        if not asked or not goals or self.config.guess or self.dialogue.constraints != PlanConstraints():
             return None
         if any(goal.formula != TRUE or not goal.row for goal in goals):
             return None
@@ -321,30 +314,18 @@ class GoalPass(ForwardPass):
 
         Proposals come before the far planner: what was shown is at hand, and better than any plan.
         """
-        state = way.path.state
-        begun: Instructions = ()
-        for ways in target.ways:
-            answer: Answer = self.planner.fill(state, ways)
-            if isinstance(answer, GaveUp):
-                answer = self._far(state, ways)
-            if isinstance(answer, Filled):
-                begun, state = (*begun, *answer.plan), answer.state
-            elif isinstance(answer, Unreachable) and not self.config.guess:
-                return _impossible(target, answer.reason)
+        passed = self._on_the_way(target, way.path.state)
+        if isinstance(passed, Refusal):
+            return passed
+        begun, state = passed
         proposals = list(self._executables(target.step, way)) if target.step.main else []
         reason = ""
-        for aim, answer in self._attempts(state, target.aims):
+        for aim, quick in self._attempts(state, target.aims):
+            found = [] if isinstance(quick, Unreachable) else self._completions(way, proposals, target, aim)
+            answer = self._far_if_needed(quick, state, aim, target) if not found else quick
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
-                continue
-            found = [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
-            if isinstance(answer, GaveUp) and not found:
-                answer = self._far(state, aim)
-                if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
-                    continue
-            if isinstance(answer, Unreachable):
-                reason = reason or answer.reason
-            if isinstance(answer, Filled):
+            elif isinstance(answer, Filled):
                 own = self._restored(way, (*begun, *answer.plan), target)
                 found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
             if found:
@@ -356,6 +337,34 @@ class GoalPass(ForwardPass):
             f"no plan was found for '{target.step.text}'; nothing is proven",
             "ask another planner with --planner",
         )
+
+    def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
+        """Return instructions through the conditions on the way to a goal, and the state they end in."""
+        begun: Instructions = ()
+        for ways in target.ways:
+            answer: Answer = self.planner.fill(state, ways)
+            if isinstance(answer, GaveUp):
+                answer = self._far(state, ways)
+            if isinstance(answer, Filled):
+                begun, state = (*begun, *answer.plan), answer.state
+            elif isinstance(answer, Unreachable) and not self.config.guess:
+                return _impossible(target, answer.reason)
+        return begun, state
+
+    def _completions(
+        self, way: Way, proposals: Sequence[_Executable], target: Target, aim: tuple[Cube, ...]
+    ) -> list[tuple[Choice, Bits]]:
+        """Return the proposals that can be completed to an aim."""
+        return [c for p in proposals if (c := self._completed(way, p, target, aim)) is not None]
+
+    def _far_if_needed(self, quick: Answer, state: Bits, aim: tuple[Cube, ...], target: Target) -> Answer:
+        """Return the far planner's answer where the quick one gave up, unless its plan keeps too much at any price."""
+        if not isinstance(quick, GaveUp):
+            return quick
+        answer = self._far(state, aim)
+        if isinstance(answer, Filled) and not self._worth_it(state, answer, target.aims[-1]):
+            return quick
+        return answer
 
     def _attempts(self, state: Bits, own: Sequence[tuple[Cube, ...]]) -> Iterator[tuple[tuple[Cube, ...], Answer]]:
         """Yield the aims that are worth a try, each with the quick planner's answer.
