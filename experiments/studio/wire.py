@@ -127,7 +127,8 @@ class Wire:
         self.put(EVENT, json.dumps(self._happened[-8:]))
 
     def press(self, label: str) -> None:
-        """Press a button."""
+        """Press a button once it is visible."""
+        self.until(lambda: self.elements[self.find(label)].get("visible", True))
         self.put(label, True)
 
     def said(self) -> str:
