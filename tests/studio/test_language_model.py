@@ -192,9 +192,9 @@ def test_a_refusal_of_the_model_is_shown(server: Server, model: FakeServer) -> N
         ({"Model": "fake", "Server address": ""}, "there is no key for the language model"),
         ({"Model": "fake", "Server address": "http://127.0.0.1:9/v1"}, "http://127.0.0.1:9/v1 cannot be reached"),
         ({"Model": "fake", "Server address": "http://127.0.0.1:9/v1"}, "check the server address"),
-        ({"Model": "fake", "Server address": "http://127.0.0.1:port/v1"}, "that is not the address of a server"),
-        ({"Model": "fake", "Server address": "file:///etc/passwd"}, "that is not the address of a server"),
-        ({"Model": 7, "Server address": "http://\x00/"}, "that is not the address of a server"),
+        ({"Model": "fake", "Server address": "http://127.0.0.1:port/v1"}, "is not the address of a server"),
+        ({"Model": "fake", "Server address": "file:///etc/passwd"}, "is not the address of a server"),
+        ({"Model": 7, "Server address": "http://\x00/"}, "is not the address of a server"),
     ],
 )
 def test_an_error_is_shown_and_the_page_stays_usable(

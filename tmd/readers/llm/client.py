@@ -30,7 +30,7 @@ KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
 _NO_KEY = "none"
 """The key that is sent to servers that need none."""
 _RETRIES = 2
-_ADDRESS = re.compile(r"https?://[^\s/?#]+(/[^\s?#]*)?", re.IGNORECASE)
+_ADDRESS = re.compile(r"https?://([!-~]+@)?(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
 _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 """Parameters that some models refuse; a request is repeated without them."""
 
@@ -85,11 +85,12 @@ class ModelSettings:
         url = self.url or os.environ.get(URL)
         key = self.key or os.environ.get(KEY)
         if not model:
-            raise ModelError("no language model is named", hint=f"give --llm-model, or set ${MODEL}")
+            raise ModelError("no language model is named", hint=f"name one, or set ${MODEL}")
         if url and not _ADDRESS.fullmatch(url):
-            raise ModelError(f"'{url[:200]}' is not the address of a server", hint="such as http://localhost:8000/v1")
+            shown = re.sub("//.*@", "//", url)[:200]  # without a password
+            raise ModelError(f"'{shown}' is not the address of a server", hint="such as http://localhost:8000/v1")
         if not key and not url and self.cache != "only":
-            raise ModelError("there is no key for the language model", hint=f"set ${KEY}, or give --llm-url")
+            raise ModelError("there is no key for the language model", hint=f"set ${KEY}, or name another server")
         return ModelSettings(model, url, key or _NO_KEY, self.cache, self.timeout, self.seed)
 
 
@@ -189,12 +190,12 @@ class ModelClient:
                 self._refused.add(refused)
             except openai.APITimeoutError:
                 message = f"no reply within {self.settings.timeout:.0f} s from {self._place()}"
-                raise ModelError(
-                    message, hint="try again later, or give a longer --llm-timeout", passing=True
-                ) from None
+                raise ModelError(message, hint="try again later, or allow more time", passing=True) from None
             except openai.APIConnectionError as error:
                 reason = self._scrubbed(str(error.__cause__ or error))
-                raise ModelError(f"{self._place()} cannot be reached: {reason}", hint="check --llm-url") from None
+                raise ModelError(
+                    f"{self._place()} cannot be reached: {reason}", hint="check the address of the server"
+                ) from None
             except Exception as error:  # addresses that no parser takes, bodies of any shape: whatever a client raises
                 raise ModelError(f"{self._place()} sent no usable answer: {self._scrubbed(str(error))}") from None
         return self._text_of(answer)
@@ -217,7 +218,10 @@ class ModelClient:
         if status == 401:
             return ModelError(f"{place} refuses the key (401)", hint=f"check ${KEY}")
         if status == 404:
-            return ModelError(f"{place} knows no model '{self.model}' (404)", hint="check --llm-model and --llm-url")
+            return ModelError(
+                f"{place} knows no model '{self.model}' (404)",
+                hint="check the name of the model and the address of the server",
+            )
         if status == 429:
             wait = headers.get("retry-after")
             again = f"; it asks to wait {wait} s" if wait else ""

@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import os
-import re
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 from functools import partial
@@ -25,7 +23,7 @@ from tmd.pddl.plan_file import format_plan
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
 from tmd.readers.interface import Question, Reader, Usage
-from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
+from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
@@ -149,26 +147,6 @@ TOP = 3
 OWN = "(own words)"
 RULES, LLM = "rules", "language model"
 _FILES = ("plan", "problem", "page")
-_ADDRESS = re.compile(r"https?://([!-~]+@)?(\[[\da-fA-F:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII)
-_HINTS = {
-    "--llm-model": "the model",
-    "--llm-url": "the server address",
-    ", or give a longer --llm-timeout": "",
-    f"check ${KEY}": f"check ${KEY}; it is sent only to the server that ${URL} names",
-}
-"""Words of hints for the command line, and what the page has instead."""
-
-
-@contextmanager
-def _hints_of_the_page() -> Iterator[None]:
-    """Let the hint of an error of the language model name the fields of the page instead of options."""
-    try:
-        yield
-    except ModelError as error:
-        hint = error.hint or ""
-        for option, words in _HINTS.items():
-            hint = hint.replace(option, words)
-        raise TmdError(error.message, hint=hint or None) from None
 
 
 @dataclass(frozen=True, slots=True)
@@ -314,8 +292,7 @@ class SayPanel:
     def _ground(self, request: Request) -> Grounded:
         visitor = self._visitor
         world, teacher = visitor.setting.world, visitor.studio.teacher
-        with _hints_of_the_page():
-            return teacher.ground(request.text, world, top=TOP, reader=request.reader, ask=request.answer)
+        return teacher.ground(request.text, world, top=TOP, reader=request.reader, ask=request.answer)
 
     def _chosen_reader(self) -> Reader | None:
         """Return the reader that asks a language model; ``None`` for grammar and lexicon.
@@ -326,10 +303,7 @@ class SayPanel:
         if chosen(self._reader) == RULES:
             return None
         model, url = self._model.value.strip(), self._url.value.strip()
-        if url and not _ADDRESS.fullmatch(url):
-            raise TmdError("that is not the address of a server", hint="such as http://localhost:8000/v1")
-        with _hints_of_the_page():
-            return self._visitor.studio.teacher.model_reader(model, url, verify=self._verify.value)
+        return self._visitor.studio.teacher.model_reader(model, url, verify=self._verify.value)
 
     def _choose_reader(self) -> None:
         """Show the settings of the reader, and wait no longer for one that is asked."""
