@@ -27,7 +27,7 @@ class ExitCode(IntEnum):
     NOT_EXECUTED = 14
     """The robot stopped before everything that its plan is for was brought about."""
     QUESTION = 15
-    """Two readings of the request differ, and nobody answered which one is meant; the plan is for the likelier one."""
+    """Two readings of the request differ, and nobody answered which one is meant; the first with a plan is taken."""
     GAVE_UP = 20
     """A search ended at its limit: nothing is proven."""
     USAGE = 30

@@ -155,10 +155,12 @@ class DomainKit:
         Raises:
             TmdError: There is no such reader; or there is no model, or no key for a server that needs one.
         """
-        if name == RULES:
-            return None
-        if name != LLM:
+        if name not in READERS:
             raise TmdError(f"there is no reader '{name}'", hint=nearest(name, READERS, what="readers"))
+        if name == RULES:
+            if llm is not None or verify:
+                raise TmdError("llm and verify are for the reader 'llm'", hint="give reader='llm'")
+            return None
         from tmd.readers.llm.client import ModelSettings
         from tmd.readers.llm.reader import llm_reader
 

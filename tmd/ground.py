@@ -16,7 +16,7 @@ from dataclasses import replace
 from functools import partial
 from weakref import WeakKeyDictionary
 
-from tmd.diagnostics import Refusal, RefusalKind
+from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.sources.table import LEARNED, GoalTable
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import PLANS, decided
@@ -71,8 +71,11 @@ def ground(
         ask: Asks the user where two readings differ; without it the likeliest is taken.
 
     Raises:
-        TmdError: The planner is unknown or not installed, the reader cannot work, or the lexicon is wrong.
+        TmdError: The planner is unknown or not installed, the reader cannot work, the preset has no goals and the
+            reader is not the default, or the lexicon is wrong.
     """
+    if reader is not None and not config.goals:
+        raise TmdError("this model plans without goals, so only the rules can read for it", hint="leave the reader out")
     reader = reader or reader_of(config, library, goals)
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None
@@ -86,9 +89,9 @@ def ground(
     dialogue = reader.begin(request, world, world.task.init)
     found, question = _asked(dialogue, inferred, ask or _nobody)
     while (objection := _objection(reader, dialogue, found, world)) is not None:
-        again = reader.revise(dialogue, objection.message)
+        again = reader.revise(dialogue, objection.message, planned=bool(found.plans))
         if again is None:
-            number = found.refused[0] if found.refused is not None else 0
+            number = found.refused[0] if found.refused is not None else None
             found = replace(found, plans=(), refused=(number, objection))
             break
         dialogue = again
@@ -143,14 +146,27 @@ def _asked(
     if question is not None:
         answer = ask(question)
         if answer is None:
-            attempts = [inferred(dialogue, {question.step: option.formula}) for option in question.options]
-            return next((found for found in attempts if found.plans), attempts[0]), question
+            return _first_option(dialogue, inferred, question)
         chosen[question.step] = question.options[answer].formula
     while True:
         found = inferred(dialogue, chosen)
         if found.question is None or (answer := ask(found.question)) is None:
             return found, found.question
         chosen[found.question.step] = found.question.options[answer].formula
+
+
+def _first_option(
+    dialogue: Dialogue, inferred: Callable[[Dialogue, Mapping[int, Formula]], Inferred], question: Question
+) -> tuple[Inferred, Question]:
+    """Return the plans for the first option that has some, or else why the first has none."""
+    first: Inferred | None = None
+    for number, option in enumerate(question.options):
+        found = inferred(dialogue, {question.step: option.formula})
+        if found.plans:
+            return found, replace(question, taken=number)
+        first = first or found
+    assert first is not None
+    return first, question
 
 
 def _nobody(question: Question) -> int | None:

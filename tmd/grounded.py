@@ -35,8 +35,8 @@ class Grounded:
         world: The environment.
         library: The templates.
         config: The preset.
-        refused: Why there is no plan, after the number of the clause where that showed.
-        question: A question to the user that was not answered; the plans are for its first option.
+        refused: Why there is no plan, after the index of the clause that it is about; ``None`` for the whole request.
+        question: A question to the user that was not answered; the plans are for the option that it says was taken.
     """
 
     dialogue: Dialogue
@@ -47,7 +47,7 @@ class Grounded:
     world: World
     library: Library
     config: InferenceConfig
-    refused: tuple[int, Refusal] | None = None
+    refused: tuple[int | None, Refusal] | None = None
     question: Question | None = None
 
     @property
@@ -86,7 +86,7 @@ class Grounded:
                 ),
                 *guessed,
             ]
-        asked = [f"{self.question.text} The likeliest meaning is taken."] if self.question is not None else []
+        asked = [f"{q.text} Option {q.taken + 1} is taken."] if (q := self.question) is not None else []
         told = [*self.dialogue.notes, *asked, *told]
         return tuple(dict.fromkeys(told))
 
@@ -114,8 +114,6 @@ class Grounded:
         if self.refused is None:
             return ""
         clause, refused = self.refused
-        if refused is self.dialogue.refusal:  # of the whole request, not of one clause
-            return refused.message + (f" ({refused.hint})" if refused.hint else "")
         return why_refused(clause, refused.message, refused.hint)
 
     def _nouns(self) -> Iterator[str]:
@@ -158,9 +156,10 @@ class Grounded:
         return f"did you mean '{_plain(close[0])}'?" if close else f"say {', '.join(map(_plain, verbs[:_VERBS]))} …"
 
 
-def why_refused(clause: int, message: str, hint: str | None) -> str:
-    """Why there is no plan for what was said: *clause 1: nothing here is called 'zebra' (name a thing …)*."""
-    return f"clause {clause + 1}: {message}" + (f" ({hint})" if hint else "")
+def why_refused(clause: int | None, message: str, hint: str | None) -> str:
+    """Return why there is no plan: *clause 1: nothing here is called 'zebra' (name a thing …)*."""
+    place = "" if clause is None else f"clause {clause + 1}: "
+    return f"{place}{message}" + (f" ({hint})" if hint else "")
 
 
 def _plain(name: str) -> str:

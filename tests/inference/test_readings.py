@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tmd.diagnostics import Refusal, RefusalKind
+from tmd.inference.commitments import constrained, violated
 from tmd.inference.config import GOALS
 from tmd.inference.energy import Energy, count, named_weights
 from tmd.inference.engine import Inference
@@ -21,7 +22,8 @@ from tmd.pddl.ground_formula import goal_cubes, instantiated
 from tmd.pddl.model import Formula
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.task import Bits
-from tmd.planning.backends import IN_PROCESS, TaskPlanners, make
+from tmd.planning.backends import FAST_DOWNWARD, IN_PROCESS, TaskPlanners, make
+from tmd.planning.result import Filled
 from tmd.readers.interface import (
     CandidateGoal,
     HandledGroup,
@@ -184,3 +186,21 @@ def test_an_untouched_object_is_in_no_plan() -> None:
     found = infer(Fake([[candidate("(or (holding pr2 cup1) (holding pr2 book1))", 1.0)]], untouched))
     assert all("book1" not in instruction.args for instruction in found.plans[0].instructions)
     assert not infer(Fake([[candidate(BOOK, 1.0)]], untouched)).plans
+
+
+@pytest.mark.parametrize("name", [IN_PROCESS, FAST_DOWNWARD])
+@pytest.mark.parametrize("never", ["(holding pr2 cup1)", "(and (at book1 shelf1 on) (holding pr2 cup1))"])
+def test_every_planner_respects_what_a_request_forbids(name: str, never: str) -> None:
+    own = world().task
+    task = constrained(own, PlanConstraints(never=(formula(never),)))
+    planners = TaskPlanners(own, make(name, own), name)
+    for planner in (planners.quick(task), planners.resort(task)):
+        answer = planner.fill(own.init, goal_cubes(own, formula(CUP)))
+        if "and" not in never:
+            assert not isinstance(answer, Filled)
+            continue
+        assert isinstance(answer, Filled)
+        states = [own.init]
+        for instruction in answer.plan:
+            states.append(task.by_instruction[instruction].apply(states[-1]))
+        assert violated(own, PlanConstraints(never=(formula(never),)), states) is None

@@ -6,6 +6,7 @@ import json
 import time
 from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,8 @@ import pytest
 from tests.cli.conftest import Ended, run_tmd
 from tests.readers.conftest import Start, kit
 from tests.readers.fake_server import Answer, asked, reply
-from tmd.diagnostics import ExitCode
+from tmd.diagnostics import ExitCode, TmdError
+from tmd.readers.llm import client as client_module
 from tmd.readers.llm.client import KEY, ModelClient, ModelError, ModelSettings
 from tmd.readers.llm.reply import MOST_CHARACTERS, Reply, schema_of
 
@@ -53,6 +55,7 @@ FAILURES = {
     "401": (Answer(f"Incorrect API key provided: {SECRET}", 401), "refuses the key"),
     "404": (Answer("no such model", 404), "knows no model 'fake'"),
     "429": (Answer("slow down", 429, {"Retry-After": "0.01"}), "no room"),
+    "a hostile delay": (Answer("slow down", 429, {"Retry-After": f"0 {SECRET} \x1b[31m"}), "(429)"),
     "500": (Answer(f"boom {SECRET}", 500), "status 500"),
     "nothing": (Answer(body=b"{}"), "empty answer"),
     "no JSON": (Answer(body=b"<html>hello</html>"), "no usable answer"),
@@ -103,6 +106,27 @@ def test_no_reply_in_time(start: Start) -> None:
     assert caught.value.passing
 
 
+def test_a_reply_that_drips_ends_in_time() -> None:
+    with pytest.raises(TimeoutError):
+        client_module._within(partial(time.sleep, 60), 0.01)
+    assert client_module._within(lambda: 7, 60) == 7
+
+
+@pytest.mark.parametrize("key", [f"{SECRET}\r", f" {SECRET}\n"])
+def test_white_space_round_a_key_does_not_count(start: Start, key: str) -> None:
+    server = start(lambda body: Answer("fine"))
+    ModelClient(settings_for(server.url, replace(USUAL, key=key))).complete(ASKED, "reading", {})
+    assert server.keys == [f"Bearer {SECRET}"]
+
+
+@pytest.mark.parametrize("changed", [{"key": "sk-\x00secret"}, {"key": "sk-\u00e9"}, {"url": f"http://me:{SECRET}@host/v1"},
+                                     {"cache": "never"}, {"timeout": float("nan")}])  # fmt: skip
+def test_settings_that_cannot_work_are_refused(changed: dict[str, Any]) -> None:
+    with pytest.raises(TmdError) as caught:
+        replace(USUAL, **changed).resolved()
+    assert "secret" not in str(caught.value)
+
+
 def test_options_of_the_model_are_for_the_model(tmp_path: Path) -> None:
     ended = run_tmd(["ground", "--environment", "corner1", "--text", TEXT, "--llm-model", "x"], tmp_path)
     assert ended.code == ExitCode.USAGE and "--llm-model is for --reader llm" in ended.err
@@ -115,6 +139,7 @@ REPLIES = {
     "prose": "Sure! I would put the cup on the shelf.",
     "cut": reply(TEXT, GOAL)[:-30],
     "a list": "[1, 2]",
+    "half a character": "\ud800",
     "another shape": '{"goal": "(at cup1 shelf1 on)"}',
     "a number as goal": reply(TEXT, GOAL).replace(f'"{GOAL}"', "7"),
     "too long": "{" + " " * MOST_CHARACTERS,
@@ -211,10 +236,10 @@ def test_a_damaged_file_of_the_cache_is_asked_anew(start: Start, tmp_path: Path)
     client = ModelClient(settings_for(server.url))
     client.complete(ASKED, "reading", {})
     (path,) = (tmp_path / "llm").rglob("*.json")
-    for damaged in ("", "{", "[]", '{"reply": 1}'):
+    for damaged in ("", "{", "[]", '{"reply": 1}', '{"reply": "x", "prompt_tokens": Infinity, "completion_tokens": 1}'):
         path.write_text(damaged)
         assert client.complete(ASKED, "reading", {}).text == "fine"
-    assert len(server.bodies) == 5
+    assert len(server.bodies) == 6
 
 
 def test_settings_do_not_show_the_key() -> None:
@@ -260,7 +285,7 @@ def test_a_question_has_its_exit_code_and_stands_in_the_json(start: Start, tmp_p
     assert ended.code == ExitCode.QUESTION
     record = json.loads(ended.out)["question"]
     assert [option["answer"] for option in record["options"]] == ["the cup", "the book"]
-    assert "question: Which one? the cup / the book" in ended.err
+    assert "question: Which one? 1. the cup (taken) 2. the book;" in ended.err
     words = ["ground", "--environment", "corner1", "--domain", "02_table", "--text", TEXT, "--reader", "llm", "--ask"]
     answer = run_tmd([*words, "--llm-model", "fake", "--llm-url", url], tmp_path, stdin=b"2\n")
     assert answer.code == ExitCode.OK and "(at book1 shelf1 on)" in answer.out

@@ -88,8 +88,93 @@ def test_steps_that_share_a_condition_share_its_evaluation(ask: Ask) -> None:
     assert goals(grounded) == ["(at cup1 shelf1 on)", "(at book1 shelf1 on)"]
 
 
+ON_SHELF, ON_TABLE = "(at cup1 shelf1 on)", "(at cup1 table1 on)"
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "moved"),
+    [(ON_TABLE, ON_TABLE, "cup1"), (ON_SHELF, ON_TABLE, "book1"), (ON_SHELF, ON_SHELF, None)],
+)
+def test_otherwise_may_have_a_condition_of_its_own(ask: Ask, first: str, second: str, moved: str | None) -> None:
+    text = "If this, put the cup there, otherwise, if that, the book."
+    parts = (
+        step("If this, put the cup there", ON_SHELF, when=first),
+        step("otherwise, if that, the book", "(at book1 table1 on)", when=second, otherwise=True),
+    )
+    instructions = steps(ask(TABLE, text, steps_reply(*parts)))
+    assert {name for i in instructions if i.startswith("keep") for name in ("cup1", "book1") if name in i} == (
+        {moved} if moved else set()
+    )
+
+
+def test_conditions_on_the_way_are_met_although_the_goal_holds_already(ask: Ask) -> None:
+    text = "Take the cup to the shelf and put it back on the table."
+    instructions = steps(ask(TABLE, text, reply(text, ON_TABLE).replace('"via": []', f'"via": ["{ON_SHELF}"]')))
+    assert instructions.index("keep(cup1, shelf1, on)") < instructions.index("keep(cup1, table1, on)")
+
+
+def test_the_options_of_a_question_have_the_conditions_on_the_way(ask: Ask) -> None:
+    text = "Put it there by way of the table."
+    question = {"text": "Which one?", "step": 0, "options": OPTIONS}
+    by_way = steps_reply(step(text[:-1], BOOK, via=["(holding pr2 cup1)"]), questions=[question])
+    assert "grasp(cup1)" in steps(ask(TABLE, text, by_way, ask=lambda question: 1))
+
+
+NOTHING = {"text": "the cup", "never": None, "untouched": []}
+NO_CUP = {**NOTHING, "untouched": ["cup1"]}
+EMPTY = step("Put the cup", "(and)")
+CUP_AND_TABLE = "(and (at cup1 table1 on) (not (at cup1 table1 on)))"
+UNUSABLE = {
+    "otherwise alone": (steps_reply(step("Put the cup", ON_SHELF, otherwise=True)), "has no condition"),
+    "an empty constraint": (steps_reply(step("Put the cup", ON_SHELF), constraints=[NOTHING]), "forbids nothing"),
+    "a final condition alone": (steps_reply(final=ON_SHELF, constraints=[NO_CUP]), "final"),
+    "goals that always hold": (steps_reply(EMPTY), "hold in every state"),
+    "a contradiction on the way": (steps_reply(step("Put the cup", ON_SHELF, via=[CUP_AND_TABLE])), "via[0]"),
+    "a negation left out": (steps_reply(step("the cup on the shelf", ON_SHELF)), "'Never Put', which changes"),
+    "an endless verb": (steps_reply({**step("Put the cup", ON_SHELF), "verb": "v" * 1000}), "too many"),
+    "options with one goal": (
+        steps_reply(
+            step("Put the cup", ON_SHELF),
+            questions=[{"text": "?", "step": 0, "options": [{"answer": a, "goal": ON_SHELF} for a in "ab"]}],
+        ),
+        "two different goals",
+    ),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", UNUSABLE)
+def test_a_reply_that_says_less_than_it_seems_goes_back(start: Start, name: str) -> None:
+    text = "Never Put the cup on the shelf." if "negation" in name else "Put the cup on the shelf."
+    first, fault = UNUSABLE[name]
+    seen: list[str] = []
+
+    def decide(body: dict[str, Any]) -> Answer:
+        seen.append(body["messages"][-1]["content"])
+        return Answer(first if len(seen) == 1 else reply(text, ON_SHELF))
+
+    llm = ModelSettings("fake", start(decide).url, cache="off")
+    grounded = kit("02_table").ground(text, "corner1", reader="llm", llm=llm)
+    assert goals(grounded) == [ON_SHELF] and fault in seen[1]
+
+
+def test_verification_looks_at_plans_without_instructions(ask: Ask) -> None:
+    text = "Fill the cup."
+    no = json.dumps({"thoughts": "", "correct": False, "reason": "It is empty."})
+    refused = reply(text, None, refusal={"kind": "impossible", "reason": "There is no water."})
+    assert ask(TABLE, text, reply(text, ON_TABLE), no, refused, verify=True).reason == "There is no water."
+
+
+def test_models_without_goals_take_the_rules_alone() -> None:
+    with pytest.raises(TmdError, match="plans without goals"):
+        kit("02_table").ground(
+            "Take the cup.", "corner1", model="policy", reader="llm", llm=ModelSettings("x", "http://x")
+        )
+    with pytest.raises(TmdError, match="are for the reader 'llm'"):
+        kit("02_table").ground("Take the cup.", "corner1", verify=True)
+
+
 def test_what_no_step_covers_is_a_warning(ask: Ask) -> None:
-    text = "Please put the cup on the shelf, gently dusted."
+    text = "Please put the cup on the shelf, dusted."
     grounded = ask(TABLE, text, steps_reply(step("put the cup on the shelf", "(at cup1 shelf1 on)")))
     assert grounded.warnings == ('"dusted" was skipped: no step of the reading covers it',)
 
@@ -188,7 +273,7 @@ def test_a_plan_that_the_model_does_not_accept_is_refused(ask: Ask) -> None:
         json.dumps({"thoughts": "", "correct": False, "reason": "Wrong cup."}),
     )
     grounded = ask(TABLE, text, good, no, good, no, good, no, verify=True)
-    assert grounded.plans == () and grounded.reason == "clause 1: the plan is not what was asked: Wrong cup."
+    assert grounded.plans == () and grounded.reason == "the plan is not what was asked: Wrong cup."
     yes = json.dumps({"thoughts": "", "correct": True, "reason": ""})
     assert steps(ask(TABLE, text, good, yes, verify=True))
 
@@ -221,13 +306,15 @@ def test_an_answer_decides(ask: Ask, answer: int, goal: str) -> None:
 # ---------------------------------------------------------------------- the prompt
 
 
-def test_a_prompt_never_has_the_request_as_an_example() -> None:
+def test_a_prompt_has_no_example_of_its_own_environment() -> None:
     for path in FILES:
         tests = read_sentences(path)
-        examples = [SentenceExample(test.text, test.goal) for test in tests]
+        examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
         for test in tests[:10]:
             text = _prompt(test, examples)
+            own = [example for example in examples if example.environment == test.environment]
             assert text.count(one_line(test.text)) == 1
+            assert not any(f"{one_line(example.request)} => " in text for example in own)
 
 
 def _prompt(test: SentenceTest, examples: list[SentenceExample]) -> str:
@@ -241,7 +328,7 @@ def _prompt(test: SentenceTest, examples: list[SentenceExample]) -> str:
 def test_a_prompt_stays_small(path: Path) -> None:
     """The largest bundled prompts have 3.6 characters a token (docs/llm.md): less than 6,000 tokens."""
     tests = read_sentences(path)
-    examples = [SentenceExample(test.text, test.goal) for test in tests]
+    examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
     assert max(len(_prompt(test, examples)) for test in tests) < 21_500
 
 

@@ -159,7 +159,7 @@ def test_a_question_is_answered_by_a_button(server: Server, model: FakeServer, g
         visitor.put("Object", "cup1")  # the page stays usable
         visitor.shows("<h4>cup1: cup")
         go_on.set()
-        visitor.told("It is for the likeliest meaning")
+        visitor.told("It is for one of several meanings")
         visitor.until(lambda: buttons(visitor) == OPTIONS)
         visitor.shows("Which thing &lt;b&gt;do&lt;/b&gt; you mean?")
         visitor.shows("Put cup1 on shelf1")
@@ -284,7 +284,7 @@ def test_what_was_read_by_a_model_stays_when_all_is_learned(
         visitor.press("Save (K)")
         visitor.told("Saved as shown-corner1-01")
         ask(visitor, model.url)
-        visitor.told("It is for the likeliest meaning")
+        visitor.told("It is for one of several meanings")
         for each in server._visitors.values():
             each.learning(None)
         visitor.told("everything is learned")

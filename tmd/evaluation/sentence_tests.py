@@ -26,7 +26,7 @@ from tmd.records.sentence_test import (
 )
 from tmd.veil.sentence_file import SentenceTest
 
-_EFFORTS = ("prompt_tokens", "completion_tokens", "seconds", "corrections")
+_EFFORTS = ("prompt_tokens", "completion_tokens", "seconds", "cached", "corrections")
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +100,7 @@ def _counts(results: Sequence[SentenceResult]) -> dict[str, Any]:
     }
     used = [r.usage for r in results if r.usage is not None]
     if used:
-        found |= {name: sum(getattr(u, name) for u in used) for name in _EFFORTS}
+        found |= {name: round(sum(getattr(u, name) for u in used), 3) for name in _EFFORTS}
     return found
 
 

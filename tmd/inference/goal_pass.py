@@ -90,7 +90,7 @@ class GoalPass(ForwardPass):
         """Return the best distinct plans for the steps from ``state``, or the reason why there is none."""
         dialogue = self.dialogue
         if dialogue.refusal is not None:
-            return Inferred((), (), (0, dialogue.refusal))
+            return Inferred((), (), (None, dialogue.refusal))
         kept = kept_throughout(dialogue.constraints.kept, -1, self.task)
         ways = [Way(Path(0.0, state), dialogue.memory, kept)]
         for number, step in enumerate(dialogue.steps):
@@ -202,10 +202,14 @@ class GoalPass(ForwardPass):
             return Target(step, goal, already=True)
         own = tuple(a for a in aims(goal.cubes, way.kept, goal.released, self.task) if a)
         hard = [k for k in way.kept if k.hard]
+        if not goal.cubes:
+            return _impossible_goal(step)
         if not own or (hard and not combined(goal.cubes, hard)):
             return Refusal(RefusalKind.CONTRADICTION, f"'{step.clause.text}' contradicts what was said before")
-        held = any(cube.holds(way.path.state) for cube in own[0])
-        ways = () if held else tuple(cubes for f in goal.via if (cubes := goal_cubes(self.task, f)))
+        ways = tuple(goal_cubes(self.task, formula) for formula in goal.via)
+        if not all(ways):
+            return _impossible_goal(step)
+        held = not ways and any(cube.holds(way.path.state) for cube in own[0])
         return Target(step, goal, held, own, ways)
 
     def _kept_after(self, target: Target, way: Way, end: Bits) -> tuple[Commitment, ...]:
@@ -332,11 +336,7 @@ class GoalPass(ForwardPass):
                 return found
         if reason:
             return _impossible(target, reason)
-        return Refusal(
-            RefusalKind.GAVE_UP,
-            f"no plan was found for '{target.step.text}'; nothing is proven",
-            "ask another planner with --planner",
-        )
+        return _gave_up(target)
 
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
         """Return instructions through the conditions on the way to a goal, and the state they end in."""
@@ -347,8 +347,8 @@ class GoalPass(ForwardPass):
                 answer = self._far(state, ways)
             if isinstance(answer, Filled):
                 begun, state = (*begun, *answer.plan), answer.state
-            elif isinstance(answer, Unreachable) and not self.config.guess:
-                return _impossible(target, answer.reason)
+            elif not self.config.guess:
+                return _impossible(target, answer.reason) if isinstance(answer, Unreachable) else _gave_up(target)
         return begun, state
 
     def _completions(
@@ -440,7 +440,10 @@ class GoalPass(ForwardPass):
 
         def on_the_way(instructions: Sequence[Instruction]) -> bool:
             trace = list(self._trace(state, instructions))
-            return all(any(cube.holds(s) for s in trace for cube in ways) for ways in target.ways)
+            for ways in target.ways:  # in their order
+                while trace and not any(cube.holds(trace[0]) for cube in ways):
+                    del trace[0]
+            return bool(trace)
 
         def reached(instructions: Sequence[Instruction]) -> bool:
             end = self.simulated(state, instructions)
@@ -544,6 +547,15 @@ def _handles(choice: Choice, names: frozenset[str], every: bool, own: GoalPass) 
 
 def _impossible(target: Target, reason: str) -> Refusal:
     return Refusal(RefusalKind.IMPOSSIBLE, f"'{target.step.text}' cannot be done here: {reason}")
+
+
+def _impossible_goal(step: Step) -> Refusal:
+    return Refusal(RefusalKind.IMPOSSIBLE, f"the goal of '{step.text}' contradicts itself or can never hold here")
+
+
+def _gave_up(target: Target) -> Refusal:
+    message = f"no plan was found for '{target.step.text}'; nothing is proven"
+    return Refusal(RefusalKind.GAVE_UP, message, "ask another planner with --planner")
 
 
 def _why_lost(refusal: Refusal | None, energy: float | None, best: float) -> str:

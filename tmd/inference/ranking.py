@@ -180,13 +180,13 @@ class Inferred:
     Attributes:
         plans: The plans, cheapest first.
         rejected: The candidates that could not be executed.
-        refused: Why there is no plan for what was said, and the clause where that showed; ``None`` where there is one.
+        refused: Why there is no plan for what was said, and the clause where that showed, if it is one clause.
         question: A question to the user, where two readings of the request are about equally good.
     """
 
     plans: tuple[RankedPlan, ...]
     rejected: tuple[RejectedProposal, ...]
-    refused: tuple[int, Refusal] | None = None
+    refused: tuple[int | None, Refusal] | None = None
     question: Question | None = None
 
 

@@ -103,6 +103,9 @@ def last_resort(task: Task) -> Planner:
 class TaskPlanners:
     """The planners of one environment, and of its task without what a request forbids.
 
+    Other programs plan for the PDDL problem, which does not have the prohibitions of a request. Only the searches of
+    this process plan for a task with prohibitions.
+
     Args:
         task: The task of the environment.
         quick: Its planner for gaps.
@@ -118,10 +121,13 @@ class TaskPlanners:
 
     def quick(self, task: Task) -> Planner:
         """Return the planner that fills gaps."""
-        return self._quick if task is self._task else make(self._name, task, cap=self._cap)
+        return self._quick if task is self._task else make(IN_PROCESS, task, cap=self._cap)
 
     def resort(self, task: Task) -> Planner:
         """Return the planner that is asked where the quick one gave up."""
+        if task is not self._task:
+            soon = EachAlone(make(IN_PROCESS_FIRST, task, cap=SOON))
+            return InTurn((soon, make(IN_PROCESS_FIRST, task)))
         return last_resort(task) if self._name == IN_PROCESS else make(self._name, task)
 
 

@@ -123,11 +123,13 @@ class Question:
         text: The question.
         step: The index of the step in :attr:`Dialogue.steps`.
         options: The answers, the likeliest first.
+        taken: The index of the option that the plans are for, where nobody answered.
     """
 
     text: str
     step: int
     options: tuple[QuestionOption, ...]
+    taken: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -244,8 +246,13 @@ class Reader(Protocol):
         """Return why a plan that reaches all goals is not what was asked; ``None`` where nothing speaks against it."""
         ...
 
-    def revise(self, dialogue: Dialogue, reason: str) -> Dialogue | None:
-        """Read the request of ``dialogue`` once more, knowing why it has no plan or why its plan is not acceptable.
+    def revise(self, dialogue: Dialogue, reason: str, *, planned: bool = False) -> Dialogue | None:
+        """Read the request of ``dialogue`` once more.
+
+        Args:
+            dialogue: The last reading.
+            reason: Why there is no acceptable plan for it.
+            planned: Whether it has a plan, which met with :meth:`objection`.
 
         Returns:
             The new reading; ``None`` where the reader has nothing else to offer.

@@ -143,7 +143,7 @@ class RefusedTemplate(JsonRecord):
 class RefusedText(JsonRecord):
     """Why there is no plan for what was said, and what to say or do instead."""
 
-    clause: int = Field(ge=0)
+    clause: int | None = Field(ge=0, description="Null where it is about the whole request.")
     why: str
     message: str
     hint: str | None
@@ -175,11 +175,12 @@ class OptionRecord(JsonRecord):
 
 
 class QuestionRecord(JsonRecord):
-    """A question to the user that was not answered; the plans are for its first option."""
+    """A question to the user that was not answered."""
 
     text: str
     step: int = Field(ge=0)
     options: tuple[OptionRecord, ...]
+    taken: int = Field(0, ge=0, description="The index of the option that the plans are for.")
 
 
 class MadeWith(JsonRecord):

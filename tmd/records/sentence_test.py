@@ -30,7 +30,7 @@ class Outcome(StrEnum):
 class SentenceSummary(JsonRecord):
     """How many tests have each outcome; ``wrong_warned`` are the wrong ones that came with a warning.
 
-    The last four are of the language model, and are left out where none was asked.
+    The last five are of the language model, and are left out where none was asked.
     """
 
     n: int
@@ -43,6 +43,7 @@ class SentenceSummary(JsonRecord):
     prompt_tokens: int = 0
     completion_tokens: int = 0
     seconds: float = 0.0
+    cached: int = 0
     corrections: int = 0
 
 

@@ -82,6 +82,7 @@ def question_record(grounded: Grounded) -> QuestionRecord:
         text=question.text,
         step=question.step,
         options=tuple(OptionRecord(answer=text, goal=flat(option.formula)) for option, text in options),
+        taken=question.taken,
     )
 
 
@@ -141,7 +142,7 @@ def _other(lost: LostGoal) -> OtherGoal:
     return OtherGoal(pddl=flat(lost.formula), row=lost.row or None, why=lost.why)
 
 
-def _refused(refused: tuple[int, Refusal] | None) -> RefusedText | None:
+def _refused(refused: tuple[int | None, Refusal] | None) -> RefusedText | None:
     if refused is None:
         return None
     clause, reason = refused

@@ -383,7 +383,7 @@ def test_a_question_of_the_language_model_is_answered(browser: Browser, tmp_path
                 page.screenshot(path=screens / "15-reader.png")
                 page.get_by_text("Reader settings").click()
                 say(page, "Put it on the shelf.")
-                told(page, "It is for the likeliest meaning")
+                told(page, "It is for one of several meanings")
                 page.locator("ol:visible > li").last.get_by_text("Put cup1 on shelf1").wait_for()
                 page.get_by_text("What shall be put there, the cup or the book?", exact=True).wait_for()
                 page.screenshot(path=screens / "16-question.png")

@@ -30,7 +30,8 @@ if TYPE_CHECKING:
 @grounding_options
 @reading_options
 @click.option("--ask", is_flag=True, help="Ask on the terminal which of several readings is meant.")
-@click.option("--verbose", is_flag=True, help="Print what the language model took: tokens, seconds, corrections.")
+@click.option("--verbose", is_flag=True, help="Print tokens, seconds, corrections and reasons of the language model.")
+@click.option("--show-prompt", is_flag=True, help="Print the prompt for the language model, and send nothing.")
 @click.option("--goal-only", is_flag=True, help="Print what shall hold at the end as a PDDL problem, and no plan.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -44,6 +45,7 @@ def command(
     reading: ReadingOptions,
     ask: bool,
     verbose: bool,
+    show_prompt: bool,
     goal_only: bool,
     as_json: bool,
 ) -> ExitCode:
@@ -51,7 +53,7 @@ def command(
 
     What the words mean here is learned from the domain's demonstrations: now, or before by `tmd learn`, which saves
     the time. Ends with 12 where no plan was found, and with 15 where two readings of the request differ and nobody said
-    which one is meant; the plan is then for the likelier one.
+    which one is meant; the plan is then for the first one that has a plan.
     """
     from tmd.cli.show.grounding import grounded_text, remarks, whole_goal_text
     from tmd.inference.config import preset
@@ -62,6 +64,9 @@ def command(
     if ask and text_file == "-":
         raise click.UsageError("--ask reads answers from standard input, so the text cannot come from there")
     request = short_enough(said(text, text_file))
+    if show_prompt:
+        emit(_prompt(roots, request, environment, domain_name, reading))
+        return ExitCode.OK
     asking = _asking(roots, environment, domain_name) if ask else None
     found = answer(roots, request, environment, domain_name, options, reading, asking)
     grounded = found.grounded
@@ -73,6 +78,18 @@ def command(
     for line in remarks(grounded, verbose=verbose):
         emit(line, error=True)
     return found.code
+
+
+def _prompt(roots: Roots, request: str, environment: str, domain: str | None, reading: ReadingOptions) -> str:
+    """Return the messages that the language model would be sent first."""
+    from tmd.readers.llm.reader import llm_reader
+
+    settings = reading.settings()
+    if settings is None:
+        raise click.UsageError("--show-prompt is for --reader llm")
+    corpus, world = roots.world(environment, domain)
+    prompt = llm_reader(corpus, settings).prompt(request, world, world.task.init)
+    return f"{prompt.system}\n\n{prompt.user}\n"
 
 
 def _asking(roots: Roots, environment: str, domain: str | None) -> Ask:

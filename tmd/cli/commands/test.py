@@ -63,7 +63,9 @@ def command(
     }  # fmt: skip
     if compare is not None:
         readers = _two_readers(compare)
-        found = [_run(roots, tests, learned, {**options, "reader": reader}) for reader in readers]
+        model = {"reader": "llm", "llm": reading.model_settings()}
+        rules = {"reader": "rules", "llm": None, "verify": False}
+        found = [_run(roots, tests, learned, {**options, **(model if r == "llm" else rules)}) for r in readers]
         comparison = compared(found[0], found[1], readers)
         if as_json:
             emit_json(comparison.to_value())
@@ -149,7 +151,7 @@ def _total(results: Sequence[SentenceResult]) -> str:
         return line
     return (
         f"{line}; {counts.prompt_tokens} + {counts.completion_tokens} tokens, {counts.seconds:.1f} s, "
-        f"{counts.corrections} corrections"
+        f"{counts.cached} cached, {counts.corrections} corrected"
     )
 
 

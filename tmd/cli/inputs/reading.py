@@ -27,21 +27,28 @@ class ReadingOptions:
     llm_timeout: float = 600.0
     verify: bool = False
 
-    def settings(self) -> ModelSettings:
-        """Return how the language model is reached."""
+    def settings(self) -> ModelSettings | None:
+        """Return how the language model is reached; ``None`` where none is asked."""
+        return self.model_settings() if self.reader == "llm" else None
+
+    def model_settings(self) -> ModelSettings:
+        """Return how the language model is reached, whatever the reader is."""
         from tmd.readers.llm.client import ModelSettings
 
         return ModelSettings(self.llm_model, self.llm_url, cache=self.llm_cache, timeout=self.llm_timeout)
 
     def check(self) -> None:
-        """Refuse options of a language model where none is asked.
+        """Refuse options of a language model where none is asked, and settings with which none can be.
 
         Raises:
-            click.UsageError: There are such options.
+            click.UsageError: There are options for a language model without ``--reader llm``.
+            ModelError: There is no model, or no key for a server that needs one.
         """
         given = [f.name for f in fields(self) if f.name != "reader" and getattr(self, f.name) != f.default]
         if self.reader != "llm" and given:
             raise click.UsageError(f"--{given[0].replace('_', '-')} is for --reader llm")
+        if self.reader == "llm":
+            self.model_settings().resolved()
 
 
 _OPTIONS = (
@@ -79,7 +86,9 @@ def reading_options(command: _Command) -> Callable[..., Any]:
     @wraps(command)
     def bundled(*args: Any, **given: Any) -> Any:  # noqa: ANN401 - what the command takes and gives
         reading = ReadingOptions(**{field.name: given.pop(field.name) for field in fields(ReadingOptions)})
-        if not given.get("compare"):  # a comparison asks a language model whatever --reader says
+        if given.get("compare"):  # it asks a language model whatever --reader says
+            reading.model_settings().resolved()
+        else:
             reading.check()
         return command(*args, reading=reading, **given)
 
@@ -90,11 +99,20 @@ def reading_options(command: _Command) -> Callable[..., Any]:
 
 
 def ask_on_terminal(question: Question, texts: list[str]) -> int | None:
-    """Ask the user a question on standard error; ``None`` where standard input ends."""
+    """Ask the user a question on standard error; ``None`` for an empty line, and where standard input ends."""
     click.echo(question.text, err=True)
     for number, text in enumerate(texts, start=1):
         click.echo(f"  {number}. {text}", err=True)
-    try:
-        return int(click.prompt("Which one", type=click.IntRange(1, len(texts)), err=True)) - 1
-    except click.Abort:
-        return None
+    while True:
+        try:
+            given = click.prompt(
+                "Which one (nothing: the first that can be done)", default="", show_default=False, err=True
+            )
+        except click.Abort:
+            click.echo(err=True)
+            return None
+        if not given.strip():
+            return None
+        if given.strip().isdecimal() and 1 <= int(given) <= len(texts):
+            return int(given) - 1
+        click.echo(f"Give a number from 1 to {len(texts)}.", err=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import zip_longest
 
 from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded
@@ -13,7 +14,7 @@ from tmd.language.clause import Clause, Condition, Mood, Parsed, Quantifier, pri
 from tmd.pddl.model import Problem
 from tmd.pddl.validator import Verdict
 from tmd.pddl.writer import format_formula, format_problem
-from tmd.readers.interface import Usage
+from tmd.readers.interface import Question, Usage
 from tmd.view.goals import ShownGoal, in_words
 from tmd.view.grounding_record import flat, option_texts
 
@@ -120,11 +121,21 @@ def remarks(grounded: Grounded, *, verbose: bool = False) -> list[str]:
     """Return lines for standard error: warnings, a question, the model's effort, and why there is no plan."""
     lines = [f"warning: {warning}\n" for warning in grounded.warnings]
     if grounded.question is not None:
-        texts = option_texts(grounded.question, grounded.world.task.problem)
-        lines += [f"question: {grounded.question.text} {' / '.join(texts)} (answer with --ask)\n"]
+        lines.append(f"question: {_question_text(grounded.question, grounded.world.task.problem)}\n")
     if verbose and grounded.usage is not None:
-        lines += [f"{usage_text(grounded.usage)}\n", f"thoughts: {grounded.usage.thoughts}\n"]
+        thoughts = grounded.usage.thoughts
+        lines += [f"{usage_text(grounded.usage)}\n", *([f"thoughts: {thoughts}\n"] if thoughts else [])]
     return [*lines, f"no plan: {grounded.reason}\n"] if grounded.reason else lines
+
+
+def _question_text(question: Question, problem: Problem) -> str:
+    """Return a question on one line; the options before the one that was taken cannot be done."""
+    marks = [" (no plan)"] * question.taken + [" (taken)"]
+    options = [
+        f"{number}. {text}{mark}"
+        for number, (text, mark) in enumerate(zip_longest(option_texts(question, problem), marks, fillvalue=""), 1)
+    ]
+    return f"{question.text} {' '.join(options)}; choose with --ask"
 
 
 def usage_text(usage: Usage) -> str:
@@ -133,7 +144,7 @@ def usage_text(usage: Usage) -> str:
     return (
         f"model {usage.model}: {replies} {'reply' if replies == 1 else 'replies'} ({usage.cached} cached), "
         f"{usage.prompt_tokens} + {usage.completion_tokens} tokens, {usage.seconds:.1f} s, "
-        f"{usage.corrections} corrections"
+        f"{usage.corrections} correction{'' if usage.corrections == 1 else 's'}"
     )
 
 

@@ -5,17 +5,19 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.grounder import why_never
-from tmd.language.clause import Clause, Parsed, Skipped, Span
-from tmd.language.parser import is_filler
+from tmd.language.clause import Clause, Mood, Parsed, Skipped, Span
+from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.pronouns import is_pronoun
 from tmd.pddl.ground_formula import FALSE, TRUE, goal_cubes, instantiated
+from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Atom, Formula, GroundAtom, conjuncts
 from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.reading.syntax import nearest
+from tmd.pddl.task import Cube
 from tmd.pddl.writer import format_formula
 from tmd.readers.interface import CandidateGoal, PlanConstraints, Question, QuestionOption, Step
 from tmd.readers.llm.reply import Reply, ReplyConstraint, ReplyQuestion, ReplyRefusalKind, ReplyStep
@@ -25,6 +27,8 @@ SOURCE = "model"
 """The source of goals that a language model proposed."""
 _MOST_STEPS = 40
 _MOST_OPTIONS = 4
+_MOST_NOUNS = 40
+_LONGEST_VERB = 60
 _UNCOVERED = "no step of the reading covers it"
 _KINDS = {
     ReplyRefusalKind.MISSING: RefusalKind.NO_SUCH_THING,
@@ -99,36 +103,60 @@ class ReplyChecker:
         if len(reply.steps) > _MOST_STEPS:
             return [f"the reply has {len(reply.steps)} steps, more than {_MOST_STEPS}"]
         clauses = tuple(self._clause(step, f"steps[{n}]") for n, step in enumerate(reply.steps))
-        question, options = self._question(reply.questions, len(reply.steps))
-        steps = [self._step(step, clauses[n], n, options.get(n, ())) for n, step in enumerate(reply.steps)]
+        vias = [self._via(step, f"steps[{n}]") for n, step in enumerate(reply.steps)]
+        question, options = self._question(reply.questions, vias)
+        steps = [self._step(reply.steps, n, clauses[n], vias[n], options.get(n, ())) for n in range(len(clauses))]
         if reply.final is not None and steps:
             steps.append(self._final(reply.final, len(clauses) - 1))
-        constraints = self._constraints(reply.constraints)
+        elif reply.final is not None:
+            self.faults.append("final: there are no steps; write what must hold as the goal of a step")
+        if steps and all(candidate.formula == TRUE for step in steps for candidate in step.candidates):
+            self.faults.append("the goals hold in every state; say what must be true, or refuse the request")
+        constraints, avoided = self._constraints(reply.constraints)
         if self.faults:
             return self.faults
-        quotations = [s.text for s in reply.steps] + [c.text for c in reply.constraints]
-        spans = [span for span in map(self._span, quotations) if span is not None]
-        parsed = Parsed(self.request, clauses, self._uncovered(spans))
+        skipped = self._uncovered([clause.span for clause in (*clauses, *avoided)])
+        turning = [piece.text for piece in skipped if _turns(piece.text)]
+        if turning and not avoided and not any(step.when is not None or step.otherwise for step in steps):
+            return [
+                f"no step and no constraint covers '{_short(text)}', which changes what is asked" for text in turning
+            ]
+        parsed = Parsed(self.request, clauses, skipped, avoided)
         return ModelReading(parsed, tuple(steps), constraints, question=question, thoughts=thoughts)
 
     # ------------------------------------------------------------------ the parts of a reply
 
     def _clause(self, step: ReplyStep, place: str) -> Clause:
-        span = self._span(step.text)
-        if span is None:
-            self.faults.append(f"{place}.text: '{_short(step.text)}' is not a quotation of the request")
-            span = Span(0, 0)
+        span = self._quoted(step.text, place)
         verb = "_".join(_WORD.findall(step.verb.lower())) or "do"
         nouns = dict.fromkeys("_".join(_WORD.findall(noun.lower())) for noun in step.objects)
-        objects = tuple(noun for noun in nouns if noun and not is_pronoun(noun))
+        if len(verb) > _LONGEST_VERB or len(nouns) > _MOST_NOUNS:
+            self.faults.append(f"{place}: a verb of {len(verb)} letters and {len(nouns)} objects are too many")
+        objects = tuple(noun for noun in nouns if noun and ("_" in noun or not is_pronoun(noun)))
         return Clause(verb, objects, span=span, text=self.request[span.start : span.end], direct=objects)
 
-    def _step(self, step: ReplyStep, clause: Clause, number: int, options: Sequence[CandidateGoal]) -> ModelStep:
-        place = f"steps[{number}]"
+    def _via(self, step: ReplyStep, place: str) -> tuple[Formula, ...]:
+        """Return the conditions to pass through on the way to the goal of a step."""
+        found = []
+        for number, text in enumerate(step.via):
+            formula = self._reachable(text, f"{place}.via[{number}]")
+            if formula is not None and self._cubes(formula, f"{place}.via[{number}]"):
+                found.append(formula)
+        return tuple(found)
+
+    def _step(
+        self,
+        steps: Sequence[ReplyStep],
+        number: int,
+        clause: Clause,
+        via: tuple[Formula, ...],
+        options: Sequence[CandidateGoal],
+    ) -> ModelStep:
+        step, place = steps[number], f"steps[{number}]"
         when = None if step.when is None else self._condition(step.when, f"{place}.when")
-        via = tuple(f for n, v in enumerate(step.via) if (f := self._reachable(v, f"{place}.via[{n}]")) is not None)
-        if step.otherwise and number == 0:
-            self.faults.append(f"{place}.otherwise: there is no step before it")
+        before = steps[number - 1] if number else None
+        if step.otherwise and (before is None or (before.when is None and not before.otherwise)):
+            self.faults.append(f"{place}.otherwise: the step before it has no condition")
         # a goal behind a guard need not be reachable: it is never asked for where the guard fails
         guarded = step.when is not None or step.otherwise
         read = self._condition if guarded else self._reachable
@@ -149,46 +177,68 @@ class ReplyChecker:
     def _candidate(
         self, formula: Formula, via: Sequence[Formula], place: str, prior: float = 0.0
     ) -> CandidateGoal | None:
+        cubes = self._cubes(formula, place)
+        if not cubes and formula != FALSE:
+            return None
+        return CandidateGoal(formula, cubes, prior, tuple(via), source=SOURCE)
+
+    def _cubes(self, formula: Formula, place: str) -> tuple[Cube, ...]:
+        """Return the cases of a condition; without any, that is a fault, unless the condition is plainly false."""
         try:
             cubes = goal_cubes(self.task, formula)
         except TmdError as error:
             self.faults.append(f"{place}: {error.message}")
-            return None
+            return ()
         if not cubes and formula != FALSE:
             self.faults.append(f"{place}: it contradicts itself")
-            return None
-        return CandidateGoal(formula, cubes, prior, tuple(via), source=SOURCE)
+        return cubes
 
-    def _constraints(self, given: Sequence[ReplyConstraint]) -> PlanConstraints:
+    def _constraints(self, given: Sequence[ReplyConstraint]) -> tuple[PlanConstraints, tuple[Clause, ...]]:
+        """Return the constraints, and a clause for each to show it."""
         never: list[Formula] = []
         untouched: set[str] = set()
+        avoided: list[Clause] = []
         objects = self.world.profiles.objects
         for number, constraint in enumerate(given):
             place = f"constraints[{number}]"
-            if self._span(constraint.text) is None:
-                self.faults.append(f"{place}.text: '{_short(constraint.text)}' is not a quotation of the request")
+            span = self._quoted(constraint.text, place)
+            said = self.request[span.start : span.end]
+            shown = Clause("avoid", span=span, text=said, mood=Mood.AVOID)
+            if constraint.untouched:
+                avoided.append(replace(shown, verb="touch", objects=tuple(dict.fromkeys(constraint.untouched))))
             if constraint.never is not None:
+                avoided.append(replace(shown, condition=" ".join(constraint.never.split())))
                 formula = self._condition(constraint.never, f"{place}.never")
                 if formula == TRUE:
                     self.faults.append(f"{place}.never: it always holds, so no plan can avoid it")
                 elif formula is not None and formula != FALSE:
                     never.append(formula)
+                    self._few_cases(formula, f"{place}.never")
+            elif not constraint.untouched:
+                self.faults.append(f"{place}: it forbids nothing; give never or untouched")
             for name in constraint.untouched:
                 if name in objects:
                     untouched.update((name, *(part for _, part in self.world.profiles.parts.get(name, ()))))
                 else:
                     hint = nearest(name, objects)
                     self.faults.append(f"{place}.untouched: there is no object '{_short(name)}'" + _in_brackets(hint))
-        return PlanConstraints(tuple(never), untouched=frozenset(untouched))
+        return PlanConstraints(tuple(never), untouched=frozenset(untouched)), tuple(avoided)
+
+    def _few_cases(self, formula: Formula, place: str) -> None:
+        """Report a prohibition with too many cases: none of them may be left out."""
+        try:
+            ground_condition(self.task, formula)
+        except TmdError as error:
+            self.faults.append(f"{place}: {error.message}")
 
     def _question(
-        self, given: Sequence[ReplyQuestion], steps: int
+        self, given: Sequence[ReplyQuestion], vias: Sequence[tuple[Formula, ...]]
     ) -> tuple[Question | None, dict[int, tuple[CandidateGoal, ...]]]:
         """Return the first question, and its options as the candidate goals of its step."""
         if not given:
             return None, {}
         asked = given[0]
-        if not 0 <= asked.step < steps or not 2 <= len(asked.options) <= _MOST_OPTIONS:
+        if not 0 <= asked.step < len(vias) or not 2 <= len(asked.options) <= _MOST_OPTIONS:
             self.faults.append(f"questions[0]: it needs the number of a step and 2 to {_MOST_OPTIONS} options")
             return None, {}
         candidates: dict[Formula, tuple[str, CandidateGoal]] = {}
@@ -196,10 +246,11 @@ class ReplyChecker:
             place = f"questions[0].options[{number}].goal"
             formula = self._condition(option.goal, place)
             prior = -(number + 1) * math.log(2)  # the model names the likeliest first, and no numbers
-            candidate = None if formula is None else self._candidate(formula, (), place, prior)
+            candidate = None if formula is None else self._candidate(formula, vias[asked.step], place, prior)
             if candidate is not None:
                 candidates.setdefault(candidate.formula, (_short(option.answer), candidate))
         if len(candidates) < 2:
+            self.faults.append("questions[0]: its options do not have two different goals; ask nothing then")
             return None, {}
         options = tuple(QuestionOption(answer, formula) for formula, (answer, _) in candidates.items())
         goals = tuple(candidate for _, candidate in candidates.values())
@@ -246,12 +297,19 @@ class ReplyChecker:
             found = re.search(pattern, self.request, re.IGNORECASE) if pattern else None
         return None if found is None else Span(*found.span())
 
+    def _quoted(self, text: str, place: str) -> Span:
+        """Return where a quotation stands in the request; where it does not, that is a fault."""
+        span = self._span(text)
+        if span is None:
+            self.faults.append(f"{place}.text: '{_short(text)}' is not a quotation of the request")
+        return span or Span(0, 0)
+
     def _uncovered(self, spans: Sequence[Span]) -> tuple[Skipped, ...]:
         """Return the runs of words with a meaning that no quotation covers."""
         found: list[Span] = []
         for match in _WORD.finditer(self.request):
             covered = any(span.start <= match.start() and match.end() <= span.end for span in spans)
-            if covered or is_filler(match[0]):
+            if covered or match[0].lower() in section("idle"):
                 continue
             if found and not self.request[found[-1].end : match.start()].strip():
                 found[-1] = Span(found[-1].start, match.end())
@@ -260,10 +318,15 @@ class ReplyChecker:
         return tuple(Skipped(self.request[s.start : s.end], s, _UNCOVERED) for s in found)
 
 
+def _turns(text: str) -> bool:
+    """Return whether words change what the words beside them ask for: *not*, *if*, *except*."""
+    return any(word.lower().replace("\u2019", "'") in section("turning") for word in _WORD.findall(text))
+
+
 def _fault(error: TmdError, place: str) -> str:
     hint = f" ({error.hint})" if error.hint else ""
     where = f"{place}, column {error.location.column}" if error.location is not None else place
-    return f"{where}: {error.message}{hint}"
+    return _short(f"{where}: {error.message}{hint}")
 
 
 def _in_brackets(hint: str | None) -> str:

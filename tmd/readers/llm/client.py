@@ -10,12 +10,13 @@ import json
 import os
 import re
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast
+from threading import Thread
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
 from tmd.diagnostics import ExitCode, MissingToolError, OutputError, TmdError
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
@@ -30,7 +31,11 @@ KEY, URL, MODEL = "OPENAI_API_KEY", "OPENAI_BASE_URL", "OPENAI_MODEL"
 _NO_KEY = "none"
 """The key that is sent to servers that need none."""
 _RETRIES = 2
-_ADDRESS = re.compile(r"https?://([!-~]+@)?(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
+LONGEST = 86_400.0
+"""The longest time-out, in seconds."""
+_ADDRESS = re.compile(r"https?://(\[[\da-f:]+\]|[\w.-]+)(:\d{1,5})?(/[!-~]*)?", re.ASCII | re.IGNORECASE)
+_SECRET = re.compile(r"[!-~]+")
+_WAIT = re.compile(r"\d{1,6}")
 _MAY_BE_REFUSED = ("response_format", "seed", "temperature")
 """Parameters that some models refuse; a request is repeated without them."""
 
@@ -80,15 +85,23 @@ class ModelSettings:
 
         Raises:
             ModelError: There is no model, or no key for a server that needs one.
+            TmdError: A setting has no such value.
         """
+        if self.cache not in get_args(CacheMode):
+            raise TmdError(f"there is no cache mode '{self.cache}'", hint=", ".join(get_args(CacheMode)))
+        if not 0 < self.timeout <= LONGEST:
+            raise TmdError(f"a time-out of {self.timeout:g} s cannot be kept", hint=f"more than 0, at most {LONGEST:g}")
         model = self.model or os.environ.get(MODEL)
         url = self.url or os.environ.get(URL)
-        key = self.key or os.environ.get(KEY)
+        key = (self.key or os.environ.get(KEY) or "").strip()
         if not model:
             raise ModelError("no language model is named", hint=f"name one, or set ${MODEL}")
         if url and not _ADDRESS.fullmatch(url):
-            shown = re.sub("//.*@", "//", url)[:200]  # without a password
-            raise ModelError(f"'{shown}' is not the address of a server", hint="such as http://localhost:8000/v1")
+            shown = re.sub("//.*@", "//", url)[:200]
+            hint = f"such as http://localhost:8000/v1, without a password: the key is in ${KEY}"
+            raise ModelError(f"'{shown}' is not the address of a server", hint=hint)
+        if key and not _SECRET.fullmatch(key):
+            raise ModelError("the key has characters that no key has", hint=f"check ${KEY}")
         if not key and not url and self.cache != "only":
             raise ModelError("there is no key for the language model", hint=f"set ${KEY}, or name another server")
         return ModelSettings(model, url, key or _NO_KEY, self.cache, self.timeout, self.seed)
@@ -147,7 +160,8 @@ class ModelClient:
         if self.settings.cache != "off" and (kept := _recall(digest)) is not None:
             return kept
         if self.settings.cache == "only":
-            raise ModelError(f"there is no cached reply {digest[:12]}", hint="run once without --llm-cache only")
+            message = f"the model '{self.model}' has no cached reply to this request ({digest[:12]})"
+            raise ModelError(message, hint="run once without --llm-cache only")
         began = time.monotonic()
         text, used = self._ask(messages, name, schema)
         found = Completion(text, digest, *used, round(time.monotonic() - began, 3))
@@ -181,15 +195,16 @@ class ModelClient:
                         api_key=own.key, base_url=own.url, timeout=own.timeout, max_retries=_RETRIES
                     )
                 said = cast(Any, list(messages))
-                answer = self._client.chat.completions.create(model=self.model, messages=said, **options)
+                create = partial(self._client.chat.completions.create, model=self.model, messages=said, **options)
+                answer = _within(create, (_RETRIES + 1) * self.settings.timeout)
                 break
             except openai.APIStatusError as error:
                 refused = _refused_parameter(error.status_code, str(error), options)
                 if refused is None:
                     raise self._status_error(error.status_code, str(error), error.response.headers) from None
                 self._refused.add(refused)
-            except openai.APITimeoutError:
-                message = f"no reply within {self.settings.timeout:.0f} s from {self._place()}"
+            except (openai.APITimeoutError, TimeoutError):
+                message = f"no reply within {self.settings.timeout:g} s from {self._place()}"
                 raise ModelError(message, hint="try again later, or allow more time", passing=True) from None
             except openai.APIConnectionError as error:
                 reason = self._scrubbed(str(error.__cause__ or error))
@@ -211,11 +226,13 @@ class ModelClient:
         used = getattr(answer, "usage", None)
         counts = (getattr(used, name, 0) or 0 for name in ("prompt_tokens", "completion_tokens"))
         sent, received = (count if isinstance(count, int) else 0 for count in counts)
-        return text, (sent, received)
+        return _encodable(text), (sent, received)
 
     def _status_error(self, status: int, message: str, headers: Mapping[str, str]) -> ModelError:
         place, told = self._place(), self._scrubbed(message)
         if status == 401:
+            if self.settings.key == _NO_KEY:
+                return ModelError(f"{place} wants a key (401)", hint=f"set ${KEY}")
             return ModelError(f"{place} refuses the key (401)", hint=f"check ${KEY}")
         if status == 404:
             return ModelError(
@@ -223,11 +240,12 @@ class ModelClient:
                 hint="check the name of the model and the address of the server",
             )
         if status == 429:
-            wait = headers.get("retry-after")
-            again = f"; it asks to wait {wait} s" if wait else ""
+            wait = headers.get("retry-after", "")
+            again = f"; it asks to wait {wait} s" if _WAIT.fullmatch(wait) else ""
             message = f"{place} has no room for this request now (429){again}"
             return ModelError(message, hint="try again later", passing=True)
-        return ModelError(f"{place} answers with status {status}: {told}", passing=status >= 500)
+        hint = "look at the server's log" if status >= 500 else None
+        return ModelError(f"{place} answers with status {status}: {told}", hint=hint, passing=status >= 500)
 
     def _place(self) -> str:
         return self.settings.url or "the OpenAI server"
@@ -237,6 +255,37 @@ class ModelClient:
         key = self.settings.key or ""
         line = " ".join("".join(c if c.isprintable() else " " for c in text).split())
         return (line.replace(key, "***") if len(key) > 4 else line)[:300]
+
+
+def _within(call: Callable[[], Any], seconds: float) -> Any:  # noqa: ANN401 - what the client returns
+    """Return the result of a call.
+
+    Raises:
+        TimeoutError: There was none in time. A server that sends a byte now and then never exceeds the client's own
+            limits.
+    """
+    results: list[Any] = []
+    errors: list[BaseException] = []
+
+    def run() -> None:
+        try:
+            results.append(call())
+        except BaseException as error:  # for the thread that waits
+            errors.append(error)
+
+    thread = Thread(target=run, daemon=True)
+    thread.start()
+    thread.join(seconds)
+    if errors:
+        raise errors[0]
+    if not results:
+        raise TimeoutError
+    return results[0]
+
+
+def _encodable(text: str) -> str:
+    """Return a text without lone surrogates, which JSON may contain and UTF-8 may not."""
+    return text.encode("utf-8", "replace").decode()
 
 
 def _refused_parameter(status: int, message: str, options: Mapping[str, Any]) -> str | None:
@@ -260,10 +309,9 @@ def _recall(digest: str) -> Completion | None:
         return None
     try:
         kept = json.loads(read_bytes(path))
-        return Completion(
-            str(kept["reply"]), digest, int(kept["prompt_tokens"]), int(kept["completion_tokens"]), cached=True
-        )
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        counts = int(kept["prompt_tokens"]), int(kept["completion_tokens"])
+        return Completion(_encodable(str(kept["reply"])), digest, *counts, cached=True)
+    except (OSError, ValueError, KeyError, TypeError, OverflowError, RecursionError):
         return None
 
 

@@ -37,10 +37,11 @@ _EXAMPLES = "Requests in other environments, with what holds when all of their s
 
 @dataclass(frozen=True, slots=True)
 class SentenceExample:
-    """A request with its goal, from the sentence tests of a domain; ``None`` where it must be refused."""
+    """A request in an environment with its goal, from the sentence tests of a domain."""
 
     request: str
-    goal: str | None
+    environment: str
+    goal: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,12 +51,14 @@ class Prompt:
     Attributes:
         system: Rules and domain: the same for all requests of a domain.
         user: Environment and request.
+        domain: The part of ``system`` about the domain alone.
         environment: The part of ``user`` about the environment alone.
         notes: What was left out.
     """
 
     system: str
     user: str
+    domain: str
     environment: str
     notes: tuple[str, ...] = ()
 
@@ -83,7 +86,7 @@ def prompt_for(
         world: The environment.
         state: Its state.
         lexicon: The words of the domain.
-        examples: Requests of the domain with their goals; the request itself is never among those that are shown.
+        examples: Requests of the domain with their goals; those in the same environment are not shown.
     """
     domain = world.task.problem.domain
     shown = _shown(request, world, state)
@@ -94,7 +97,7 @@ def prompt_for(
         actions="\n".join(map(_action, domain.actions)),
     )
     system = f"{sections()['system']}\n\n{described}"
-    near = list(_chosen(request, examples))
+    near = list(_chosen(request, world.name, examples))
     parts = {
         "request": one_line(request),
         "environment": world.name,
@@ -111,7 +114,7 @@ def prompt_for(
     notes = (f"the language model was shown {len(shown)} of {len(shown) + hidden} objects",) if hidden else ()
     if hidden:
         user = f"Only objects that the request may concern are shown; {hidden} others are left out.\n\n{user}"
-    return Prompt(system, user, alone, notes)
+    return Prompt(system, user, described, alone, notes)
 
 
 def one_line(text: str) -> str:
@@ -255,12 +258,17 @@ def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]
     words = _words(request)
     rows = _verb_rows(words, lexicon)
     if rows:
-        yield "verbs; (was f): f held when the step began, (first f): before the request; write neither, name objects"
+        yield (
+            "Verbs. (was f) means that f held when the step began, (first f) that it held before the request. "
+            "Do not write was or first in a goal; name the objects instead."
+        )
         yield from rows
-    yield from _noun_senses(words, domain, lexicon)
-    for row in lexicon.attributes:
-        if row.pattern in words:
-            yield f"  {row.pattern}: {' '.join(row.condition.split())}"
+    nouns = list(_noun_senses(words, domain, lexicon))
+    if nouns:
+        yield from ("Nouns, the likeliest sense first.", *nouns)
+    adjectives = [f"  {r.pattern}: {' '.join(r.condition.split())}" for r in lexicon.attributes if r.pattern in words]
+    if adjectives:
+        yield from ("Adjectives.", *adjectives)
 
 
 def _verb_rows(words: Sequence[str], lexicon: Lexicon) -> list[str]:
@@ -270,7 +278,8 @@ def _verb_rows(words: Sequence[str], lexicon: Lexicon) -> list[str]:
     rows = [
         f"  {row.pattern}: {' '.join(row.condition.split())}"
         for row in lexicon.goals
-        if any(verb.split("_")[0] in stems for verb in row.pattern.split()[0].split("|"))
+        if " ".join(row.condition.split()) != "(and)"
+        and any(verb.split("_")[0] in stems for verb in row.pattern.split()[0].split("|"))
     ]
     short = [row for row in rows if len(row) <= _LONGEST_ROW][:_MOST_ROWS]
     while sum(map(len, short)) > _MOST_OF_ROWS:
@@ -287,15 +296,15 @@ def _noun_senses(words: Sequence[str], domain: Domain, lexicon: Lexicon) -> Iter
         if noun in lexicon.groups:
             yield f"  {noun}: all of {', '.join(lexicon.groups[noun])}"
         elif set(senses) - {noun}:
-            yield f"  {noun}: {', '.join([s for s in senses if s in names] or senses)}, the likeliest first"
+            yield f"  {noun}: {', '.join([s for s in senses if s in names] or senses)}"
 
 
-def _chosen(request: str, examples: Sequence[SentenceExample]) -> Iterable[str]:
-    """Yield the examples with a goal that share most words with a request, never the request itself."""
+def _chosen(request: str, environment: str, examples: Sequence[SentenceExample]) -> Iterable[str]:
+    """Yield the examples of other environments that share most words with a request, never the request itself."""
     own = set(_words(request))
-    others = [e for e in examples if set(_words(e.request)) != own]
+    others = [e for e in examples if e.environment != environment and set(_words(e.request)) != own]
     near = sorted(others, key=lambda e: (-len(own.intersection(_words(e.request))), len(e.request), e.request))
-    short = (e for e in near if e.goal is not None and len(e.goal) <= _LONGEST_ROW)
+    short = (e for e in near if len(e.goal) <= _LONGEST_ROW)
     for example in islice(short, _MOST_EXAMPLES):
         yield f"  {one_line(example.request)} => {example.goal}"
 

@@ -48,7 +48,7 @@ def llm_reader(corpus: Corpus, settings: ModelSettings, *, verify: bool = False)
         TmdError: A file of sentence tests is wrong.
     """
     tests = [t for path in sorted(corpus.directory.glob(f"*{SUFFIX}")) for t in read_sentences(path)]
-    examples = [SentenceExample(test.text, test.goal) for test in tests]
+    examples = [SentenceExample(t.text, t.environment, t.goal) for t in tests if t.goal is not None]
     return LLMReader(ModelClient(settings), corpus.lexicon, examples, verify=verify)
 
 
@@ -77,9 +77,13 @@ class LLMReader:
             ModelError: The model cannot be asked, or gives no answer.
             MissingToolError: The package ``openai`` is not installed.
         """
-        prompt = prompt_for(request, world, state, self._lexicon, self._examples)
+        prompt = self.prompt(request, world, state)
         messages = ({"role": "system", "content": prompt.system}, {"role": "user", "content": prompt.user})
         return self._read(request, world, prompt, messages, Usage(self._client.model))
+
+    def prompt(self, request: str, world: World, state: Bits) -> Prompt:
+        """Return the prompt for a request that is made in ``state``."""
+        return prompt_for(request, world, state, self._lexicon, self._examples)
 
     def objection(self, dialogue: Dialogue, plan: Sequence[Instruction], world: World) -> str | None:
         """Return why the model thinks that a plan is not what was asked; ``None`` where it agrees or is not asked.
@@ -87,13 +91,14 @@ class LLMReader:
         Raises:
             ModelError: As :meth:`begin`.
         """
-        if not self._verify or not isinstance(dialogue, LLMDialogue) or not plan:
+        if not self._verify or not isinstance(dialogue, LLMDialogue):
             return None
         added, deleted = changes(world, plan)
         text = filled(
             "verify",
+            domain_text=dialogue.prompt.domain,
             environment_text=dialogue.prompt.environment,
-            plan=" ".join(instruction.pddl() for instruction in plan),
+            plan=" ".join(instruction.pddl() for instruction in plan) or "no action",
             added=added,
             deleted=deleted,
             request=one_line(dialogue.parsed.text),
@@ -106,8 +111,8 @@ class LLMReader:
             return f"the plan could not be verified: {error.message}"
         return None if judgement.correct else one_line(judgement.reason)[:300] or "no reason was given"
 
-    def revise(self, dialogue: Dialogue, reason: str) -> LLMDialogue | None:
-        """Ask the model for another reading, telling it why the last one has no acceptable plan.
+    def revise(self, dialogue: Dialogue, reason: str, *, planned: bool = False) -> LLMDialogue | None:
+        """Ask the model for another reading, with the reason why the last one has no acceptable plan.
 
         Raises:
             ModelError: As :meth:`begin`.
@@ -115,7 +120,8 @@ class LLMReader:
         assert isinstance(dialogue, LLMDialogue)
         if dialogue.usage.corrections >= MOST_CORRECTIONS:
             return None
-        messages = (*dialogue.messages, _user(filled("unreachable", reason=reason)))
+        section = "objection" if planned else "unreachable"
+        messages = (*dialogue.messages, _user(filled(section, reason=one_line(reason))))
         usage = replace(dialogue.usage, corrections=dialogue.usage.corrections + 1)
         return self._read(dialogue.parsed.text, dialogue.world, dialogue.prompt, messages, usage)
 
@@ -131,7 +137,7 @@ class LLMReader:
             try:
                 found = checker.read(read_reply(answer.text))
             except TmdError as error:
-                found = [error.message]
+                found = [error.message, *([error.hint] if error.hint else [])]
                 messages = (*messages[:-1], {"role": "assistant", "content": answer.text[:2000]})
             if isinstance(found, ModelReading):
                 return LLMDialogue(found, world, prompt, messages, replace(usage, thoughts=found.thoughts))
@@ -150,12 +156,12 @@ class _Guard:
     """The last guard, and whether it held.
 
     Attributes:
-        when: The guard of the step before; ``None`` where that had none.
-        held: Whether the last guard held when it was evaluated; ``None`` where there was none yet.
+        of: The guard of the step before, after whether that was an *otherwise*; ``None`` where it had none.
+        held: Whether it held when it was evaluated.
     """
 
-    when: Formula | None = None
-    held: bool | None = None
+    of: tuple[bool, Formula] | None = None
+    held: bool = False
 
 
 class LLMDialogue:
@@ -227,17 +233,17 @@ class LLMDialogue:
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the candidate goals of a step, if its guard holds in ``state``."""
         assert isinstance(step, ModelStep) and isinstance(memory, _Guard)
-        if step.otherwise:
-            if memory.held is not False:
-                return StepGoals((), memory, "the condition before it held")
-            return StepGoals(step.candidates, memory)
-        if step.when is None:
-            return StepGoals(step.candidates, replace(memory, when=None))
-        if step.when != memory.when:  # steps that share a guard share its evaluation
-            memory = _Guard(step.when, holds_in(self.world.task, step.when, state))
-        return (
-            StepGoals(step.candidates, memory) if memory.held else StepGoals((), memory, "the condition does not hold")
-        )
+        if step.when is None and not step.otherwise:
+            return StepGoals(step.candidates, _Guard())
+        own = None if step.when is None else (step.otherwise, step.when)
+        shared = own is not None and own == memory.of  # steps that share a guard share its evaluation
+        if step.otherwise and not shared and memory.held:
+            return StepGoals((), memory, "the condition before it held")
+        if own is not None and not shared:
+            memory = _Guard(own, holds_in(self.world.task, own[1], state))
+        if own is not None and not memory.held:
+            return StepGoals((), memory, "the condition does not hold")
+        return StepGoals(step.candidates, memory)
 
     def reached(self, goal: CandidateGoal, state: Bits, memory: object) -> object:
         """Return the memory as it is: the model has named its objects."""

@@ -131,7 +131,7 @@ def _json_of(text: str) -> object:
     fenced = _FENCE.match(text)
     body = (fenced[1] if fenced else text).strip()
     if not body.startswith("{"):
-        raise TmdError("the reply is not a JSON object; write the object and nothing else")
+        raise TmdError("the reply is not a JSON object", hint="write the object and nothing else")
     try:
         return json.loads(body)
     except RecursionError:

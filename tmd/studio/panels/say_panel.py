@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.export.end_goal import asked_problem
-from tmd.grounded import Grounded
+from tmd.grounded import Grounded, why_refused
 from tmd.inference.energy import meaning, title
 from tmd.inference.ranking import PlanStep, RankedPlan, RejectedProposal
 from tmd.pddl.model import Formula, Instruction
@@ -435,8 +435,8 @@ class SayPanel:
             clause, refused = grounded.refused
             shown = "show it under Demonstrate" if refused.kind is RefusalKind.UNKNOWN_VERB else None
             hint = "; or ".join(filter(None, (refused.hint, shown, tried)))
-            message = refused.message.removesuffix(".")  # a language model's own sentence has one
-            visitor.tell(f"No plan: clause {clause + 1}: {message}.", hint, fault=True)
+            message = why_refused(clause, refused.message.removesuffix("."), None)
+            visitor.tell(f"No plan: {message}.", hint, fault=True)
         elif not parsed.clauses and parsed.text.rstrip().endswith("?"):
             visitor.tell(f"No plan: this is a question; {grounded.reason}.", tried, fault=True)
         else:
@@ -632,7 +632,7 @@ class SayPanel:
 _IDLE = "There is nothing to do: it is so already."
 _FORBIDDEN = "This only forbids something, so nothing is done; say it together with what is to be done."
 _OTHER = "It gives another plan now than the one that you looked at before."
-_ASKED = "It is for the likeliest meaning; the question below has the others."
+_ASKED = "It is for one of several meanings; the question below has the others."
 _URL_HINT = f"${URL}, or else OpenAI's, if empty. The key in ${KEY} goes only to the server that ${URL} names."
 _LATER = "The rest is learned in the background; the sentence is planned once more at its end."
 
