@@ -89,7 +89,7 @@ def ground(
     dialogue = reader.begin(request, world, world.task.init)
     found, question = _asked(dialogue, inferred, ask or _nobody)
     while (objection := _objection(reader, dialogue, found, world)) is not None:
-        again = reader.revise(dialogue, objection.message, planned=bool(found.plans))
+        again = reader.revise(dialogue, objection.message)
         if again is None:
             number = found.refused[0] if found.refused is not None else None
             found = replace(found, plans=(), refused=(number, objection))

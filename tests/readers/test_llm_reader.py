@@ -18,7 +18,7 @@ from tmd.pddl.semantics import holds
 from tmd.readers.llm.checking import ModelReading, ReplyChecker
 from tmd.readers.llm.client import ModelSettings
 from tmd.readers.llm.prompt import SentenceExample, one_line, prompt_for
-from tmd.readers.llm.reader import MOST_CORRECTIONS
+from tmd.readers.llm.reader import MOST_CORRECTIONS, LLMDialogue
 from tmd.readers.llm.reply import read_reply
 from tmd.veil.sentence_file import SentenceTest, read_sentences
 
@@ -274,6 +274,8 @@ def test_a_plan_that_the_model_does_not_accept_is_refused(ask: Ask) -> None:
     )
     grounded = ask(TABLE, text, good, no, good, no, good, no, verify=True)
     assert grounded.plans == () and grounded.reason == "the plan is not what was asked: Wrong cup."
+    assert isinstance(grounded.dialogue, LLMDialogue)
+    assert "A check of the plan" in grounded.dialogue.messages[-2]["content"]
     yes = json.dumps({"thoughts": "", "correct": True, "reason": ""})
     assert steps(ask(TABLE, text, good, yes, verify=True))
 

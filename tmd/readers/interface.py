@@ -246,13 +246,8 @@ class Reader(Protocol):
         """Return why a plan that reaches all goals is not what was asked; ``None`` where nothing speaks against it."""
         ...
 
-    def revise(self, dialogue: Dialogue, reason: str, *, planned: bool = False) -> Dialogue | None:
-        """Read the request of ``dialogue`` once more.
-
-        Args:
-            dialogue: The last reading.
-            reason: Why there is no acceptable plan for it.
-            planned: Whether it has a plan, which met with :meth:`objection`.
+    def revise(self, dialogue: Dialogue, reason: str) -> Dialogue | None:
+        """Read the request of ``dialogue`` once more, knowing why it has no plan or why its plan is not acceptable.
 
         Returns:
             The new reading; ``None`` where the reader has nothing else to offer.

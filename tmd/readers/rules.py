@@ -77,7 +77,7 @@ class RuleReader:
         """Return ``None``: rules trust their goals."""
         return None
 
-    def revise(self, dialogue: Dialogue, reason: str, *, planned: bool = False) -> Dialogue | None:
+    def revise(self, dialogue: Dialogue, reason: str) -> Dialogue | None:
         """Return ``None``: rules have no second reading to offer."""
         return None
 

@@ -108,10 +108,12 @@ class LLMReader:
         try:
             judgement = read_judgement(answer.text)
         except TmdError as error:
+            dialogue.rejected = True
             return f"the plan could not be verified: {error.message}"
-        return None if judgement.correct else one_line(judgement.reason)[:300] or "no reason was given"
+        dialogue.rejected = not judgement.correct
+        return (one_line(judgement.reason)[:300] or "no reason was given") if dialogue.rejected else None
 
-    def revise(self, dialogue: Dialogue, reason: str, *, planned: bool = False) -> LLMDialogue | None:
+    def revise(self, dialogue: Dialogue, reason: str) -> LLMDialogue | None:
         """Ask the model for another reading, with the reason why the last one has no acceptable plan.
 
         Raises:
@@ -120,7 +122,7 @@ class LLMReader:
         assert isinstance(dialogue, LLMDialogue)
         if dialogue.usage.corrections >= MOST_CORRECTIONS:
             return None
-        section = "objection" if planned else "unreachable"
+        section = "objection" if dialogue.rejected else "unreachable"
         messages = (*dialogue.messages, _user(filled(section, reason=one_line(reason))))
         usage = replace(dialogue.usage, corrections=dialogue.usage.corrections + 1)
         return self._read(dialogue.parsed.text, dialogue.world, dialogue.prompt, messages, usage)
@@ -188,6 +190,7 @@ class LLMDialogue:
         self.prompt = prompt
         self.messages = messages
         self.usage: Usage = usage
+        self.rejected = False  # whether the model rejects the plan for this reading
         self.memory: object = _Guard()
 
     @property
