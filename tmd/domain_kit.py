@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from tmd.diagnostics import TmdError
+from tmd.diagnostics import OptionError, TmdError
 from tmd.ground import Ask
 from tmd.ground import ground as ground_text
 from tmd.grounded import Grounded
@@ -159,7 +159,7 @@ class DomainKit:
             raise TmdError(f"there is no reader '{name}'", hint=nearest(name, READERS, what="readers"))
         if name == RULES:
             if llm is not None or verify:
-                raise TmdError("llm and verify are for the reader 'llm'", hint="give reader='llm'")
+                raise OptionError("llm and verify are for the reader 'llm'", hint="give reader='llm'")
             return None
         from tmd.readers.llm.client import ModelSettings
         from tmd.readers.llm.reader import llm_reader

@@ -16,7 +16,7 @@ from dataclasses import replace
 from functools import partial
 from weakref import WeakKeyDictionary
 
-from tmd.diagnostics import Refusal, RefusalKind, TmdError
+from tmd.diagnostics import OptionError, Refusal, RefusalKind
 from tmd.goals.sources.table import LEARNED, GoalTable
 from tmd.grounded import Grounded
 from tmd.inference.bayes_risk import PLANS, decided
@@ -75,7 +75,9 @@ def ground(
             reader is not the default, or the lexicon is wrong.
     """
     if reader is not None and not config.goals:
-        raise TmdError("this model plans without goals, so only the rules can read for it", hint="leave the reader out")
+        raise OptionError(
+            "this model plans without goals, so only the rules can read for it", hint="leave --reader out"
+        )
     reader = reader or reader_of(config, library, goals)
     energy = Energy(weights or named_weights(config.weights), count(library), world, akin=config.akin)
     policy = Policy(reward, world) if config.policy and reward is not None else None

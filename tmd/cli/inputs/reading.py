@@ -105,9 +105,7 @@ def ask_on_terminal(question: Question, texts: list[str]) -> int | None:
         click.echo(f"  {number}. {text}", err=True)
     while True:
         try:
-            given = click.prompt(
-                "Which one (nothing: the first that can be done)", default="", show_default=False, err=True
-            )
+            given = click.prompt("Number (empty: the first with a plan)", default="", show_default=False, err=True)
         except click.Abort:
             click.echo(err=True)
             return None

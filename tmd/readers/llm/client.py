@@ -18,7 +18,7 @@ from pathlib import Path
 from threading import Thread
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, cast, get_args
 
-from tmd.diagnostics import ExitCode, MissingToolError, OutputError, TmdError
+from tmd.diagnostics import ExitCode, MissingToolError, OptionError, OutputError, TmdError
 from tmd.files import cache_directory, make_directory, read_bytes, write_bytes
 
 if TYPE_CHECKING:
@@ -85,12 +85,14 @@ class ModelSettings:
 
         Raises:
             ModelError: There is no model, or no key for a server that needs one.
-            TmdError: A setting has no such value.
+            OptionError: A setting has no such value.
         """
         if self.cache not in get_args(CacheMode):
-            raise TmdError(f"there is no cache mode '{self.cache}'", hint=", ".join(get_args(CacheMode)))
+            raise OptionError(f"there is no cache mode '{self.cache}'", hint=", ".join(get_args(CacheMode)))
         if not 0 < self.timeout <= LONGEST:
-            raise TmdError(f"a time-out of {self.timeout:g} s cannot be kept", hint=f"more than 0, at most {LONGEST:g}")
+            raise OptionError(
+                f"a time-out of {self.timeout:g} s cannot be kept", hint=f"more than 0, at most {LONGEST:g}"
+            )
         model = self.model or os.environ.get(MODEL)
         url = self.url or os.environ.get(URL)
         key = (self.key or os.environ.get(KEY) or "").strip()
