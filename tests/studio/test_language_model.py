@@ -179,7 +179,7 @@ def test_a_question_is_answered_by_a_button(server: Server, model: FakeServer, g
 def test_a_refusal_of_the_model_is_shown(server: Server, model: FakeServer) -> None:
     with Wire(server.url) as visitor:
         ask(visitor, model.url, "Fly.")
-        visitor.told("No plan: clause 1: It cannot be done here.<")
+        visitor.told("No plan: It cannot be done here.<")
         visitor.shows("<h4>Read by the language model fake</h4>")
         assert element(visitor, "Energies, and why the others lost")["visible"]
 
@@ -188,10 +188,10 @@ def test_a_refusal_of_the_model_is_shown(server: Server, model: FakeServer) -> N
     ("settings", "answer"),
     [
         ({"Model": "", "Server address": "http://127.0.0.1:9/v1"}, "no language model is named"),
-        ({"Model": "", "Server address": "http://127.0.0.1:9/v1"}, f"give the model, or set ${MODEL}"),
+        ({"Model": "", "Server address": "http://127.0.0.1:9/v1"}, f"name one, or set ${MODEL}"),
         ({"Model": "fake", "Server address": ""}, "there is no key for the language model"),
         ({"Model": "fake", "Server address": "http://127.0.0.1:9/v1"}, "http://127.0.0.1:9/v1 cannot be reached"),
-        ({"Model": "fake", "Server address": "http://127.0.0.1:9/v1"}, "check the server address"),
+        ({"Model": "fake", "Server address": "http://127.0.0.1:9/v1"}, "check the address of the server"),
         ({"Model": "fake", "Server address": "http://127.0.0.1:port/v1"}, "is not the address of a server"),
         ({"Model": "fake", "Server address": "file:///etc/passwd"}, "is not the address of a server"),
         ({"Model": 7, "Server address": "http://\x00/"}, "is not the address of a server"),
