@@ -329,7 +329,7 @@ class GoalPass(ForwardPass):
             answer = self._far_if_needed(quick, state, aim, target) if not found else quick
             if isinstance(answer, Unreachable):
                 reason = reason or answer.reason
-            elif isinstance(answer, Filled):
+            elif isinstance(answer, Filled) and self._takes(target, way, (*begun, *answer.plan)):
                 own = self._restored(way, (*begun, *answer.plan), target)
                 found.append(self._weighed(target.step, way, PLANNER_SOURCE, (), own, {"generated": 1.0}, aim))
             if found:
@@ -338,8 +338,15 @@ class GoalPass(ForwardPass):
             return _impossible(target, reason)
         return _gave_up(target)
 
+    def _takes(self, target: Target, way: Way, instructions: Instructions) -> bool:
+        """Return whether a plan may be taken: it meets the conditions on the way, or it is a guess."""
+        return self.config.guess or self._passes(target, way.path.state, instructions)
+
     def _on_the_way(self, target: Target, state: Bits) -> tuple[Instructions, Bits] | Refusal:
-        """Return instructions through the conditions on the way to a goal, and the state they end in."""
+        """Return instructions through the conditions on the way to a goal, and the state they end in.
+
+        A condition that no planner gets to is left to the proposals.
+        """
         begun: Instructions = ()
         for ways in target.ways:
             answer: Answer = self.planner.fill(state, ways)
@@ -347,9 +354,17 @@ class GoalPass(ForwardPass):
                 answer = self._far(state, ways)
             if isinstance(answer, Filled):
                 begun, state = (*begun, *answer.plan), answer.state
-            elif not self.config.guess:
-                return _impossible(target, answer.reason) if isinstance(answer, Unreachable) else _gave_up(target)
+            elif isinstance(answer, Unreachable) and not self.config.guess:
+                return _impossible(target, answer.reason)
         return begun, state
+
+    def _passes(self, target: Target, state: Bits, instructions: Sequence[Instruction]) -> bool:
+        """Return whether instructions meet the conditions on the way to a goal, in their order."""
+        trace = list(self._trace(state, instructions))
+        for ways in target.ways:
+            while trace and not any(cube.holds(trace[0]) for cube in ways):
+                del trace[0]
+        return bool(trace)
 
     def _completions(
         self, way: Way, proposals: Sequence[_Executable], target: Target, aim: tuple[Cube, ...]
@@ -438,19 +453,12 @@ class GoalPass(ForwardPass):
         candidate, latent, own = proposal
         state = way.path.state
 
-        def on_the_way(instructions: Sequence[Instruction]) -> bool:
-            trace = list(self._trace(state, instructions))
-            for ways in target.ways:  # in their order
-                while trace and not any(cube.holds(trace[0]) for cube in ways):
-                    del trace[0]
-            return bool(trace)
-
         def reached(instructions: Sequence[Instruction]) -> bool:
             end = self.simulated(state, instructions)
-            return any(cube.holds(end) for cube in aim) and on_the_way(instructions)
+            return any(cube.holds(end) for cube in aim) and self._passes(target, state, instructions)
 
         whole = (*latent, *own)
-        if not on_the_way(whole):
+        if not self._passes(target, state, whole):
             return None
         answer = self.planner.fill(self.simulated(state, whole), aim)
         if not isinstance(answer, Filled):
