@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from threading import Thread
@@ -45,12 +45,12 @@ BOIL = (
 @contextmanager
 def visiting(browser: Browser, served: Served, width: int = 640, height: int = 640) -> Iterator[Page]:
     context = browser.new_context(viewport={"width": width, "height": height})
-    page = context.new_page()
-    page.set_default_timeout(WAIT)
-    page.goto(served.url)
-    page.get_by_text("Welcome").wait_for()
-    yield page
-    context.close()
+    with closing(context):  # a page that stays open draws on and slows all other tests down
+        page = context.new_page()
+        page.set_default_timeout(WAIT)
+        page.goto(served.url)
+        page.get_by_text("Welcome").wait_for()
+        yield page
 
 
 def tab(page: Page, name: str) -> None:
