@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
 from tmd.language.clause import Mood, Quantifier
+from tmd.language.lexicon.lexicon import sections
 from tmd.language.parser import FOREIGN, NO_VERB, NO_WORDS, is_filler
 from tmd.language.syntax.subordinate import REMINDER
 from tmd.language.syntax.tokens import Kind, tokenise
@@ -760,3 +761,10 @@ def test_an_exception_adds_what_is_excepted_and_nothing_else(deed: str, thing: s
 def test_a_condition_stays_with_its_instruction(deed: str, thing: str, other: str) -> None:
     (clause,) = parse(f"If the {other} is dirty, {deed} the {thing}.").clauses
     assert clause.condition and print_clause(clause) == _printed(f"{deed} the {thing}")[0]
+
+
+def test_each_word_of_the_lists_may_be_the_whole_text() -> None:
+    for entry in sorted({entry for entries in sections().values() for entry in entries}):
+        text = entry.strip("!").replace("_", " ")
+        for whole in (text, f"{text.upper()}."):
+            assert parse(whole).text == whole

@@ -147,7 +147,7 @@ def _phrase(sentence: Sequence[Token], at: int) -> int | None:
         if end > at and not joined and sentence[end].text in _DETERMINERS | {"instead", "rather"}:
             break
         end += 1
-    return end if end > at + (sentence[at].text in _DETERMINERS) else None
+    return end if at < len(sentence) and end > at + (sentence[at].text in _DETERMINERS) else None
 
 
 def _determiner(sentence: Sequence[Token], end: int) -> int | None:

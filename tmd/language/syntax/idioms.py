@@ -482,7 +482,7 @@ def _as_low_as_it_goes(tokens: list[Token]) -> list[Token]:
             continue
         end = next((i for i in range(at + 3, len(words)) if tokens[i].kind in BREAKS or words[i] in JOINTS), len(words))
         limit = words[at + 3 : end]
-        if limit == ["possible"] or (limit[0] in ("it", "they", "you") and set(limit[1:]) & _LIMIT):
+        if limit == ["possible"] or (limit and limit[0] in ("it", "they", "you") and set(limit[1:]) & _LIMIT):
             level = [tokens[at + 1]]
             if _SWITCHING.intersection(words[:at]):
                 level = [replace(tokens[at], text="to"), *level]
