@@ -58,6 +58,19 @@ class Kind(StrEnum):
     SKIP = "SKIP"
     FILLER = "FILLER"
 
+    STATE = "STATE"
+    """A state that something is in or shall be in: "leave it open"."""
+    EXC = "EXC"
+    """Opens an exception."""
+    WITHOUT = "WITHOUT"
+    """Opens what shall be avoided on the way: "without spilling it"."""
+    SAY = "SAY"
+    """Opens a statement."""
+    END = "END"
+    """Closes a subordinate clause."""
+    LINK = "LINK"
+    """Joins the parts of a subordinate clause."""
+
 
 IMPLIED = "implied"
 """The form of a verb that was not said: "A glass of milk, please."."""
@@ -84,6 +97,8 @@ class Token:
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
         heading: For a verb: what follows a colon says how it is done.
+        negated: For the opener of a subordinate clause: a negation stands in it.
+        first: Its class and form by lists, before its neighbours decided.
     """
 
     kind: Kind
@@ -100,6 +115,8 @@ class Token:
     sentence: int = 0
     otherwise: bool = False
     heading: bool = False
+    negated: bool = False
+    first: tuple[Kind, str] | None = None
 
 
 _TOKEN = re.compile(
@@ -406,6 +423,8 @@ def tag(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
         position += used
     _compounds(tagged, lexicon)
     _misspelt_from(tagged)
+    for token in tagged:
+        token.first = token.kind, token.form
     return tagged
 
 
