@@ -142,7 +142,8 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         clauses: Its clauses.
         tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
     """
-    covered = _merge([c.span for c in clauses])
+    noted_spans = [t.span for t in tokens if t.kind is Kind.SKIP]
+    covered = _merge([*(c.span for c in clauses), *noted_spans])
     pieces: list[tuple[Span, str]] = []
     place = 0
     for token in sorted(tokens, key=lambda t: t.span):

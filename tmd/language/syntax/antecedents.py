@@ -73,7 +73,8 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
         scenes += [_alone(c) for condition in conditions if condition.word != "to" for c in condition.clauses]
-        clause = _resolved(clause, draft, scenes)
+        hosts = [_scene(draft.host, draft.host.clause(reading.text))] if draft.host is not None else []
+        clause = _resolved(clause, draft, [*scenes, *hosts])
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]

@@ -4,10 +4,10 @@ A pattern is a sequence of elements, separated by blanks:
 
 * ``word`` or ``one|two``: these words; ``@name``: a word of that section of ``words.txt``;
 * ``N`` or ``DET|NUM``: a word of that class (:class:`~tmd.language.syntax.tokens.Kind`);
-* ``NP`` and the like: a macro of the file;
+* ``NP`` and the like: a macro of the file; ``ANY``: any word; ``ASKS``: a question mark;
 * ``x:NP``: an element whose words are kept under a name;
 * ``( ... )``, with ``|`` between alternatives; behind an element or a group ``?``, ``*`` and ``+``;
-* ``^``: the beginning of a clause; ``$``: its end.
+* ``^``: the beginning of a clause, ``^^`` of a sentence; ``$``: the end of a clause.
 
 The replacement has words, ``{x}`` for what was kept, ``{x.stem}`` for the verb of a kept word, and ``word/V`` for a word
 of a given class. Words of the pattern that are not kept disappear. A sentence in which a row has fired is tagged anew.
@@ -33,9 +33,12 @@ FILE = "phrases.yaml"
 _ANY = r"[^\t ]+\t[A-Z]+ "
 _LEAD = rf"(?:[^\t ]+\t(?:{Kind.ADV}|{Kind.FILLER}) )*"
 _BEGIN = rf"(?:(?<![^\n])|(?<=\t{Kind.CC} )|(?<=\t{Kind.COMMA} )|(?<=\t{Kind.STOP} )){_LEAD}"
+_START = rf"(?:(?<![^\n])|(?<=\t{Kind.STOP} )){_LEAD}"
 _FINISH = rf"(?={_LEAD}(?:[^\t ]+\t(?:{Kind.STOP}|{Kind.COMMA}|{Kind.CC}) |\Z))"
 _ELEMENT = re.compile(r"(?:(?P<slot>[a-z]):)?(?P<core>[^?*+]+)(?P<times>[?*+]?)\Z")
 _SLOT = re.compile(r"\{([a-z])(\.stem)?\}\Z")
+_GIVEN = {"ANY": rf"[^\t ]+\t(?!{Kind.STOP} )[A-Z]+ ", "ASKS": rf"[^\t ]*\?[^\t ]*\t{Kind.STOP} "}
+"""Macros that patterns cannot express: any word, and a question mark."""
 _MOST = 4
 """Times that one row may fire in a sentence."""
 _LONGEST = 200
@@ -68,7 +71,9 @@ def read_rows(text: str, file: str) -> tuple[PhraseRow, ...]:
         TmdError: A row lacks a key, uses an id twice, or names an unknown macro, section, class or slot.
     """
     data = yaml.load(text, getattr(yaml, "CSafeLoader", yaml.SafeLoader))
-    macros = {name: f"(?:{_compiled(pattern, {}, file, name)})" for name, pattern in data["macros"].items()}
+    macros = dict(_GIVEN)
+    for name, pattern in data["macros"].items():
+        macros[name] = f"(?:{_compiled(pattern, macros, file, name)})"
     rows: dict[str, PhraseRow] = {}
     for raw in data["rows"]:
         name = str(raw.get("id", ""))
@@ -97,12 +102,16 @@ def _fault(message: str, text: str, file: str, name: str) -> TmdError:
 
 
 def _compiled(pattern: str, macros: Mapping[str, str], file: str, name: str) -> str:
-    parts = []
+    parts: list[str] = []
+    named: list[bool] = []
     for element in pattern.split():
-        if element in ("(", "|") or element.startswith(")"):
-            parts.append({"(": "(?:"}.get(element, element))
-        elif element in ("^", "$"):
-            parts.append(_BEGIN if element == "^" else _FINISH)
+        if element.endswith("("):
+            named.append(len(element) > 1)
+            parts.append(f"(?P<{element[0]}>(?:" if named[-1] else "(?:")
+        elif element.startswith(")") and named:
+            parts.append(element + ")" * named.pop())
+        elif element in ("^", "^^", "$", "|"):
+            parts.append({"^": _BEGIN, "^^": _START, "$": _FINISH}.get(element, element))
         else:
             parts.append(_element(element, macros, file, name))
     return "".join(parts)
@@ -112,17 +121,21 @@ def _element(element: str, macros: Mapping[str, str], file: str, name: str) -> s
     match = _ELEMENT.match(element)
     if match is None:
         raise TmdError(f"the phrase row '{name}' has the element '{element}'", location=Location(file, 1, 1))
-    core = match["core"]
-    if core in macros:
-        body = macros[core]
-    elif core.startswith("@"):
-        words = [w for section in core[1:].split("|") for w in sections()[section]]
-        body = rf"(?:{'|'.join(map(re.escape, words))})\t[A-Z]+ "
-    elif core.isupper():
-        kinds = [Kind(kind).value for kind in core.split("|")]
-        body = rf"[^\t ]+\t(?:{'|'.join(kinds)}) "
-    else:
-        body = rf"(?:{'|'.join(map(re.escape, core.split('|')))})\t[A-Z]+ "
+    words: list[str] = []
+    kinds: list[str] = []
+    bodies: list[str] = []
+    for part in match["core"].split("|"):
+        if part in macros:
+            bodies.append(macros[part])
+        elif part.startswith("@"):
+            words += sections()[part[1:]]
+        elif part.isupper():
+            kinds.append(Kind(part).value)
+        else:
+            words.append(part)
+    bodies += [rf"(?:{'|'.join(map(re.escape, words))})\t[A-Z]+ "] * bool(words)
+    bodies += [rf"[^\t ]+\t(?:{'|'.join(kinds)}) "] * bool(kinds)
+    body = f"(?:{'|'.join(bodies)})"
     if match["times"]:
         body = f"(?:{body}){match['times']}"
     return f"(?P<{match['slot']}>{body})" if match["slot"] else body
@@ -132,16 +145,14 @@ def _triggers(pattern: str) -> Iterator[str]:
     """Yield the words of the first element that every match has, if it is made of words."""
     depth = 0
     for element in pattern.split():
-        depth += (element == "(") - element.startswith(")")
+        depth += element.endswith("(") - element.startswith(")")
         match = _ELEMENT.match(element)
-        if depth or match is None or element in ("^", "$") or match["times"] in ("?", "*") or element.startswith(")"):
+        if depth or match is None or element in ("^", "^^", "$") or match["times"] in ("?", "*") or element.startswith(")"):
             continue
-        core = match["core"]
-        if core.startswith("@"):
-            yield from (w for section in core[1:].split("|") for w in sections()[section])
-            return
-        if not core.isupper():
-            yield from core.split("|")
+        parts = match["core"].split("|")
+        if not any(part.isupper() for part in parts):
+            for part in parts:
+                yield from sections()[part[1:]] if part.startswith("@") else (part,)
             return
 
 
@@ -201,13 +212,19 @@ def _rewritten(
         for _ in range(_MOST):
             text, starts = _joined(tokens)
             match = row.pattern.search(text)
-            if match is None or match.end() == match.start():
+            if match is None or match.end() == match.start() or not _has_verbs(match, row, tokens, starts):
                 break
             tokens = _replaced(tokens, starts, match, row, lexicon, dropped)
             words = {t.text for t in tokens}
             if trace is not None:
                 trace.append(row.id)
     return tokens
+
+
+def _has_verbs(match: re.Match[str], row: PhraseRow, tokens: list[Token], starts: list[int]) -> bool:
+    """Tell whether each kept word of which the verb is wanted can be one."""
+    wanted = [slot[1] for element in row.replacement if (slot := _SLOT.match(element)) and slot[2]]
+    return all(tokens[bisect_left(starts, match.start(name))].stem for name in wanted)
 
 
 def _joined(tokens: list[Token]) -> tuple[str, list[int]]:
@@ -260,7 +277,7 @@ def _replaced(
 def _fresh(element: str, slots: Mapping[str, list[Token]], slot: str, span: Span) -> Token:
     """Return a new token: a verb of a kept word, a word of a given class, or a word still to be tagged."""
     if slot:
-        verb = next(t for t in slots[slot] if t.stem)
+        verb = slots[slot][0]
         return Token(Kind.V, verb.stem, span, stem=verb.stem, form="base", strength=3)
     word, _, kind = element.partition("/")
     if kind:

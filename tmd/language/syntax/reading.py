@@ -17,8 +17,12 @@ from tmd.language.lexicon.lexicon import pairs, section, sections, singular
 from tmd.language.syntax.shape import ALSO, CHOICE, RELATIVE, STATEMENT
 from tmd.language.syntax.tokens import IMPLIED, NAME, Kind, Token
 
+EXISTS = "exists"
+"""The form of *be* in "there is"."""
 UNEXPECTED = "does not fit into a clause here"
 NEGATED = "says what not to do"
+HAVE, PUT, SET, BRING = "have", "put", "set", "bring"
+"""Verbs of requests without one: what a thing shall be had, put or set to."""
 _MULTIPLE = "; "
 
 
@@ -210,6 +214,8 @@ def _phrase(node: Tree[Leaf]) -> Phrase:
 
 def _head(words: list[Token], lead: list[Token]) -> Phrase:
     written = "_".join(t.text for t in words)
+    if len(words) == 1 and words[0].text in section("other_words"):
+        return Phrase("one", words[0].span.start, False, True, lead=(*(t.text for t in lead), words[0].text))
     one = words[-1].text in section("one_words")
     pronoun = words[-1].kind is Kind.PRON or one
     said = tuple(t.text for t in lead)
@@ -243,6 +249,8 @@ class ClauseDraft:
         result: The state that something shall be in.
         mood: What is asked of it, if it says so itself.
         written: Conditions and purposes as written, by kind.
+        elliptic: Its verb was read off a state: "TV on".
+        host: The clause that it is said with, whose objects its pronouns may mean.
     """
 
     verb: Token
@@ -258,6 +266,8 @@ class ClauseDraft:
     mood: Mood | None = None
     relative: bool = False
     written: list[tuple[str, str]] = field(default_factory=list)
+    elliptic: bool = False
+    host: ClauseDraft | None = None
 
     def mentions(self) -> list[Phrase]:
         """Return every phrase in order of mention, each name once."""
@@ -412,8 +422,10 @@ class Attachment:
         bare = bare or any(w in section("other_words") for p in opposite for w in p.lead)
         last = beyond if opening in section("origins") and beyond is not None and _is(beyond, "place") else following
         goes = next(leaves(last)).text in section("static") | section("arrivals")
-        alike = name == opening or (self.draft.verb.stem in section("placing") and goes)
-        if not (phrases[-1].determined or bare) or not alike:
+        placing = section("placing") | section("belonging")
+        alike = name == opening or (self.draft.verb.stem in placing and goes)
+        told = phrases[-1].determined or phrases[-1].name in section("one_words")
+        if not (told or bare) or not alike:
             return False
         sources = list(self.host if self.paired else self.draft.direct)
         self._relate(name, sources, phrases[:-1])
@@ -510,25 +522,35 @@ class TextReading:
         for item in front:
             if not _is(item, "group"):
                 first.spans.extend(s for t in leaves(item) for s in (t.span, *t.parts))
+        if first.verb.stem in section("wishing"):
+            first.verb.stem, first.verb.form = HAVE, IMPLIED
         self.drafts.extend(drafts)
         places = [n for n in front if _is(n, "place", "exception")]
         self._modify(first, [n for n in front if n not in places], fronted=True)
-        self._attach(last, arguments, places)
+        self._attach(last, arguments, front=places)
         for draft in drafts[:-1]:
             draft.direct = last.direct
 
-    def _attach(self, draft: ClauseDraft, arguments: Sequence[Node], front: Sequence[Node] = ()) -> None:
+    def _attach(
+        self, draft: ClauseDraft, arguments: Sequence[Node], *, front: Sequence[Node] = (), predicate: Sequence[Node] = ()
+    ) -> None:
+        """Attach arguments from left to right; those in front of a verb, or of a predicate, are said of its objects."""
         state = Attachment(draft)
-        for position, node in enumerate(arguments):
-            rest = arguments[position + 1 :]
-            if state.gapped(node, rest[0] if rest else None, rest[1] if len(rest) > 1 else None):
-                continue
-            self._argument(state, node, sum(_is(n, "place") for n in rest))
+        self._arguments(state, arguments)
+        if predicate:
+            state.host = []
+            self._arguments(state, predicate)
         for node in front:
             state.host = []
             self._argument(state, node, 0)
         state.finish()
-        self._modify(draft, arguments)
+        self._modify(draft, [*arguments, *predicate])
+
+    def _arguments(self, state: Attachment, nodes: Sequence[Node]) -> None:
+        for position, node in enumerate(nodes):
+            rest = nodes[position + 1 :]
+            if not state.gapped(node, rest[0] if rest else None, rest[1] if len(rest) > 1 else None):
+                self._argument(state, node, sum(_is(n, "place") for n in rest))
 
     def _argument(self, state: Attachment, node: Node, later: int) -> None:
         if not isinstance(node, Tree):
@@ -550,6 +572,8 @@ class TextReading:
             if isinstance(node, Leaf):
                 if node.source.kind is Kind.MOD:
                     draft.folds.append(node.source)
+            elif node.data == "condition" and self._ordered(draft, node):
+                continue
             elif node.data == "condition":
                 draft.conditions.append(self._condition(node))
                 draft.fronted = draft.fronted or fronted
@@ -561,6 +585,19 @@ class TextReading:
                 self._relative(draft, node)
             elif node.data in ("denial", "manner"):
                 self._forbid(draft, node)
+
+    def _ordered(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
+        """Read "after labelling it" and "before putting it away" as instructions, in their order."""
+        opener, parts = next(leaves(node)).text, self._parts(node)
+        verbs = [next(t for t in leaves(p) if t.kind is Kind.V) for p in parts if any(t.kind is Kind.V for t in leaves(p))]
+        if opener not in pairs("order_words") or not verbs or any(v.form != "ing" for v in verbs):
+            return False
+        events = [d for part in parts for d in self._said(part)]
+        at = next(i for i, d in enumerate(self.drafts) if d is draft) + (pairs("order_words")[opener] == "later")
+        for event in events:
+            event.host, event.verb.sentence = draft, draft.verb.sentence
+        self.drafts[at:at] = events
+        return True
 
     def _words(self, node: Tree[Leaf]) -> str:
         spans = [t.span for t in leaves(node)]
@@ -594,8 +631,7 @@ class TextReading:
         if not predicates:
             return [self._state(subject, [], part)]
         verbal = [n.source for n in predicates[0].children if isinstance(n, Leaf)]
-        rest = [n for n in predicates[0].children if isinstance(n, Tree)]
-        modifiers = [n for n in predicates[0].children if isinstance(n, Leaf) and n.source.kind is Kind.MOD]
+        rest = [n for n in predicates[0].children if isinstance(n, Tree) or n.source.kind is Kind.MOD]
         verbs = [t for t in verbal if t.kind in (Kind.FINITE, Kind.PARTICIPLE, Kind.ING, Kind.V) and t.stem]
         helpers = [t for t in verbal if t.kind is Kind.AUX]
         owns = bool(helpers) and helpers[-1].text in section("having")
@@ -606,10 +642,7 @@ class TextReading:
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and not owns and _about_things(subject):
             return [self._done(subject, verbs[-1], rest, part)]
         if verbs:
-            drafts = [self._event(subject, verb, rest, part) for verb in verbs if verb.kind is not Kind.ING or len(verbs) == 1]
-            for draft in drafts:
-                draft.folds += [n.source for n in modifiers]
-            return drafts
+            return [self._event(subject, v, rest, part) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
         if owns and _trees(rest, "group"):
             return [self._owned(subject, rest, part)]
         return [self._state(subject, rest, part)]
@@ -625,15 +658,19 @@ class TextReading:
         things = [n for n in (*subject, *rest) if _about_things([n])]
         if not things and _trees([*subject, *rest], "state", "place"):
             draft.direct.append(Phrase("it", part_start(part), False, True))
-        elif not _about_things(subject) and _about_things(rest) and subject and not _trees(subject, "place"):
-            subject = []
-        self._attach(draft, [n for n in (*subject, *rest)])
+        elif not _about_things(subject) and _about_things(rest):
+            draft.verb.form = EXISTS
+            subject = [n for n in subject if not _is(n, "group")]
+        self._attach(draft, subject, predicate=rest)
+        settings = [t for t in draft.folds if t.form == "setting"]
+        if draft.result is None and settings and not draft.landmarks:
+            draft.result = settings[-1].text  # "until it is two thirds full"
         return draft
 
     def _done(self, subject: Sequence[Node], verb: Token, rest: Sequence[Node], part: Tree[Leaf]) -> ClauseDraft:
         """*The kettle is filled with water*: a state that a participle names."""
         draft = self._draft(BE, part)
-        self._attach(draft, [*subject, *rest])
+        self._attach(draft, subject, predicate=rest)
         draft.result = verb.text
         draft.verb.lead = [verb.stem]
         return draft
@@ -644,7 +681,7 @@ class TextReading:
         draft.spans += verb.parts
         about = subject if _about_things(subject) else [n for n in subject if not _is(n, "group")]
         moved = _about_things(subject) and _trees(rest, "group")
-        self._attach(draft, [*([] if moved else about), *rest])
+        self._attach(draft, [] if moved else about, predicate=rest)
         return draft
 
     def _owned(self, subject: Sequence[Node], rest: Sequence[Node], part: Tree[Leaf]) -> ClauseDraft:
@@ -695,7 +732,7 @@ class TextReading:
         before = len(self.drafts)
         for part in self._parts(node):
             verbs = [t for t in leaves(part) if t.kind is Kind.V]
-            if any(_is(n, "predicate") for n in part.children):
+            if any(_is(n, "predicate") for n in part.children) and (verbs or draft is None or _complement(part)):
                 found = self._said(part)
             elif draft is not None:
                 copy = self._draft(draft.verb.stem, part)
@@ -704,6 +741,10 @@ class TextReading:
                 if not _about_things(things):
                     copy.direct = list(draft.direct)
                 self._attach(copy, things)
+                if not _trees(things, "place"):
+                    copy.landmarks += draft.landmarks
+                    names, placed = [p.name for p in copy.direct], {r.relation: r for r in draft.relations if r.source in {p.name for p in draft.direct}}
+                    copy.relations += [Relation(r.relation, name, r.target) for r in placed.values() for name in names]
                 found = [copy]
             else:
                 continue
@@ -727,18 +768,36 @@ class TextReading:
             else:
                 rest.append(node)
         asked = any(_is(n, "demand", "statement") for n in nodes)
-        if _about_things(rest) and not asked:
+        denied = self.forbidden[-1][1] if any(_is(n, "denial") for n in nodes) and self.forbidden else None
+        if denied is not None and _trees(rest, "group", "place") and not asked:
+            self._instead(denied, rest)
+        elif _about_things(rest) and not asked:
             self._named(rest)
         elif rest and not asked and self.drafts:
             self._modify(self.drafts[-1], rest)
+
+    def _instead(self, denied: ClauseDraft, nodes: list[Node]) -> None:
+        """Read "don't put it on the stove but on the shelf": what stands behind takes the place of what is denied."""
+        verb = replace(denied.verb, form="base", span=next(t for n in nodes for t in leaves(n)).span)
+        draft = ClauseDraft(verb, spans=[s for n in nodes for t in leaves(n) for s in (t.span, *t.parts)])
+        if not _trees(nodes, "group"):
+            draft.direct = list(denied.direct)
+        self._attach(draft, nodes)
+        if not _trees(nodes, "place"):
+            draft.landmarks += denied.landmarks
+            draft.relations += [Relation(r.relation, p.name, r.target) for r in denied.relations for p in draft.direct]
+        self.drafts.append(draft)
 
     def _aside(self, node: Tree[Leaf], conditions: Sequence[Node] = ()) -> None:
         """Read a statement; with a duty it is a demand."""
         asked = node.data == "demand"
         denied = next(leaves(node)).negated
         for part in self._parts(node):
-            verbal = [t for n in _trees(part.children, "predicate") for t in leaves(n) if t.kind is Kind.AUX]
-            asked = asked or any(t.text in section("duties") for t in verbal)
+            verbal = [n.source for p in _trees(part.children, "predicate") for n in p.children if isinstance(n, Leaf)]
+            asked = asked or any(self._asks(t, verbal) for t in verbal)
+            if denied and self.drafts and verbal and all(t.kind is Kind.AUX for t in verbal) and not _complement(part):
+                self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
+                return
             if not asked:
                 drafts = self._said(part)
                 self.statements += [(len(self.drafts), d) for d in drafts]
@@ -754,22 +813,33 @@ class TextReading:
                 else:
                     self.drafts.append(draft)
 
+    @staticmethod
+    def _asks(token: Token, verbal: Sequence[Token]) -> bool:
+        """Tell whether a word of a predicate makes it a demand: a duty, "belongs", "would like"."""
+        wished = token.stem in section("wishing") and any(t.text in section("modals") for t in verbal)
+        placed = token.kind in (Kind.FINITE, Kind.V) and token.stem in section("belonging")
+        return token.text in section("duties") or wished or placed
+
     def _demanded(self, part: Tree[Leaf], denied: bool) -> list[ClauseDraft]:
         """Return what brings about a state that is asked for."""
         found = []
         for draft in self._said(part):
             placed = [r for r in draft.relations if r.relation in section("static") | section("arrivals")]
-            if draft.verb.stem == BE and draft.verb.lead:
+            if draft.verb.stem in section("wishing"):
+                draft.verb.stem, draft.verb.form = HAVE, IMPLIED
+            elif draft.verb.stem == BE and draft.verb.lead:
                 draft.verb.stem, draft.result = draft.verb.lead[0], None  # "should be washed"
                 draft.mood = Mood.AVOID if denied else None
             elif draft.verb.stem == BE and denied:
                 for phrase in draft.direct:
                     phrase.lead = ("no", *phrase.lead)
-            elif draft.verb.stem == BE and draft.result in pairs("state_verbs"):
+            elif draft.verb.stem == BE and draft.result in pairs("state_verbs") and draft.verb.form != EXISTS:
                 draft.verb.stem, draft.result = pairs("state_verbs")[draft.result], None
             elif draft.verb.stem in section("going") or (draft.verb.stem == BE and placed and not draft.result):
                 none = any(p.said().quantifier is Quantifier.NONE for p in draft.direct)
-                draft.verb.stem = BE if none else "put"
+                draft.verb.stem = BE if none or draft.verb.form == EXISTS else PUT
+            elif draft.verb.stem == BE and any(t.form == "setting" for t in draft.folds):
+                draft.verb.stem = SET
             elif denied:
                 draft.mood = Mood.AVOID
             found.append(draft)
@@ -778,11 +848,21 @@ class TextReading:
     def _named(self, nodes: list[Node]) -> None:
         """Read "TV on", "lid on the pot", "two scoops of ice cream": the verb was not said."""
         first = next(t for n in nodes for t in leaves(n))
-        verb = Token(Kind.V, "have", Span(first.span.start, first.span.start), stem="have", form=IMPLIED)
+        before = self.drafts[-1] if self.drafts else None
+        if before is not None and before.elliptic and all(_is(n, "group") for n in nodes):
+            before.direct += [p for n in _trees(nodes, "group") for p in _phrases(n)]  # "TV on, channel two"
+            before.spans += [s for n in nodes for t in leaves(n) for s in (t.span, *t.parts)]
+            return
+        verb = Token(Kind.V, HAVE, Span(first.span.start, first.span.start), stem=HAVE, form=IMPLIED)
         draft = ClauseDraft(verb, spans=[s for n in nodes for t in leaves(n) for s in (t.span, *t.parts)])
         self._attach(draft, nodes)
         if draft.result in pairs("state_verbs"):
             verb.stem, draft.result, verb.form = pairs("state_verbs")[draft.result or ""], None, "base"
+            draft.elliptic = True
+        elif any(r.relation in section("bringing") for r in draft.relations):
+            verb.stem = BRING
+        elif draft.result is not None:
+            verb.stem = BE
         self.drafts.append(draft)
 
     def _carry(self) -> None:
@@ -794,6 +874,11 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
+
+
+def _complement(part: Tree[Leaf]) -> bool:
+    """Tell whether something follows the verb of a statement."""
+    return any(isinstance(n, Tree) for p in _trees(part.children, "predicate") for n in p.children)
 
 
 def part_start(node: Tree[Leaf]) -> int:

@@ -44,6 +44,7 @@ _AHEAD = 15
 
 def shape(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the terminals of the clause grammar, in order."""
+    _placings(tokens)
     tokens = _settings(_numbered(_partitives(tokens)))
     _exceptions(tokens)
     _particles(tokens, lexicon)
@@ -101,13 +102,17 @@ def _numbered(tokens: list[Token]) -> list[Token]:
 def _settings(tokens: list[Token]) -> list[Token]:
     """Fold "on high", "to full": a setting without a noun says how."""
     for at, token in enumerate(tokens[:-1]):
-        if token.text in section("settings") and tokens[at + 1].text in section("scales"):
-            token.kind = K.ADJ
         if token.kind not in (K.P, K.TO) or token.text not in section("setting_places"):
             continue
-        setting = next_of(tokens, at, _IDLE | {K.DET})
-        after = next_of(tokens, tokens.index(setting, at)) if setting is not None else None
-        if setting is None or setting.text not in section("settings") or _kind(after) in (K.N, K.PARTICIPLE, K.OF):
+        place = at + 1 + (tokens[at + 1].kind is K.DET)
+        setting = tokens[place] if place < len(tokens) else token
+        after = tokens[place + 1] if place + 1 < len(tokens) else None
+        if setting.text not in section("settings"):
+            continue
+        if after is not None and after.text in section("scales"):
+            after.kind = K.FILLER
+            setting.parts.append(after.span)
+        elif _kind(after) in (K.N, K.PARTICIPLE) or (after is not None and after.text in section("of_words")):
             continue
         setting.kind, setting.form, token.kind = K.MOD, "setting", K.FILLER
         setting.parts.append(token.span)
@@ -127,6 +132,22 @@ def _exceptions(tokens: list[Token]) -> None:
         but = token.text in section("exceptive") and at - whole < _AHEAD // 2 and follows in _NP
         if named or but:
             token.kind = K.EXC
+
+
+def _placings(tokens: list[Token]) -> None:
+    """Mark "goes" and "belongs" behind a subject as finite verbs: "both books go on the shelf"."""
+    subject = verb = False
+    for at, token in enumerate(tokens):
+        if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB):
+            subject = subject and token.kind is K.CC and not verb
+            verb = False
+            continue
+        follows = next_of(tokens, at, frozenset())
+        place = follows is not None and (follows.kind in (K.P, K.TO, K.STATE) or follows.text in section("back_words") | section("where_words"))
+        if token.text in section("belonging") and subject and not verb and place:
+            token.kind, token.stem, verb = K.FINITE, "go", True
+        subject = subject or token.kind in (K.N, K.PRON, K.NUM)
+        verb = verb or token.kind in (K.V, K.LET, K.ENSURE, K.REL)
 
 
 def _mark_sentences(tokens: list[Token]) -> None:
@@ -149,10 +170,11 @@ def _mark_sentences(tokens: list[Token]) -> None:
 def _particles(tokens: list[Token], lexicon: Lexicon) -> None:
     """Join each verb with its particle, beside it or behind its object."""
     for at, verb in enumerate(tokens):
-        if verb.kind is K.V and verb.stem:
+        deed = verb.kind is K.ING and (not at or tokens[at - 1].kind not in _HEADS)
+        if (verb.kind in (K.V, K.LET) or deed) and verb.stem:
             if not _join_multiword(tokens, at):
                 _join_particle(tokens, at, lexicon)
-        elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and verb.stem:
+        elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and verb.stem not in ("", "go"):
             after = tokens[at + 1] if at + 1 < len(tokens) else None
             ends = _kind(next_of(tokens, at + 1)) not in _NP
             if after is not None and after.kind in (K.P, K.ADV) and lexicon.particle(verb.stem, after.text) and ends:
@@ -194,6 +216,8 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             return False
         if token.kind not in (K.P, K.ADV):
             continue
+        if not behind and _split(verb, token, lexicon):
+            return True
         keeps = verb.stem in section("leaving") | section("keeping")
         if keeps and place > at + 1 and token.text in section("end_states"):
             return False  # "leave the radio on": as it is, and no particle
@@ -208,6 +232,18 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
             return True
         behind = behind or token.kind is K.P
     return False
+
+
+def _split(verb: Token, token: Token, lexicon: Lexicon) -> bool:
+    """Give "up" of "hook it up to the set" to the verb."""
+    first, _, rest = token.text.partition("_")
+    if token.text not in section("parted") or lexicon.particle(verb.stem, first) is None:
+        return False
+    start, end = token.span
+    verb.stem, token.text = f"{verb.stem}_{first}", rest
+    verb.parts.append(Span(start, start + len(first)))
+    token.span = Span(end - len(rest), end)
+    return True
 
 
 def _second_particle(tokens: list[Token], at: int, stem: str, lexicon: Lexicon) -> None:
@@ -297,6 +333,7 @@ class _Shaper:
             K.ADV: self._adverb,
             K.N: self._noun,
             K.COMMA: self._comma,
+            K.CC: self._joint,
             K.FILLER: self._drop,
             K.SKIP: self._drop,
         }
@@ -316,6 +353,7 @@ class _Shaper:
             K.DET: self._inner_determiner,
             K.N: self._keep,
             K.COMMA: self._keep,
+            K.CC: self._keep,
         }
         self.opener: list[Token] = []
 
@@ -381,11 +419,26 @@ class _Shaper:
 
     def _verb(self, at: int, end: int) -> int:
         token = self.tokens[at]
+        if token.stem in section("wishing") and self._wishes_state(at):
+            return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
         self.out.append(token)
         self.verb = token
         if self._at(at + 1) is K.ADV:
             token.form = ALONE
         return at + 1
+
+    def _wishes_state(self, at: int) -> bool:
+        """Tell whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
+        place, things = at + 1, False
+        while self._at(place) in _NOMINAL | {K.OF, K.CC, K.AUX} and not (self._at(place) is K.ADJ and not self._leads(place)):
+            things = things or self._at(place) is K.N
+            if self.tokens[place].form == "inf" and self._at(place + 1) is not K.AUX:
+                return False
+            place += 1
+        state = self._at(place) in (K.PARTICIPLE, K.ADJ) or (
+            place < len(self.tokens) and self.tokens[place - 1].text in section("end_states")
+        )
+        return things and state
 
     def _comma(self, at: int, end: int) -> int:
         aside = self._aside(at) if self.tokens[at].text == "(" else None
@@ -393,7 +446,22 @@ class _Shaper:
             for token in self.tokens[at:aside]:
                 token.note = ASIDE
             return aside
+        return self._joint(at, end)
+
+    def _joint(self, at: int, end: int) -> int:
+        """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
+        if self.verb is not None and self._statement_follows(at):
+            return self._stop(at, end)
         return self._keep(at, end)
+
+    def _statement_follows(self, at: int) -> bool:
+        """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
+        place, named = at + 1, False
+        while self._at(place) in _NP | {K.OF, K.ADV, K.FILLER, K.CC}:
+            named = named or self._at(place) in _HEADS | {K.NUM}
+            place += 1
+        denied = self._at(place) is K.NEG and self.tokens[place].text in section("duties")
+        return named and (self._at(place) in (K.AUX, K.FINITE) or denied)
 
     def _aside(self, at: int) -> int | None:
         """Return where a bracket without a verb ends."""
@@ -406,6 +474,11 @@ class _Shaper:
 
     def _noun(self, at: int, end: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""
+        token = self.tokens[at]
+        setting = token.text in section("settings") and self.verb is None and self._last() is K.N
+        if setting and self._at(self._peek(at)) in _BREAKS:
+            token.kind = K.STATE  # "sound low"
+            return self._keep(at, end)
         first = not self.out or self._last() is K.SEP
         asks = (K.V, K.SUBJECT, K.AUX, K.NEG, K.ENSURE, K.LET)
         if first and self._at(at + 1) is K.COMMA and self._at(self._peek(at + 1)) in asks and self._at(at - 1) not in _NP:
@@ -418,7 +491,8 @@ class _Shaper:
         if not self._leads(at):
             if not (self.depth or self._last() in _HEADS | {K.STATE, K.CC, K.V, K.P}):
                 return at + 1
-            token.kind = K.STATE
+            done = self.depth and token.form == "ed" and self._last() in (K.AUX, K.CC) and token.text not in section("end_states")
+            token.kind = K.PARTICIPLE if done else K.STATE
         self.out.append(token)
         return at + 1
 
@@ -460,7 +534,12 @@ class _Shaper:
                 self.tokens[at + 1].kind = K.V
                 return self._bracket(token, K.WITHOUT, at + 1, self.boundary(at + 1))
             if token.text in section("by_words"):
+                self.tokens[at + 1].kind = K.V
+                if self.verb is not None and self.out[-1] is self.verb and self.verb.stem in section("lead_verbs"):
+                    self.out.pop()
                 return at + 1
+        if token.text in section("of_words") and self._last() in _HEADS:
+            token.kind = K.OF
         self.out.append(token)
         return at + 1
 
@@ -558,13 +637,13 @@ class _Shaper:
     def _relative(self, at: int, end: int) -> int:
         token, copula = self.tokens[at], self._peek(at)
         stop = min(end, self._relative_end(at))
-        if self._at(copula) is K.AUX and self.tokens[copula].text in section("be"):
+        stands = self._at(copula) is K.FINITE and self.tokens[copula].stem in section("postures")
+        if stands or (self._at(copula) is K.AUX and self.tokens[copula].text in section("be")):
             denied = self.tokens[copula].text in section("not_forms")
             place = self._peek(copula, frozenset({K.ADV, K.PARTICIPLE, K.ING, K.FILLER}))
-            host = self._last() in _HEADS
-            if host and not denied and self._at(place) is K.P and self._at(self._peek(place)) in _NP:
-                self.tokens[place].form = RELATIVE  # "the cup that is on the desk" as "the cup on the desk"
-                return place
+            if not denied and self._at(place) is K.P and self._at(self._peek(place)) in _NP:
+                self.tokens[place].form = RELATIVE if self._last() in _HEADS else ""
+                return place  # "the cup that is on the desk" as "the cup on the desk"
         if self._last() is K.P:
             self.out.pop()
         return self._bracket(token, K.REL, at + 1, stop)
@@ -576,6 +655,8 @@ class _Shaper:
             token = self.tokens[place]
             if token.kind is K.CC and verb:
                 return place
+            if self.tokens[place - 1].kind is K.ADJ and token.kind in (K.P, K.TO, K.EXC) and verb:
+                return place  # "the bottles that are empty | in the bag"
             inner = self.tokens[place - 1].kind is K.PRON and self.tokens[place - 2].kind is K.P
             whither = token.kind in (K.P, K.TO, K.EXC) and token.form != "inf"
             owns = said and self.tokens[at + 1].text in section("having") and self._at(place + 1) is not K.PRON
@@ -590,6 +671,9 @@ class _Shaper:
     def _negation(self, at: int, end: int) -> int:
         """Bracket what must not be done: "don't open it", "not the mug"."""
         token, stop = self.tokens[at], at + 1
+        if self.verb is None and any(t.kind in _HEADS for t in self.out[self.subject :]):
+            token.kind = K.AUX  # "the mug shouldn't be there"
+            return self._state_of_subject(at, negated=True)
         while self._at(stop) in (K.NEG, K.ADV, K.AUX, K.FILLER, K.SUBJECT, K.TO):
             stop += 1
         lead = self.tokens[stop] if stop < len(self.tokens) else None
@@ -644,8 +728,10 @@ class _Shaper:
         noticing = said is not None and said.stem in section("noticed") | section("knowing")
         past = said is not None and said.form == "ed" and said.kind is not K.ADJ
         first = self.tokens[at].text in section("speakers") | section("self_forms")
-        own = self.tokens[at].text in section("self_forms") or (first and (been or past))
-        if self.verb is None and (own or (noticing and not self._asked(at))) and self._at(self._peek(verb)) is not K.TO:
+        liking = said is not None and said.stem in section("liking") and verb == self._peek(at) and first
+        own = self.tokens[at].text in section("self_forms") or (first and (been or past or liking))
+        leads = self._at(self._peek(verb)) is K.TO and not been
+        if self.verb is None and (own or (noticing and not self._asked(at))) and not leads:
             token = self.tokens[at]
             token.kind = K.PRON
             say = Token(K.SAY, "", Span(token.span.start, token.span.start))
@@ -657,17 +743,22 @@ class _Shaper:
         return at > 0 and self.tokens[at - 1].kind is K.AUX
 
     def _auxiliary(self, at: int, end: int) -> int:
-        """Open a statement where a subject stands before an auxiliary; drop any other."""
-        if self.verb is None and any(t.kind in _HEADS for t in self.out[self.subject :]):
-            start = self.out[self.subject].span.start
-            say = Token(K.SAY, "", Span(start, start))
-            self.out.insert(self.subject, say)
-            stop = self._statement_end(at)
-            self._fill(say, at, stop)
-            return stop
+        """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
+        there = at > 0 and self.tokens[at - 1].text in section("there_words")
+        if self.verb is None and (there or any(t.kind in _HEADS for t in self.out[self.subject :])):
+            return self._state_of_subject(at)
         if self._at(self._peek(at)) is K.NEG:
             return self._negation(at, end)
         return at + 1
+
+    def _state_of_subject(self, at: int, *, negated: bool = False) -> int:
+        """Bracket a statement whose subject has come."""
+        start = (self.out[self.subject] if self.subject < len(self.out) else self.tokens[at]).span.start
+        say = Token(K.SAY, "", Span(start, start), negated=negated)
+        self.out.insert(self.subject, say)
+        stop = self._statement_end(at)
+        self._fill(say, at, stop)
+        return stop
 
     def _statement_end(self, at: int) -> int:
         stop = self._peek(at, frozenset({K.ADV, K.FILLER, K.AUX, K.SUBJECT, K.NEG, K.TO}))
@@ -680,7 +771,7 @@ class _Shaper:
                 break
             if token.kind in _LINKS and follows in (K.V, K.SUBJECT, K.SUB, K.NEG, K.ENSURE, K.LET):
                 break
-            if token.kind is K.COMMA and follows is K.AUX:
+            if token.kind is K.COMMA and (follows is K.AUX or self._statement_follows(stop)):
                 break
             stop += 1
         return stop

@@ -126,8 +126,9 @@ _TOKEN = re.compile(
     re.UNICODE | re.IGNORECASE,
 )
 
-_COPULA = re.compile(r"(that|which|who)'s")
-"""Behind another word these open a relative clause: "the cup that's on the table"."""
+_COPULA = re.compile(r"(that|which|who|it|there|he|she)('s)|(they|you|we)('re)|(i)('m)")
+"""Pronouns with a form of *be*, which is a word of its own."""
+_CUT = {"'s": "is", "'re": "are", "'m": "am"}
 
 _WHEN = frozenset({"when", "once", "if", "until", "untill", "till", "unless"})
 _DONE = frozenset({"done", "ready", "hot", "warm", "boiling", "boiled", "cooked", "cold", "finished", "full", "empty"})
@@ -185,9 +186,10 @@ def tokenise(text: str) -> list[Token]:
                 Token(kind, "is", Span(its.start + 2, its.end)),
             ]
         copula = _COPULA.fullmatch(word)
-        if copula and tokens and tokens[-1].kind is Kind.WORD:
-            cut = span.start + len(copula[1])
-            tokens += [Token(kind, copula[1], Span(span.start, cut)), Token(kind, "is", Span(cut, span.end))]
+        if copula:
+            front, ending = (part for part in copula.groups() if part)
+            cut = min(span.start + len(front), span.end)
+            tokens += [Token(kind, front, Span(span.start, cut)), Token(kind, _CUT[ending], Span(cut, span.end))]
             continue
         tokens.append(Token(kind, word, span))
     _enumeration(tokens, text)
