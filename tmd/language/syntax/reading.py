@@ -375,7 +375,7 @@ class Attachment:
             return
         if preposition.form == ALSO:
             self.host, self.behind = self.earlier
-        name, targets = preposition.text, _phrases(groups[0])
+        name, targets = preposition.text, [self._told_apart(p) for p in _phrases(groups[0])]
         self.earlier = self.host, self.behind
         inner = self.behind in section("with_words") and len(targets) == 1 and targets[0].pronoun
         if inner and name in section("contents_places"):
@@ -399,8 +399,16 @@ class Attachment:
             self.host, self.behind = [], name  # "except the one on the chair | on the shelf"
             return
         self.behind = name
-        if name not in section("never_hosts") and targets[0].name not in PERSONS:
+        told = targets[0].name in section("one_words") and bool(targets[0].lead)
+        if (name not in section("never_hosts") or told) and targets[0].name not in PERSONS:
             self.host = targets
+
+    def _told_apart(self, phrase: Phrase) -> Phrase:
+        """Name "the other table" *one* where a table was spoken of in this clause."""
+        again = any(p.name == phrase.name for p in self.draft.mentions())
+        if again and not section("other_words").isdisjoint(phrase.lead):
+            return replace(phrase, name=sections()["one_words"][0], pronoun=True)
+        return phrase
 
     def _relate(self, name: str, sources: Sequence[Phrase], targets: list[Phrase]) -> None:
         self.draft.landmarks.extend(targets)
@@ -483,6 +491,7 @@ class TextReading:
         forbidden: What must not be done, each with the number of drafts before it.
         statements: Noun phrases of statements, each with the number of drafts before it.
         skipped: What asks for nothing, as tokens that carry the reason.
+        alone: The text has one unit.
     """
 
     text: str
@@ -490,9 +499,11 @@ class TextReading:
     forbidden: list[tuple[int, ClauseDraft]] = field(default_factory=list)
     statements: list[tuple[int, ClauseDraft]] = field(default_factory=list)
     skipped: list[Token] = field(default_factory=list)
+    alone: bool = False
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
+        self.alone = sum(isinstance(unit, Tree) for unit in tree.children) == 1
         for unit in tree.children:
             if isinstance(unit, Tree):
                 self._unit(unit)
@@ -635,7 +646,8 @@ class TextReading:
         verbs = [t for t in verbal if t.kind in (Kind.FINITE, Kind.PARTICIPLE, Kind.ING, Kind.V) and t.stem]
         helpers = [t for t in verbal if t.kind is Kind.AUX]
         owns = bool(helpers) and helpers[-1].text in section("having")
-        if verbs and verbs[-1].stem in section("becoming") and _trees(rest, "state"):
+        lasting = section("becoming") | section("staying")
+        if verbs and verbs[-1].stem in lasting and _trees(rest, "state"):
             return [self._state(subject, rest, part)]
         if verbs and verbs[-1].stem in section("noticed") and _trees(rest, "group"):
             return [self._state([], rest, part)]
@@ -806,6 +818,8 @@ class TextReading:
                 self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
                 continue
             for draft in self._demanded(part, denied):
+                if draft.verb.stem == BE and draft.result is None and not draft.landmarks:
+                    continue
                 draft.spans += [t.span for t in leaves(node)]
                 self._modify(draft, conditions, fronted=True)
                 if draft.mood is Mood.AVOID:
@@ -817,7 +831,7 @@ class TextReading:
     def _asks(token: Token, verbal: Sequence[Token]) -> bool:
         """Tell whether a word of a predicate makes it a demand: a duty, "belongs", "would like"."""
         wished = token.stem in section("wishing") and any(t.text in section("modals") for t in verbal)
-        placed = token.kind in (Kind.FINITE, Kind.V) and token.stem in section("belonging")
+        placed = token.kind in (Kind.FINITE, Kind.V) and token.stem in section("belonging") | section("staying")
         return token.text in section("duties") or wished or placed
 
     def _demanded(self, part: Tree[Leaf], denied: bool) -> list[ClauseDraft]:
@@ -827,6 +841,8 @@ class TextReading:
             placed = [r for r in draft.relations if r.relation in section("static") | section("arrivals")]
             if draft.verb.stem in section("wishing"):
                 draft.verb.stem, draft.verb.form = HAVE, IMPLIED
+            elif draft.verb.stem in section("staying"):
+                draft.verb.stem, draft.mood = sections()["leaving"][0], Mood.KEEP
             elif draft.verb.stem == BE and draft.verb.lead:
                 draft.verb.stem, draft.result = draft.verb.lead[0], None  # "should be washed"
                 draft.mood = Mood.AVOID if denied else None
@@ -853,6 +869,8 @@ class TextReading:
             before.direct += [p for n in _trees(nodes, "group") for p in _phrases(n)]  # "TV on, channel two"
             before.spans += [s for n in nodes for t in leaves(n) for s in (t.span, *t.parts)]
             return
+        if not self._orders(nodes):
+            return
         verb = Token(Kind.V, HAVE, Span(first.span.start, first.span.start), stem=HAVE, form=IMPLIED)
         draft = ClauseDraft(verb, spans=[s for n in nodes for t in leaves(n) for s in (t.span, *t.parts)])
         self._attach(draft, nodes)
@@ -864,6 +882,15 @@ class TextReading:
         elif draft.result is not None:
             verb.stem = BE
         self.drafts.append(draft)
+
+    def _orders(self, nodes: Sequence[Node]) -> bool:
+        """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
+        if any(_is(n, "state", "place", "exception") for n in nodes):
+            return True
+        lead = [t.text for t in leaves(nodes[0])][:1]
+        counted = not section("indefinite").isdisjoint(lead) or any(is_number(word) for word in lead)
+        polite = not section("polite").isdisjoint(self.text.lower().replace(",", " ").replace(".", " ").split())
+        return counted or polite or self.alone
 
     def _carry(self) -> None:
         """A condition in front of a sentence holds for the whole of it."""

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, section, singular
+from tmd.language.lexicon.lexicon import Lexicon, pairs, section, sections, singular
 from tmd.language.syntax.tokens import Kind, Token, fold
 
 K = Kind
@@ -44,6 +44,7 @@ _AHEAD = 15
 
 def shape(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     """Return the terminals of the clause grammar, in order."""
+    tokens = _copulas(tokens)
     _placings(tokens)
     tokens = _settings(_numbered(_partitives(tokens)))
     _exceptions(tokens)
@@ -64,6 +65,20 @@ def _kind(token: Token | None) -> Kind:
 
 
 # -- joins -------------------------------------------------------------------------------------------------------------
+
+
+def _copulas(tokens: list[Token]) -> list[Token]:
+    """Read "the bin's open", "the kettle's on the stove" with "is": no owner stands before such words."""
+    result: list[Token] = []
+    for at, token in enumerate(tokens):
+        result.append(token)
+        follows = next_of(tokens, at, frozenset({K.ADV}))
+        beyond = tokens[at + 2].kind if at + 2 < len(tokens) else K.STOP
+        states = follows is not None and (follows.kind is K.P or (follows.kind in (K.ADJ, K.ING, K.PARTICIPLE) and beyond in _BREAKS))
+        if token.form == "possessive" and token.kind is K.N and (states or follows is None or follows.text in section("end_states")):
+            end = token.span.end
+            result.append(Token(K.AUX, sections()["be"][0], Span(end, end)))
+    return result
 
 
 def _partitives(tokens: list[Token]) -> list[Token]:
@@ -88,6 +103,8 @@ def _numbered(tokens: list[Token]) -> list[Token]:
         one = token.text in section("one_words")
         if one and token.kind in (K.NUM, K.PRON) and before is not None and before.kind is K.N:
             token.kind = K.N  # "the red one"
+        elif token.kind is K.NUM and _kind(following) is K.DET and token.text in section("fractions"):
+            pass  # "half a cup"
         elif token.kind is K.NUM and _kind(following) not in (K.N, K.NUM):
             if before is not None and before.kind is K.N:
                 joined = fold([before, token], K.N)
@@ -138,16 +155,19 @@ def _placings(tokens: list[Token]) -> None:
     """Mark "goes" and "belongs" behind a subject as finite verbs: "both books go on the shelf"."""
     subject = verb = False
     for at, token in enumerate(tokens):
-        if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB):
+        if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB, K.ENSURE):
             subject = subject and token.kind is K.CC and not verb
             verb = False
             continue
         follows = next_of(tokens, at, frozenset())
         place = follows is not None and (follows.kind in (K.P, K.TO, K.STATE) or follows.text in section("back_words") | section("where_words"))
+        stays = follows is not None and follows.text in section("there_words")
         if token.text in section("belonging") and subject and not verb and place:
-            token.kind, token.stem, verb = K.FINITE, "go", True
+            token.kind, token.stem, verb = K.FINITE, sections()["belonging"][0], True
+        elif token.text in pairs("standing") and subject and not verb and (place or stays):
+            token.kind, token.stem, verb = K.FINITE, pairs("standing")[token.text], True
         subject = subject or token.kind in (K.N, K.PRON, K.NUM)
-        verb = verb or token.kind in (K.V, K.LET, K.ENSURE, K.REL)
+        verb = verb or token.kind in (K.V, K.LET)
 
 
 def _mark_sentences(tokens: list[Token]) -> None:
@@ -221,6 +241,9 @@ def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
         keeps = verb.stem in section("leaving") | section("keeping")
         if keeps and place > at + 1 and token.text in section("end_states"):
             return False  # "leave the radio on": as it is, and no particle
+        if place == at + 1 and token.text in section("opening") and _kind(next_of(tokens, place)) in _NP:
+            _absorb(verb, [token], pairs("state_verbs")[token.text])  # "crack open the soda"
+            return True
         match = lexicon.particle(verb.stem, token.text)
         if match is None and not behind and _moves_object(tokens, at, place):
             match = False
@@ -343,7 +366,7 @@ class _Shaper:
             K.TO: self._inner_to,
             K.NEG: self._inner_negation,
             K.ENSURE: self._drop,
-            K.LET: self._keep,
+            K.LET: self._inner_let,
             K.SUBJECT: self._inner_subject,
             K.AUX: self._inner_auxiliary,
             K.FINITE: self._keep,
@@ -351,7 +374,7 @@ class _Shaper:
             K.ING: self._keep,
             K.V: self._keep,
             K.DET: self._inner_determiner,
-            K.N: self._keep,
+            K.N: self._inner_noun,
             K.COMMA: self._keep,
             K.CC: self._keep,
         }
@@ -429,6 +452,11 @@ class _Shaper:
 
     def _wishes_state(self, at: int) -> bool:
         """Tell whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
+        for place in range(at + 2, min(at + _AHEAD, len(self.tokens) - 1)):
+            if self._at(place) in (K.STOP, K.COMMA, K.V):
+                break
+            if self.tokens[place].form == "inf" and self._at(place + 1) is K.AUX and self._at(at + 1) is not K.PRON:
+                return True
         place, things = at + 1, False
         while self._at(place) in _NOMINAL | {K.OF, K.CC, K.AUX} and not (self._at(place) is K.ADJ and not self._leads(place)):
             things = things or self._at(place) is K.N
@@ -450,14 +478,17 @@ class _Shaper:
 
     def _joint(self, at: int, end: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
-        if self.verb is not None and self._statement_follows(at):
+        several = self.tokens[at].kind is K.COMMA and self._at(at + 1) is K.CC
+        named = any(t.kind in _HEADS for t in self.out[self.subject :])
+        listed = any(t.kind is K.COMMA for t in self.out[self.subject :])
+        if (self.verb is not None or (several and named and not listed)) and self._statement_follows(at):
             return self._stop(at, end)
         return self._keep(at, end)
 
     def _statement_follows(self, at: int) -> bool:
         """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
         place, named = at + 1, False
-        while self._at(place) in _NP | {K.OF, K.ADV, K.FILLER, K.CC}:
+        while self._at(place) in _NP | {K.OF, K.ADV, K.FILLER, K.CC, K.EXC}:
             named = named or self._at(place) in _HEADS | {K.NUM}
             place += 1
         denied = self._at(place) is K.NEG and self.tokens[place].text in section("duties")
@@ -527,6 +558,14 @@ class _Shaper:
 
     def _preposition(self, at: int, end: int) -> int:
         token, following = self.tokens[at], self._at(at + 1)
+        after = self.tokens[at + 1] if at + 1 < len(self.tokens) else token
+        if after.text in section("reciprocals"):
+            return at + 1
+        if after.kind is K.NEG:
+            after.kind, after.text = K.DET, sections()["none_words"][0]  # "with neither milk nor sugar"
+        absolute = self._absolute_end(at) if token.text in section("with_words") else 0
+        if absolute:
+            return self._bracket(token, K.SUB, at + 1, absolute)
         if token.text in section("end_states") and following not in _NP | {K.ING, K.V, K.OF} and self._is_state(at):
             token.kind = K.STATE
         elif following is K.ING:
@@ -542,6 +581,18 @@ class _Shaper:
             token.kind = K.OF
         self.out.append(token)
         return at + 1
+
+    def _absolute_end(self, at: int) -> int:
+        """Return where "with the door shut" ends, which says how something shall be besides; 0 for other phrases."""
+        place = at + 1
+        while self._at(place) in _NP and not (self._at(place) is K.ADJ and not self._leads(place)):
+            if self.tokens[place].text in section("end_states") and self._at(place - 1) is K.N:
+                break
+            place += 1
+        if place >= len(self.tokens) or self._at(place - 1) not in _HEADS:
+            return 0
+        state = self.tokens[place].text in section("end_states") or self._at(place) is K.ADJ
+        return place + 1 if state and self._at(place + 1) in _BREAKS else 0
 
     def _participle(self, at: int, end: int) -> int:
         token = self.tokens[at]
@@ -573,7 +624,9 @@ class _Shaper:
         if self.tokens[stop - 1].text in section("persons"):
             return verb
         self.out += [token, *(t for t in self.tokens[at + 1 : stop] if t.kind not in _IDLE)]
-        return verb
+        self._verb(verb, end)
+        self.tokens[verb].form = ALONE
+        return verb + 1
 
     # clauses
 
@@ -655,6 +708,8 @@ class _Shaper:
             token = self.tokens[place]
             if token.kind is K.CC and verb:
                 return place
+            if token.form == "inf" and self._at(place + 1) is K.AUX:
+                return place  # "the mug that is empty | to be on the shelf"
             if self.tokens[place - 1].kind is K.ADJ and token.kind in (K.P, K.TO, K.EXC) and verb:
                 return place  # "the bottles that are empty | in the bag"
             inner = self.tokens[place - 1].kind is K.PRON and self.tokens[place - 2].kind is K.P
@@ -682,7 +737,8 @@ class _Shaper:
                 return self._skip(at, self.boundary(stop), REMINDER)
             return stop + 1
         finish = self._negation_end(stop)
-        if lead is not None and lead.stem in section("unneeded") and self._at(self._peek(stop)) is K.TO:
+        idle = self._at(self._peek(stop)) in (K.TO, K.STOP, K.COMMA)
+        if lead is not None and lead.stem in section("unneeded") and idle:
             return self._skip(at, finish, UNNEEDED)
         if self._at(stop) is K.ING:
             self.tokens[stop].kind = K.V
@@ -731,6 +787,15 @@ class _Shaper:
         liking = said is not None and said.stem in section("liking") and verb == self._peek(at) and first
         own = self.tokens[at].text in section("self_forms") or (first and (been or past or liking))
         leads = self._at(self._peek(verb)) is K.TO and not been
+        denied = self._peek(at)
+        if first and self._at(denied) is K.NEG:
+            wish = self._peek(denied)
+            if wish < len(self.tokens) and self.tokens[wish].stem in section("wishing") and self._wishes_state(wish):
+                self.tokens[denied].negated = True
+                return self._bracket(self.tokens[denied], K.ENSURE, wish + 1, self._statement_end(wish + 1))
+            own = own or self._at(wish) is K.V
+        if own and said is not None and said.kind is K.V and said.stem in section("ordering"):
+            return at + 1  # "I'll have a tea"
         if self.verb is None and (own or (noticing and not self._asked(at))) and not leads:
             token = self.tokens[at]
             token.kind = K.PRON
@@ -745,6 +810,11 @@ class _Shaper:
     def _auxiliary(self, at: int, end: int) -> int:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
         there = at > 0 and self.tokens[at - 1].text in section("there_words")
+        token = self.tokens[at]
+        fresh = self.verb is None and self.subject >= len(self.out)
+        if fresh and not there and token.text in section("getting") and self._at(at + 1) in _NP - {K.PRON}:
+            token.kind, token.stem, token.form = K.V, token.text, "base"
+            return self._verb(at, end)
         if self.verb is None and (there or any(t.kind in _HEADS for t in self.out[self.subject :])):
             return self._state_of_subject(at)
         if self._at(self._peek(at)) is K.NEG:
@@ -821,6 +891,17 @@ class _Shaper:
 
     def _inner_subject(self, at: int, end: int) -> int:
         self.tokens[at].kind = K.PRON
+        return self._keep(at, end)
+
+    def _inner_let(self, at: int, end: int) -> int:
+        self.tokens[at].kind = K.V
+        return self._keep(at, end)
+
+    def _inner_noun(self, at: int, end: int) -> int:
+        token, last = self.tokens[at], self._last()
+        ends = self._at(self._peek(at)) in _BREAKS | {K.SUB, K.MOD, K.P, K.V}
+        if token.text in section("end_states") and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC) and ends:
+            token.kind = K.STATE
         return self._keep(at, end)
 
     def _inner_auxiliary(self, at: int, end: int) -> int:
@@ -920,6 +1001,8 @@ class _Linker:
         if after in (K.V, K.LET) and not self.fronted:
             shares = before is K.V and self.out[-1].form != ALONE and self.out[-1].stem not in section("intransitive")
             return K.VCC if shares and after is K.V else K.SEP
+        if after in (K.V, K.LET) and joined and self._named():
+            return K.SEP
         if after in (K.SAY, K.ENSURE) or before is K.SAY:
             return K.SEP
         if after is K.P and self._opens_clause(end):
@@ -932,6 +1015,21 @@ class _Linker:
         if before in _HEADS and after in _NP:
             return K.SEP if self.fronted and self._verbless(end) else K.CONJ
         return None
+
+    def _named(self) -> bool:
+        """Tell whether the open unit names something: "a glass of milk, and shut the fridge"."""
+        for place in range(len(self.out) - 1, -1, -1):
+            kind = self.out[place].kind
+            if kind in (K.SEP, K.END):
+                return False
+            if kind in _HEADS and not self._behind_preposition(place):
+                return True
+        return False
+
+    def _behind_preposition(self, place: int) -> bool:
+        while place >= 0 and self.out[place].kind in _NP | {K.OF, K.CONJ}:
+            place -= 1
+        return place >= 0 and self.out[place].kind in (K.P, K.EXC)
 
     def _fronts(self, at: int) -> bool:
         """Tell whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""

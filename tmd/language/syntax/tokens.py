@@ -207,7 +207,8 @@ def _enumeration(tokens: list[Token], text: str) -> None:
     for token, after in pairwise(tokens):
         if token.kind is not Kind.NUM or token.text != str(number) or after.text not in (".", ")", ":"):
             continue
-        opens = number > 1 or not text[: token.span.start].strip(" (|\n\t")
+        ahead = text[: token.span.start].strip(" (|\n\t")
+        opens = number > 1 or not ahead or ahead.endswith(":")
         if opens and sign in ("", after.text):
             token.kind = after.kind = Kind.STOP
             sign, number = after.text, number + 1
