@@ -199,7 +199,7 @@ class Lexicon:
         if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
             return swapped[0]
         if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
-            return stem + "s"
+            return stem + ("es" if stem.endswith("s") else "s")
         group = self._by_initial.get(word[0], ())
         near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
         if not near:

@@ -216,6 +216,8 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     written = "_".join(t.text for t in words)
     if len(words) == 1 and words[0].text in section("other_words"):
         return Phrase("one", words[0].span.start, False, True, lead=(*(t.text for t in lead), words[0].text))
+    if len(words) == 1 and words[0].text in section("ordinals"):
+        return Phrase(f"{words[0].text}_{sections()['one_words'][0]}", words[0].span.start, False, True, lead=tuple(t.text for t in lead))
     one = words[-1].text in section("one_words")
     pronoun = words[-1].kind is Kind.PRON or one
     said = tuple(t.text for t in lead)
@@ -363,8 +365,11 @@ class Attachment:
         """Take something out of what was said of all."""
         wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
         self.earlier = self.host, self.behind
-        hosts = wholes or self.host or self.draft.direct
-        self._relate("except", hosts, phrases)
+        if hosts := wholes or self.host or self.draft.direct:
+            self._relate("except", hosts, phrases)
+        else:
+            self.draft.landmarks.extend(phrases)
+            self.pending.append(("except", phrases))
         told = bool(phrases) and phrases[0].name in section("one_words") and bool(phrases[0].lead)
         self.behind = "except"
         self.host = phrases if told else []
@@ -436,11 +441,11 @@ class Attachment:
         if not (told or bare) or not alike:
             return False
         sources = list(self.host if self.paired else self.draft.direct)
-        self._relate(name, sources, phrases[:-1])
-        self.draft.direct.append(phrases[-1])
-        self._of(phrases[-1:])
+        self._relate(name, sources, phrases[:1])
+        self.draft.direct += phrases[1:]
+        self._of(phrases[1:])
         self._flush(sources)
-        self.host, self.behind, self.paired = phrases[-1:], "", True
+        self.host, self.behind, self.paired = phrases[1:], "", True
         return True
 
     def _hosted(self, name: str, targets: list[Phrase]) -> bool:
@@ -530,17 +535,50 @@ class TextReading:
         for demand in demands:
             self._aside(demand)  # type: ignore[arg-type]
         front = [n for n in front if n not in demands]
+        topic = [n for n in front if _is(n, "group", "place")]
+        if topic and _is(topic[0], "group") and (pronoun := self._pronoun(arguments)) is not None:
+            arguments[pronoun : pronoun + 1] = topic  # "the drawers, open them"
+            front = [n for n in front if n not in topic]
+            last.spans.extend(t.span for n in topic for t in leaves(n))
         for item in front:
             if not _is(item, "group"):
                 first.spans.extend(s for t in leaves(item) for s in (t.span, *t.parts))
         if first.verb.stem in section("wishing"):
             first.verb.stem, first.verb.form = HAVE, IMPLIED
+        same = self.drafts[-1] if self.drafts else None
         self.drafts.extend(drafts)
         places = [n for n in front if _is(n, "place", "exception")]
         self._modify(first, [n for n in front if n not in places], fronted=True)
         self._attach(last, arguments, front=places)
         for draft in drafts[:-1]:
             draft.direct = last.direct
+        if not (last.direct or last.landmarks) and _trees(arguments, "denial"):
+            self.drafts.remove(last)  # "use neither the saw nor the drill"
+        if same is not None and first.verb.stem in section("pro_verbs"):
+            self._same(first, same)
+
+    @staticmethod
+    def _pronoun(arguments: Sequence[Node]) -> int | None:
+        """Return which argument is a pronoun alone."""
+        for place, node in enumerate(arguments):
+            if isinstance(node, Tree) and node.data == "group":
+                phrases = _phrases(node)
+                return place if len(phrases) == 1 and phrases[0].pronoun and not phrases[0].lead else None
+        return None
+
+    @staticmethod
+    def _same(draft: ClauseDraft, before: ClauseDraft) -> None:
+        """Read "do the same with the glass" as the clause before, with another object."""
+        named = [p for p in draft.landmarks if any(r.target == p.name for r in draft.relations)]
+        if not named or not any(p.name in section("same_words") for p in draft.direct):
+            return
+        old = {p.name for p in before.direct}
+        draft.verb.stem, draft.direct, draft.result = before.verb.stem, named, before.result
+        draft.landmarks = list(before.landmarks)
+        draft.relations = [
+            r if r.source not in old else Relation(r.relation, p.name, r.target) for r in before.relations for p in named
+        ]
+        draft.folds += before.folds
 
     def _attach(
         self, draft: ClauseDraft, arguments: Sequence[Node], *, front: Sequence[Node] = (), predicate: Sequence[Node] = ()
@@ -652,7 +690,7 @@ class TextReading:
         if verbs and verbs[-1].stem in section("noticed") and _trees(rest, "group"):
             return [self._state([], rest, part)]
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and not owns and _about_things(subject):
-            return [self._done(subject, verbs[-1], rest, part)]
+            return [self._done(subject, v, rest, part) for v in verbs if v.kind is Kind.PARTICIPLE]
         if verbs:
             return [self._event(subject, v, rest, part) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
         if owns and _trees(rest, "group"):
@@ -839,20 +877,22 @@ class TextReading:
         found = []
         for draft in self._said(part):
             placed = [r for r in draft.relations if r.relation in section("static") | section("arrivals")]
+            none = any(p.said().quantifier is Quantifier.NONE for p in draft.direct)
+            draft.verb.stem = pairs("demand_verbs").get(draft.verb.stem, draft.verb.stem)
             if draft.verb.stem in section("wishing"):
                 draft.verb.stem, draft.verb.form = HAVE, IMPLIED
             elif draft.verb.stem in section("staying"):
-                draft.verb.stem, draft.mood = sections()["leaving"][0], Mood.KEEP
+                stays = none or denied
+                draft.verb.stem, draft.mood = (BE, None) if stays else (sections()["leaving"][0], Mood.KEEP)
             elif draft.verb.stem == BE and draft.verb.lead:
                 draft.verb.stem, draft.result = draft.verb.lead[0], None  # "should be washed"
-                draft.mood = Mood.AVOID if denied else None
+                draft.mood = Mood.AVOID if denied or none else None
             elif draft.verb.stem == BE and denied:
                 for phrase in draft.direct:
                     phrase.lead = ("no", *phrase.lead)
             elif draft.verb.stem == BE and draft.result in pairs("state_verbs") and draft.verb.form != EXISTS:
                 draft.verb.stem, draft.result = pairs("state_verbs")[draft.result], None
             elif draft.verb.stem in section("going") or (draft.verb.stem == BE and placed and not draft.result):
-                none = any(p.said().quantifier is Quantifier.NONE for p in draft.direct)
                 draft.verb.stem = BE if none or draft.verb.form == EXISTS else PUT
             elif draft.verb.stem == BE and any(t.form == "setting" for t in draft.folds):
                 draft.verb.stem = SET
@@ -881,16 +921,18 @@ class TextReading:
             verb.stem = BRING
         elif draft.result is not None:
             verb.stem = BE
+        elif any(t.form == "setting" for t in draft.folds):
+            verb.stem = SET
         self.drafts.append(draft)
 
     def _orders(self, nodes: Sequence[Node]) -> bool:
         """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
-        if any(_is(n, "state", "place", "exception") for n in nodes):
+        if any(_is(n, "state", "place", "exception") or isinstance(n, Leaf) for n in nodes):
             return True
         lead = [t.text for t in leaves(nodes[0])][:1]
         counted = not section("indefinite").isdisjoint(lead) or any(is_number(word) for word in lead)
         polite = not section("polite").isdisjoint(self.text.lower().replace(",", " ").replace(".", " ").split())
-        return counted or polite or self.alone
+        return counted or polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
 
     def _carry(self) -> None:
         """A condition in front of a sentence holds for the whole of it."""

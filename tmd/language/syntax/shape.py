@@ -36,6 +36,8 @@ _IDLE = frozenset({K.ADV, K.FILLER})
 _NOMINAL = _NP | {K.P, K.ADV, K.MOD, K.EXC, K.TO}
 _VERBAL = frozenset({K.AUX, K.FINITE, K.PARTICIPLE, K.ING, K.V})
 _OPENERS = frozenset({K.SUB, K.PURP, K.REL, K.NEG, K.WITHOUT, K.ENSURE, K.SAY})
+_FOLLOWERS = {K.CONJ: _NP | {K.STATE}, K.VCC: _VERBAL, K.LINK: _NOMINAL | _VERBAL | _OPENERS | {K.STATE}}
+"""What may stand behind a joint."""
 _DEPTH = 3
 """Maximum nesting depth of subordinate clauses."""
 _AHEAD = 15
@@ -50,7 +52,7 @@ def shape(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _exceptions(tokens)
     _particles(tokens, lexicon)
     _mark_sentences(tokens)
-    shaper = _Shaper(tokens)
+    shaper = _Shaper(tokens, lexicon)
     shaper.main(0, len(tokens))
     return _drop_dangling(_link(shaper.out))
 
@@ -73,12 +75,22 @@ def _copulas(tokens: list[Token]) -> list[Token]:
     for at, token in enumerate(tokens):
         result.append(token)
         follows = next_of(tokens, at, frozenset({K.ADV}))
+        if token.kind is K.DET and token.text in section("its_words") and _kind(follows) in (K.P, K.ADJ) and not _owns(tokens, at):
+            token.kind, token.text = K.PRON, sections()["singular_pronouns"][0]
+            result.append(Token(K.AUX, sections()["be"][0], Span(token.span.end, token.span.end)))
+            continue
         beyond = tokens[at + 2].kind if at + 2 < len(tokens) else K.STOP
         states = follows is not None and (follows.kind is K.P or (follows.kind in (K.ADJ, K.ING, K.PARTICIPLE) and beyond in _BREAKS))
         if token.form == "possessive" and token.kind is K.N and (states or follows is None or follows.text in section("end_states")):
             end = token.span.end
             result.append(Token(K.AUX, sections()["be"][0], Span(end, end)))
     return result
+
+
+def _owns(tokens: list[Token], at: int) -> bool:
+    """Tell whether a noun that a possessive belongs to follows."""
+    after = next((t for t in tokens[at + 1 : at + 6] if t.kind not in (K.ADJ, K.ADV, K.NUM)), None)
+    return _kind(after) is K.N
 
 
 def _partitives(tokens: list[Token]) -> list[Token]:
@@ -101,6 +113,8 @@ def _numbered(tokens: list[Token]) -> list[Token]:
         following = next_of(tokens, at, _IDLE | {K.ADJ})
         before = result[-1] if result else None
         one = token.text in section("one_words")
+        if token.kind in (K.DET, K.ADJ) and token.text in section("other_words") and _kind(following) not in (K.N, K.NUM, K.PRON):
+            token.kind = K.PRON  # "and another in the crate"
         if one and token.kind in (K.NUM, K.PRON) and before is not None and before.kind is K.N:
             token.kind = K.N  # "the red one"
         elif token.kind is K.NUM and _kind(following) is K.DET and token.text in section("fractions"):
@@ -119,6 +133,9 @@ def _numbered(tokens: list[Token]) -> list[Token]:
 def _settings(tokens: list[Token]) -> list[Token]:
     """Fold "on high", "to full": a setting without a noun says how."""
     for at, token in enumerate(tokens[:-1]):
+        last = next_of(tokens, at + 1)
+        if token.kind in (K.N, K.NUM) and tokens[at + 1].text in section("settings") and _kind(last) in _BREAKS:
+            tokens[at + 1].kind, tokens[at + 1].form = K.MOD, "setting"  # "turn the sound low", "sound low"
         if token.kind not in (K.P, K.TO) or token.text not in section("setting_places"):
             continue
         place = at + 1 + (tokens[at + 1].kind is K.DET)
@@ -161,7 +178,7 @@ def _placings(tokens: list[Token]) -> None:
             continue
         follows = next_of(tokens, at, frozenset())
         place = follows is not None and (follows.kind in (K.P, K.TO, K.STATE) or follows.text in section("back_words") | section("where_words"))
-        stays = follows is not None and follows.text in section("there_words")
+        stays = follows is None or follows.kind in _BREAKS or follows.text in section("there_words")
         if token.text in section("belonging") and subject and not verb and place:
             token.kind, token.stem, verb = K.FINITE, sections()["belonging"][0], True
         elif token.text in pairs("standing") and subject and not verb and (place or stays):
@@ -232,7 +249,7 @@ def _absorb(verb: Token, others: list[Token], stem: str) -> None:
 def _join_particle(tokens: list[Token], at: int, lexicon: Lexicon) -> bool:
     verb, behind = tokens[at], False
     for place, token in enumerate(tokens[at + 1 : at + 1 + 2 * _AHEAD], at + 1):
-        if token.kind in (K.V, K.STOP, K.SEP, K.SKIP, K.SUB, K.REL, K.EXC):
+        if token.kind in (K.V, K.LET, K.NEG, K.ENSURE, K.STOP, K.SEP, K.SUB, K.REL, K.EXC):
             return False
         if token.kind not in (K.P, K.ADV):
             continue
@@ -328,8 +345,9 @@ def _takes_particle(tokens: list[Token], at: int, place: int) -> bool:
 class _Shaper:
     """One pass over the decided tokens of a text; ``out`` is what the grammar sees, links still undecided."""
 
-    def __init__(self, tokens: list[Token]) -> None:
+    def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
         self.tokens = tokens
+        self.lexicon = lexicon
         self.out: list[Token] = []
         self.verb: Token | None = None
         """The verb of the clause that is open."""
@@ -435,6 +453,8 @@ class _Shaper:
 
     def _stop(self, at: int, end: int) -> int:
         token = self.tokens[at]
+        if token.text == ":" and self.verb is None and self._named() and self._at(at + 1) is K.V:
+            return at + 1  # "the radio: put it in the crate"
         token.kind = K.SEP
         self.out.append(token)
         self.verb, self.subject = None, len(self.out)
@@ -479,16 +499,21 @@ class _Shaper:
     def _joint(self, at: int, end: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
         several = self.tokens[at].kind is K.COMMA and self._at(at + 1) is K.CC
-        named = any(t.kind in _HEADS for t in self.out[self.subject :])
+        named = self._named()
         listed = any(t.kind is K.COMMA for t in self.out[self.subject :])
         if (self.verb is not None or (several and named and not listed)) and self._statement_follows(at):
             return self._stop(at, end)
         return self._keep(at, end)
 
+    def _named(self) -> bool:
+        return any(t.kind in _HEADS for t in self.out[self.subject :])
+
     def _statement_follows(self, at: int) -> bool:
         """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
         place, named = at + 1, False
-        while self._at(place) in _NP | {K.OF, K.ADV, K.FILLER, K.CC, K.EXC}:
+        while self._at(place) in _NP | {K.OF, K.ADV, K.FILLER, K.CC, K.EXC} or (
+            place < len(self.tokens) and self.tokens[place].text in section("choices")
+        ):
             named = named or self._at(place) in _HEADS | {K.NUM}
             place += 1
         denied = self._at(place) is K.NEG and self.tokens[place].text in section("duties")
@@ -505,11 +530,6 @@ class _Shaper:
 
     def _noun(self, at: int, end: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""
-        token = self.tokens[at]
-        setting = token.text in section("settings") and self.verb is None and self._last() is K.N
-        if setting and self._at(self._peek(at)) in _BREAKS:
-            token.kind = K.STATE  # "sound low"
-            return self._keep(at, end)
         first = not self.out or self._last() is K.SEP
         asks = (K.V, K.SUBJECT, K.AUX, K.NEG, K.ENSURE, K.LET)
         if first and self._at(at + 1) is K.COMMA and self._at(self._peek(at + 1)) in asks and self._at(at - 1) not in _NP:
@@ -563,6 +583,12 @@ class _Shaper:
             return at + 1
         if after.kind is K.NEG:
             after.kind, after.text = K.DET, sections()["none_words"][0]  # "with neither milk nor sugar"
+            for word in self.tokens[at + 2 : at + 6]:
+                if word.kind is K.V and self.lexicon.is_noun(word.text):
+                    word.kind = K.N
+        if after.text in section("using_words") and token.text in section("without_words"):
+            after.kind, after.stem = K.ING, (self.lexicon.verb(after.text) or (after.text,))[0]
+            following = K.ING
         absolute = self._absolute_end(at) if token.text in section("with_words") else 0
         if absolute:
             return self._bracket(token, K.SUB, at + 1, absolute)
@@ -606,16 +632,21 @@ class _Shaper:
     def _ing(self, at: int, end: int) -> int:
         token, last = self.tokens[at], self.out[-1] if self.out else None
         if last is not None and last.kind in _HEADS:
+            if self._at(at + 1) is K.P:
+                self.tokens[at + 1].form = RELATIVE  # "the letter lying on the chair"
             return self._participle(at, end)
         if last is not None and last is self.verb:
             self.out.pop()
         token.kind = K.V
+        if last is not None and last is self.verb and last.stem in section("stopping"):
+            self.verb = None
+            return self._bracket(last, K.NEG, at, self.boundary(at))
         return self._verb(at, end)
 
     def _let(self, at: int, end: int) -> int:
         """Emit "let X do" as LET, the noun phrase and the verb; any other "let" is a verb."""
         token, stop = self.tokens[at], at + 1
-        while self._at(stop) in _NP | _IDLE:
+        while self._at(stop) in _NP | _IDLE | {K.OF}:
             stop += 1
         verb = stop + (self._at(stop) is K.TO)
         if self._at(verb) is not K.V or self.tokens[verb].form != "base" or token.text in section("leaving"):
@@ -694,6 +725,7 @@ class _Shaper:
         if stands or (self._at(copula) is K.AUX and self.tokens[copula].text in section("be")):
             denied = self.tokens[copula].text in section("not_forms")
             place = self._peek(copula, frozenset({K.ADV, K.PARTICIPLE, K.ING, K.FILLER}))
+            place += place < len(self.tokens) and self.tokens[place].text in section("loosely")
             if not denied and self._at(place) is K.P and self._at(self._peek(place)) in _NP:
                 self.tokens[place].form = RELATIVE if self._last() in _HEADS else ""
                 return place  # "the cup that is on the desk" as "the cup on the desk"
@@ -726,7 +758,13 @@ class _Shaper:
     def _negation(self, at: int, end: int) -> int:
         """Bracket what must not be done: "don't open it", "not the mug"."""
         token, stop = self.tokens[at], at + 1
-        if self.verb is None and any(t.kind in _HEADS for t in self.out[self.subject :]):
+        if token.text in section("choices"):
+            token.kind = K.CC
+            return self._keep(at, end)
+        if self.verb is None and token.text in section("none_words") and self._statement_follows(at):
+            token.kind = K.DET  # "neither the lamp nor the radio should be on"
+            return self._keep(at, end)
+        if self.verb is None and self._named():
             token.kind = K.AUX  # "the mug shouldn't be there"
             return self._state_of_subject(at, negated=True)
         while self._at(stop) in (K.NEG, K.ADV, K.AUX, K.FILLER, K.SUBJECT, K.TO):
@@ -745,6 +783,7 @@ class _Shaper:
         return self._bracket(token, K.NEG, stop, finish)
 
     def _negation_end(self, at: int) -> int:
+        deed = self._at(at) in (K.V, K.LET, K.ING)
         while at < len(self.tokens) and self.tokens[at].kind is not K.STOP:
             token, follows = self.tokens[at], self._at(self._peek(at))
             contrast = token.text in section("contrasts") or token.kind is K.COMMA
@@ -752,6 +791,8 @@ class _Shaper:
                 break
             if token.kind is K.V and self._at(at - 1) in _HEADS | {K.STATE} and token.strength == 3:
                 break
+            if not deed and (token.form == "inf" or token.kind in (K.SUB, K.PURP, K.V)):
+                break  # "the saw, not the axe, to cut it"
             at += 1
         return at
 
@@ -794,8 +835,10 @@ class _Shaper:
                 self.tokens[denied].negated = True
                 return self._bracket(self.tokens[denied], K.ENSURE, wish + 1, self._statement_end(wish + 1))
             own = own or self._at(wish) is K.V
-        if own and said is not None and said.kind is K.V and said.stem in section("ordering"):
+        if own and said is not None and said.stem in section("ordering"):
             return at + 1  # "I'll have a tea"
+        if own and self.verb is not None and self._last() in _LINKS:
+            self.out[-1].kind, self.verb, self.subject = K.SEP, None, len(self.out)
         if self.verb is None and (own or (noticing and not self._asked(at))) and not leads:
             token = self.tokens[at]
             token.kind = K.PRON
@@ -811,15 +854,32 @@ class _Shaper:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
         there = at > 0 and self.tokens[at - 1].text in section("there_words")
         token = self.tokens[at]
-        fresh = self.verb is None and self.subject >= len(self.out)
+        fresh = self.verb is None and all(t.kind in _LINKS for t in self.out[self.subject :])
         if fresh and not there and token.text in section("getting") and self._at(at + 1) in _NP - {K.PRON}:
             token.kind, token.stem, token.form = K.V, token.text, "base"
             return self._verb(at, end)
-        if self.verb is None and (there or any(t.kind in _HEADS for t in self.out[self.subject :])):
+        if self.verb is None and (there or self._named()):
+            return self._state_of_subject(at)
+        run_on = self._run_on()
+        if self.verb is not None and run_on:
+            stop = Token(K.SEP, "", Span(self.out[run_on].span.start, self.out[run_on].span.start))
+            self.out.insert(run_on, stop)
+            self.verb, self.subject = None, run_on + 1
             return self._state_of_subject(at)
         if self._at(self._peek(at)) is K.NEG:
             return self._negation(at, end)
         return at + 1
+
+    def _run_on(self) -> int:
+        """Return where the subject of a statement begins that follows a noun phrase without a sign; 0 for none."""
+        place = len(self.out)
+        while place > 0 and self.out[place - 1].kind in _NP and self.out[place - 1].kind is not K.PRON:
+            place -= 1
+            if self.out[place].kind in (K.DET, K.NUM):
+                break
+        if place == len(self.out) and place and self.out[-1].kind is K.PRON:
+            place -= 1
+        return place if 0 < place < len(self.out) and self.out[place - 1].kind in _HEADS else 0
 
     def _state_of_subject(self, at: int, *, negated: bool = False) -> int:
         """Bracket a statement whose subject has come."""
@@ -874,6 +934,8 @@ class _Shaper:
 
     def _inner_to(self, at: int, end: int) -> int:
         token = self.tokens[at]
+        if token.form == "inf" and self.opener[-1].kind is K.NEG and self._last() in _HEADS:
+            return self._bracket(token, K.PURP, at + 1, end)
         if token.form == "inf":
             return at + 1
         token.kind = K.P
@@ -900,7 +962,11 @@ class _Shaper:
     def _inner_noun(self, at: int, end: int) -> int:
         token, last = self.tokens[at], self._last()
         ends = self._at(self._peek(at)) in _BREAKS | {K.SUB, K.MOD, K.P, K.V}
-        if token.text in section("end_states") and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC) and ends:
+        if last is K.AUX and token.text in section("same_past") and token.text not in section("end_states"):
+            token.kind, token.stem = K.PARTICIPLE, token.text  # "should be put"
+            return self._keep(at, end)
+        state = token.text in section("end_states") and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC)
+        if ends and (state or (last is K.AUX and not self.lexicon.is_noun(token.text))):
             token.kind = K.STATE
         return self._keep(at, end)
 
@@ -975,6 +1041,8 @@ class _Linker:
         if before in _VERBAL and after in _VERBAL:
             return K.VCC
         nouns = before in _HEADS and after in _NP
+        if nouns and not self.open[-1] and self._behind_preposition(len(self.out) - 1) and self._first():
+            return None  # "apart from the red cup, all the cups"
         if nouns and not (self.open[-1] and self._predicate_follows(end)):
             return K.CONJ
         if after is K.P and not nouns:
@@ -1013,8 +1081,25 @@ class _Linker:
         if before is K.STATE and after in _NP:
             return K.SEP
         if before in _HEADS and after in _NP:
-            return K.SEP if self.fronted and self._verbless(end) else K.CONJ
+            apart = self._state_follows(end) or (self.fronted and self._verbless(end))
+            return K.SEP if apart else K.CONJ
         return None
+
+    def _first(self) -> bool:
+        """Tell whether only a prepositional phrase has come in the open bracket."""
+        kinds = []
+        for token in reversed(self.out):
+            if token.kind in _OPENERS:
+                break
+            kinds.append(token.kind)
+        return bool(kinds) and kinds[-1] in (K.P, K.EXC)
+
+    def _state_follows(self, at: int) -> bool:
+        """Tell whether a thing with its state follows: "… in the chest, and the lid closed"."""
+        while at < len(self.tokens) and self.tokens[at].kind in _NP:
+            at += 1
+        after = self.tokens[at + 1].kind if at + 1 < len(self.tokens) else K.SEP
+        return at < len(self.tokens) and self.tokens[at].kind is K.STATE and after in _BREAKS
 
     def _named(self) -> bool:
         """Tell whether the open unit names something: "a glass of milk, and shut the fridge"."""
@@ -1054,6 +1139,9 @@ class _Linker:
 
     def _verbless(self, at: int) -> bool:
         """Tell whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
+        last = next((t for t in reversed(self.out) if t.kind in (K.P, K.STATE, K.SEP)), None)
+        if last is not None and last.text in section("with_words"):
+            return False  # "a tea with milk and sugar in a mug"
         ahead = [t.kind for t in self.tokens[at : at + _AHEAD]]
         stop = next((i for i, kind in enumerate(ahead) if kind in (*_LINKS, K.SEP, K.V)), len(ahead))
         mine = []
@@ -1071,6 +1159,8 @@ def _drop_dangling(tokens: list[Token]) -> list[Token]:
     for at in range(len(tokens) - 1, -1, -1):
         token = tokens[at]
         following = backwards[-1].kind if backwards else K.STOP
+        if following not in _FOLLOWERS.get(token.kind, {following}):
+            continue  # a joint at the end of its part
         if token.kind in (K.DET, K.NUM, K.ADJ, K.OF) and following not in _NP:
             if at and tokens[at - 1].kind is K.V:
                 tokens[at - 1].form = ALONE

@@ -126,7 +126,7 @@ _TOKEN = re.compile(
     re.UNICODE | re.IGNORECASE,
 )
 
-_COPULA = re.compile(r"(that|which|who|it|there|he|she)('s)|(they|you|we)('re)|(i)('m)")
+_COPULA = re.compile(r"(that|which|who|what|it|there|he|she)('s)|(they|you|we)('re)|(i)('m)")
 """Pronouns with a form of *be*, which is a word of its own."""
 _CUT = {"'s": "is", "'re": "are", "'m": "am"}
 
@@ -196,7 +196,7 @@ def tokenise(text: str) -> list[Token]:
     _capitals(tokens, text)
     for token, after in pairwise(tokens):
         abbreviated = text[after.span.start : after.span.end].isupper()
-        if token.text == "an" and after.kind is Kind.WORD and after.text[0] not in "aeiouhx" and not abbreviated:
+        if token.text == "an" and after.kind is Kind.WORD and after.text[0] not in "aeioux" and not (abbreviated or after.text in section("silent_h")):
             token.text = "and"  # "warm it up an pour it out": no article stands before such a sound
     return tokens
 
