@@ -187,6 +187,9 @@ def _phrases(group: Tree[Leaf]) -> list[Phrase]:
     if any(isinstance(n, Leaf) and n.source.form == CHOICE for n in group.children):
         for phrase in phrases:
             phrase.either = tuple(p.name for p in phrases)
+        none = [w for w in phrases[0].lead if w in section("none_words")]
+        for phrase in phrases[1:] if none else ():
+            phrase.lead = (*none, *phrase.lead)  # "neither the lamp nor the radio"
     result: list[Phrase] = []
     for phrase in phrases:
         host = result[-1] if result else None
@@ -586,6 +589,9 @@ class TextReading:
         """Attach arguments from left to right; those in front of a verb, or of a predicate, are said of its objects."""
         state = Attachment(draft)
         self._arguments(state, arguments)
+        if predicate and draft.result is not None and state.host:
+            state.host[-1].attributes.append(draft.result)  # "nothing wet may stay there"
+            draft.result = None
         if predicate:
             state.host = []
             self._arguments(state, predicate)
@@ -689,6 +695,7 @@ class TextReading:
             return [self._state(subject, rest, part)]
         if verbs and verbs[-1].stem in section("noticed") and _trees(rest, "group"):
             return [self._state([], rest, part)]
+        verbs = [v for v in verbs if v.text not in section("loosely")]
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and not owns and _about_things(subject):
             return [self._done(subject, v, rest, part) for v in verbs if v.kind is Kind.PARTICIPLE]
         if verbs:
@@ -887,6 +894,8 @@ class TextReading:
             elif draft.verb.stem == BE and draft.verb.lead:
                 draft.verb.stem, draft.result = draft.verb.lead[0], None  # "should be washed"
                 draft.mood = Mood.AVOID if denied or none else None
+            elif draft.verb.stem == BE and none:
+                pass
             elif draft.verb.stem == BE and denied:
                 for phrase in draft.direct:
                     phrase.lead = ("no", *phrase.lead)

@@ -799,7 +799,7 @@ class _Shaper:
     def _skip(self, at: int, end: int, note: str) -> int:
         said = fold(self.tokens[at:end], K.SKIP, " ")
         said.note = note
-        self.tokens[at].note = note
+        self.tokens[at].note, self.tokens[at].kind = note, K.SKIP
         self.tokens[at].span = said.span
         return end
 
