@@ -16,12 +16,12 @@ from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
 from tmd.language.syntax.attachment import drafts, parse_tokens
 from tmd.language.syntax.chunking import chunk
-from tmd.language.syntax.part_of_speech import decide
+from tmd.language.syntax.tagger import decide, tag
 from tmd.language.syntax.pronouns import resolve
 from tmd.language.syntax.requests import rewrite_requests
 from tmd.language.syntax.sentences import drop_headings, drop_taken_back, rewrite_words
 from tmd.language.syntax.subordinate import fold_subordinates, read_prohibitions, read_subordinates
-from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tag, tokenise
+from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
 
 _DEEPEST = 3
 """So deep may subordinate clauses stand in one another."""
