@@ -153,6 +153,7 @@ class Tables:
     """Everything a file says.
 
     Attributes:
+        rows: All rows in the order of the file.
         tables: The rows by the table they stand in.
         terms: The conditions that have a name.
         phrases: The rows that give classes to entries of several words.
@@ -160,6 +161,7 @@ class Tables:
         parts: Pieces of patterns.
     """
 
+    rows: list[Row]
     tables: dict[str, Table]
     terms: dict[str, Condition]
     phrases: list[Row]
@@ -193,7 +195,7 @@ def read_tables(text: str, file: str, features: Mapping[str, Test]) -> Tables:
         if name in sections:
             for key in sections[name].values:
                 into[key] = sections[name].checked(key, read)
-    found = Tables({}, vocabulary.terms, [], [], parts)
+    found = Tables([], {}, vocabulary.terms, [], [], parts)
     known = sections["tables"].values if "tables" in sections else {}
     found.tables.update((name, Table()) for name in known)
     for entry in rows:
@@ -208,6 +210,7 @@ def read_tables(text: str, file: str, features: Mapping[str, Test]) -> Tables:
             re.compile(entry.checked("pattern", pattern)),
             entry,
         )
+        found.rows.append(row)
         for name in entry["table"].split("|"):
             if name not in known:
                 entry.fail("table", f"'{name}' is no table", f"tables: {', '.join(known)}")

@@ -112,15 +112,11 @@ class Word:
         return _is_number(self.word.text)
 
     @property
-    def superlative(self) -> bool:
-        """It is made of an adjective that is dropped: "dirtiest"."""
+    def graded(self) -> bool:
+        """It is the comparative or superlative of an adjective that is dropped: "dirtiest"."""
         root = positive(self.word.text)
-        return root != self.word.text and not section("drop_adjectives").isdisjoint((root, root + "e"))
-
-    @property
-    def comparative(self) -> bool:
-        """It is made of an adjective that is dropped: "dirtier"."""
-        return not section("drop_adjectives").isdisjoint(comparative_root(self.word.text))
+        roots = (root, f"{root}e") if root != self.word.text else comparative_root(self.word.text)
+        return not section("drop_adjectives").isdisjoint(roots)
 
     @property
     def compound(self) -> bool:
@@ -154,11 +150,6 @@ class Word:
         """The adjectives before it belong to a verb: "is full"."""
         before = (t.kind for t in reversed(self.tokens[max(0, self.at - 4) : self.at]))
         return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
-
-    @property
-    def adjacent(self) -> bool:
-        """No adverb stands before it."""
-        return self.last is self.left
 
     @property
     def later_verb(self) -> bool:
@@ -213,7 +204,6 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
         position += used
     _each("things", tagged, lexicon, fired)
     _compounds(tagged, lexicon)
-    _each("names", tagged, lexicon, fired)
     if trace is not None:
         trace.extend(fired)
     return tagged
@@ -349,8 +339,9 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         The tokens that were decided, each with the row that did it.
     """
     sentence, left = Sentence(), _EDGE
+    purposes: list[str] = []
     fired: list[tuple[Token, Row]] = []
-    _each("purposes", tokens, lexicon, [])
+    _each("purposes", tokens, lexicon, purposes)
     ahead = _ahead(tokens)
     for at, token in enumerate(tokens):
         if token.kind is Kind.TO:
@@ -367,7 +358,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         if token.kind not in (Kind.ADV, Kind.FILLER):
             left = token
     if trace is not None:
-        trace.extend(row.id for _, row in fired)
+        trace += [*purposes, *(row.id for _, row in fired)]
     return fired
 
 
