@@ -152,6 +152,11 @@ class Word:
         return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
 
     @property
+    def adjacent(self) -> bool:
+        """No adverb stands before it."""
+        return self.last is self.left
+
+    @property
     def later_verb(self) -> bool:
         """A verb comes later in the same part of the sentence."""
         for token in self.tokens[self.at + 1 :]:
@@ -339,9 +344,9 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         The tokens that were decided, each with the row that did it.
     """
     sentence, left = Sentence(), _EDGE
-    purposes: list[str] = []
+    openers: list[str] = []
     fired: list[tuple[Token, Row]] = []
-    _each("purposes", tokens, lexicon, purposes)
+    _each("clauses", tokens, lexicon, openers)
     ahead = _ahead(tokens)
     for at, token in enumerate(tokens):
         if token.kind is Kind.TO:
@@ -358,7 +363,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         if token.kind not in (Kind.ADV, Kind.FILLER):
             left = token
     if trace is not None:
-        trace += [*purposes, *(row.id for _, row in fired)]
+        trace += [*openers, *(row.id for _, row in fired)]
     return fired
 
 
