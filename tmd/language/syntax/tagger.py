@@ -188,14 +188,14 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
         lexicon: The words of the domain.
         trace: Where the ids of the rows go that decided something.
     """
-    fired: list[str] = []
+    fired: list[tuple[Token, Row]] = []
     tagged: list[Token] = []
     position = 0
     while position < len(tokens):
         token = tokens[position]
         row, merged, used = _phrase(tokens, position, lexicon) or _run(tokens, position) or (None, token, 1)
         if row is not None:
-            fired.append(row.id)
+            fired.append((merged, row))
         elif token.kind is Kind.WORD:
             _tag_word(token, lexicon, fired)
         if merged.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
@@ -210,17 +210,17 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     _each("things", tagged, lexicon, fired)
     _compounds(tagged, lexicon)
     if trace is not None:
-        trace.extend(fired)
+        trace += [row.id for _, row in fired]
     return tagged
 
 
-def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[str]) -> None:
+def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
     """Give tokens another first class where a row of a table holds; what they were as verbs is forgotten."""
     for at, token in enumerate(tokens):
         row = _first(table, Word(tokens, at, lexicon, _EDGE, _NEW))
         if row is not None:
             token.kind, token.stem, token.strength, token.text = row.kind, "", 0, row.text or token.text
-            fired.append(row.id)
+            fired.append((token, row))
 
 
 def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
@@ -294,7 +294,7 @@ def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
     return is_open and spoken and tokens[at + 3].kind is Kind.WORD
 
 
-def _tag_word(token: Token, lexicon: Lexicon, fired: list[str]) -> None:
+def _tag_word(token: Token, lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
     word = token.text
     if word.endswith("'s") and word not in section("be") and word not in section("whole"):
         word = token.text = word[:-2]
@@ -307,7 +307,7 @@ def _tag_word(token: Token, lexicon: Lexicon, fired: list[str]) -> None:
     word = token.text = (corrected or word).replace("-", "_")
     row = _first_class(word)
     token.kind = row.kind
-    fired.append(row.id)
+    fired.append((token, row))
     if token.kind is Kind.WORD and word.endswith("ly") and len(word) > _LONG and not lexicon.is_noun(word):
         token.kind = Kind.ADV
     if token.capital and token.kind is Kind.WORD and not lexicon.knows(singular(word)):
@@ -344,9 +344,8 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         The tokens that were decided, each with the row that did it.
     """
     sentence, left = Sentence(), _EDGE
-    openers: list[str] = []
     fired: list[tuple[Token, Row]] = []
-    _each("clauses", tokens, lexicon, openers)
+    _each("clauses", tokens, lexicon, fired)
     ahead = _ahead(tokens)
     for at, token in enumerate(tokens):
         if token.kind is Kind.TO:
@@ -363,7 +362,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
         if token.kind not in (Kind.ADV, Kind.FILLER):
             left = token
     if trace is not None:
-        trace += [*openers, *(row.id for _, row in fired)]
+        trace += [row.id for _, row in fired]
     return fired
 
 
