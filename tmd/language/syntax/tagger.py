@@ -27,7 +27,7 @@ from tmd.language.lexicon.lexicon import (
     slips,
 )
 from tmd.language.syntax.conditions import TOKENS
-from tmd.language.syntax.rows import Row, Tables, read_tables
+from tmd.language.syntax.rows import Row, Tables
 from tmd.language.syntax.tokens import NAME, Kind, Token, fold
 
 _EDGE = Token(Kind.STOP, "", NOWHERE)
@@ -177,7 +177,7 @@ FEATURES = {
 @cache
 def tables() -> Tables:
     """Return the tables of ``data/pos.yaml``."""
-    return read_tables(data_text("pos.yaml"), "pos.yaml", FEATURES)
+    return Tables(data_text("pos.yaml"), "pos.yaml", FEATURES)
 
 
 def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> list[Token]:
@@ -219,7 +219,7 @@ def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[tuple[T
     for at, token in enumerate(tokens):
         row = _first(table, Word(tokens, at, lexicon, _EDGE, _NEW))
         if row is not None:
-            token.kind, token.stem, token.strength, token.text = row.kind, "", 0, row.text or token.text
+            token.kind, token.stem, token.strength = row.kind, "", 0
             fired.append((token, row))
 
 
@@ -234,10 +234,15 @@ def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
                     token.kind, token.stem, token.strength = Kind.N, "", 0
 
 
+@cache
+def _with_phrases() -> tuple[Row, ...]:
+    return tuple(row for row in tables().rows if row.phrases)
+
+
 def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Row, Token, int] | None:
     """The longest phrase of ``words.txt`` that begins here."""
     best, most = None, 1
-    for row in tables().phrases:
+    for row in _with_phrases():
         for words in phrases(row.phrases).get(tokens[at].text, ()):
             run = tokens[at : at + len(words)]
             if len(words) > most and tuple(t.text for t in run) == words:
@@ -255,7 +260,7 @@ def _run(tokens: list[Token], at: int) -> tuple[Row, Token, int] | None:
     if not _begins_run(tokens[at].text):
         return None
     words = "".join(f"{token.text.replace(' ', '_')} " for token in tokens[at : at + _LONGEST_RUN])
-    for row in tables().runs:
+    for row in tables().tables["runs"].rows:
         if match := row.pattern.match(words):
             used = match.group().count(" ")
             return row, fold(tokens[at : at + used], row.kind, " ", row.form), used
