@@ -19,8 +19,9 @@ from pathlib import Path
 
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, builtin
-from tmd.language.syntax.tagger import decide, tables, tag
-from tmd.language.syntax.tokens import drop_repeats, tokenise
+from tmd.language.parser import parse
+from tmd.language.syntax.phrases import builtin_rows
+from tmd.language.syntax.tagger import tables
 from tmd.world.folder import find_domain
 
 _LAST_ENVIRONMENT = 8
@@ -56,19 +57,14 @@ def _lexicon(domain: str) -> Lexicon:
     return read_lexicon(folder.lexicon_path, folder.kinds)
 
 
-def fired(text: str, lexicon: Lexicon) -> set[str]:
-    """Return the ids of the rows that fire on a text."""
-    trace: list[str] = []
-    decide(tag(drop_repeats(tokenise(text))[0], lexicon, trace), lexicon, trace)
-    return set(trace)
-
-
 def coverage(texts: Iterable[tuple[str, str]]) -> dict[str, int]:
     """Return for each row on how many texts it fires."""
     counts: Counter[str] = Counter()
     for text, domain in texts:
-        counts.update(fired(text, _lexicon(domain)))
-    return {row.id: counts[row.id] for row in tables().rows}
+        trace: list[str] = []
+        parse(text, _lexicon(domain), trace)
+        counts.update(set(trace))
+    return {row.id: counts[row.id] for row in (*tables().rows, *builtin_rows())}
 
 
 def main() -> None:

@@ -14,7 +14,7 @@ from tmd.goals.reading.referents import EXCEPTING
 from tmd.goals.reading.requirements import LEAVING
 from tmd.goals.sources.table import words_of
 from tmd.language.clause import Clause, Mood, Parsed, Quantifier
-from tmd.language.syntax.pronouns import is_pronoun
+from tmd.language.syntax.antecedents import is_pronoun
 from tmd.pddl.ground_formula import atoms_of
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
 from tmd.pddl.task import Bits, Cube

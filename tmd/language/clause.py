@@ -29,6 +29,10 @@ PERSONS = frozenset({"me", "us", "him", "her", "you", "yourself", "everyone", "e
 """Words for people: objects of a clause ("bring me the cup"), but no things to be found in an environment."""
 
 
+BE = "be"
+"""The verb of a clause that says in what state something is."""
+
+
 class Relation(NamedTuple):
     """One entry of the relation matrix ρ: ``on: cup -> stove``.
 

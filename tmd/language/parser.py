@@ -14,17 +14,13 @@ from functools import cache
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
-from tmd.language.syntax.attachment import drafts, parse_tokens
-from tmd.language.syntax.chunking import chunk
+from tmd.language.syntax.antecedents import resolve
+from tmd.language.syntax.phrases import rewrite
+from tmd.language.syntax.reading import TextReading, parse_tokens
+from tmd.language.syntax.shape import shape
 from tmd.language.syntax.tagger import decide, tag
-from tmd.language.syntax.pronouns import resolve
-from tmd.language.syntax.requests import rewrite_requests
-from tmd.language.syntax.sentences import drop_headings, drop_taken_back, rewrite_words
-from tmd.language.syntax.subordinate import fold_subordinates, read_prohibitions, read_subordinates
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
 
-_DEEPEST = 3
-"""So deep may subordinate clauses stand in one another."""
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
 NO_WORDS = "there are no words in the text"
@@ -44,52 +40,34 @@ _FILLERS = (
 _JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
 
 
-def parse(text: str, lexicon: Lexicon | None = None) -> Parsed:
+def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = None) -> Parsed:
     """Read a text as verb clauses, C = (ν, [obj], ρ) (section III-A).
 
     Args:
         text: Any text: run-ons, typos, missing full stops, upper case, segment marks.
         lexicon: Words of the domain besides the built-in ones.
+        trace: Takes the ids of the rows of ``data/pos.yaml`` and ``data/phrases.yaml`` that fire.
 
     Returns:
         The clauses in order, what must not be done, and what was skipped with the reason. Never raises for any text.
     """
-    return _parse(text, lexicon or builtin(), 0)
-
-
-def _parse(text: str, words: Lexicon, depth: int) -> Parsed:
+    words = lexicon or builtin()
     cut = _of_bearable_length(tokenise(text))
     markup = [t for t in cut if t.note]
     kept, repeated = drop_repeats([t for t in cut if not t.note])
-    kept, taken_back = drop_taken_back(kept)
-    kept, headings = drop_headings(kept)
     for token in repeated:
         token.note = "repeats what was just said"
-    for token in taken_back:
-        token.note = "taken back by what was said next"
-    for token in headings:
-        token.note = "a heading: what follows says how"
-    strange = _foreign(kept, words) if not depth else None
+    strange = _foreign(kept, words)
     if strange is not None:
         return Parsed(text, (), strange(text))
-    folded = tag(rewrite_words(kept), words)
-    decide(folded, words)
-    for statement in (t for t in folded if t.kind is Kind.SKIP):
-        statement.inner = tag(statement.inner, words)
-        decide(statement.inner, words)
-    folded = fold_subordinates(rewrite_requests(folded))
-    tree, _ = parse_tokens(chunk(folded, words))
-    found = drafts(tree)
-
-    def read(inner: str) -> tuple[Clause, ...]:
-        return _parse(inner, words, depth + 1).clauses
-
-    if depth < _DEEPEST:
-        read_subordinates(found, words, read)
-    clauses = resolve(found, text, [t for t in folded if t.kind is Kind.SKIP])
-    constraints, understood = read_prohibitions(folded, clauses, text, words, read) if depth < _DEEPEST else ((), [])
-    rest = [t for t in (*folded, *markup, *repeated, *taken_back, *headings) if t not in understood]
-    return Parsed(text, clauses, _skipped(text, clauses, rest), constraints)
+    tokens = tag(kept, words, trace)
+    decide(tokens, words, trace)
+    tokens, dropped = rewrite(tokens, words, trace)
+    shaped = shape(tokens, words)
+    reading = TextReading(text).read(parse_tokens(shaped))
+    clauses, constraints = resolve(reading)
+    rest = [*tokens, *markup, *repeated, *dropped, *reading.skipped]
+    return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 
 def _of_bearable_length(tokens: list[Token]) -> list[Token]:
@@ -164,7 +142,8 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         clauses: Its clauses.
         tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
     """
-    covered = _merge([c.span for c in clauses])
+    noted_spans = [t.span for t in tokens if t.kind is Kind.SKIP]
+    covered = _merge([*(c.span for c in clauses), *noted_spans])
     pieces: list[tuple[Span, str]] = []
     place = 0
     for token in sorted(tokens, key=lambda t: t.span):

@@ -19,8 +19,8 @@ from tmd.goals.text_constraints import USE, ConstraintReader, is_of_the_end
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import parse
-from tmd.language.syntax.pronouns import is_pronoun
-from tmd.language.syntax.subordinate import REMINDER
+from tmd.language.syntax.antecedents import is_pronoun
+from tmd.language.syntax.shape import REMINDER
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube

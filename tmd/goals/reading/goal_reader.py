@@ -25,7 +25,7 @@ from tmd.goals.sources.table import (
 )
 from tmd.language.clause import PERSONS, Clause, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.syntax.pronouns import is_one
+from tmd.language.syntax.antecedents import is_one
 from tmd.pddl.ground_formula import (
     FALSE,
     TRUE,

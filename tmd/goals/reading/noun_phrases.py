@@ -12,7 +12,6 @@ from tmd.goals.sources.table import LOCATED, PREPOSITIONS, RELATION, GoalTable, 
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, split_name, words_in_name
-from tmd.language.syntax.attachment import WHOLES
 from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
 from tmd.pddl.model import Atom, Formula, GroundAtom
 from tmd.pddl.task import Bits
@@ -23,7 +22,7 @@ INVERSE = {"under": "on", "underneath": "on", "below": "on", "beneath": "on"}
 PART_OF = frozenset({"of", "on", "in", "at", "from"})
 """Relations that a part may have to its whole."""
 _CONTENTS = frozenset({"of", "with", "containing"})
-EVERYTHING = WHOLES | {"nothing", "thing"}
+EVERYTHING = section("whole_words") | {"nothing", "thing"}
 _ANYTHING = frozenset({"item", "object", "thing", "stuff"})
 """Nouns that say nothing of what a thing is."""
 

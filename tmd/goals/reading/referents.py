@@ -21,7 +21,7 @@ from tmd.goals.sources.table import (
 from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.lexicon.nouns import split_name
-from tmd.language.syntax.pronouns import is_one, is_pronoun
+from tmd.language.syntax.antecedents import is_one, is_pronoun
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 

@@ -18,7 +18,7 @@ from tmd.goals.sources.table import (
     results,
 )
 from tmd.language.clause import PERSONS, Quantifier
-from tmd.language.syntax.pronouns import is_pronoun
+from tmd.language.syntax.antecedents import is_pronoun
 from tmd.pddl.ground_formula import FALSE, TRUE, atoms_of, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula, Not
 

@@ -33,7 +33,7 @@ from tmd.goals.sources.table import (
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
-from tmd.language.syntax.pronouns import is_pronoun
+from tmd.language.syntax.antecedents import is_pronoun
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE
 from tmd.pddl.model import Domain, Instruction, Predicate

@@ -209,6 +209,8 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
         position += used
     _each("things", tagged, lexicon, fired)
     _compounds(tagged, lexicon)
+    for token in tagged:
+        token.first = token.kind, token.form
     if trace is not None:
         trace += [row.id for _, row in fired]
     return tagged

@@ -56,6 +56,20 @@ class Kind(StrEnum):
     SKIP = "SKIP"
     FILLER = "FILLER"
 
+    STATE = "STATE"
+    """A state that something is in or shall be in: "leave it open"."""
+    EXC = "EXC"
+    """Opens an exception."""
+    WITHOUT = "WITHOUT"
+    """Opens what shall be avoided on the way: "without spilling it"."""
+    SAY = "SAY"
+    """Opens a statement."""
+    END = "END"
+    """Closes a subordinate clause."""
+    LINK = "LINK"
+    """Joins the parts of a subordinate clause."""
+
+
 
 IMPLIED = "implied"
 """The form of a verb that was not said: "A glass of milk, please."."""
@@ -82,6 +96,8 @@ class Token:
         sentence: The number of the sentence that a verb stands in.
         otherwise: For a verb: "otherwise" stands before it.
         heading: For a verb: what follows a colon says how it is done.
+        negated: For the opener of a subordinate clause: a negation stands in it.
+        first: Its class and form by lists, before its neighbours decided.
     """
 
     kind: Kind
@@ -98,6 +114,8 @@ class Token:
     sentence: int = 0
     otherwise: bool = False
     heading: bool = False
+    negated: bool = False
+    first: tuple[Kind, str] | None = None
 
 
 _TOKEN = re.compile(
@@ -145,7 +163,7 @@ def tokenise(text: str) -> list[Token]:
             continue
         if word in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its"):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
-        tokens += _cut(Token(kind, word, span), pairs("copulas") if before else {})
+        tokens += _cut(Token(kind, word, span), pairs("copulas"))
     _enumeration(tokens, text)
     _capitals(tokens, text)
     for token, after in pairwise(tokens):
@@ -161,7 +179,7 @@ def _cut(token: Token, where: Mapping[str, str]) -> list[Token]:
     if token.text not in where:
         return [token]
     first, _, second = where[token.text].partition("_")
-    middle = token.span.start + len(first)
+    middle = min(token.span.start + len(first), token.span.end)
     return [
         Token(token.kind, first, Span(token.span.start, middle)),
         Token(token.kind, second, Span(middle, token.span.end)),
@@ -174,7 +192,8 @@ def _enumeration(tokens: list[Token], text: str) -> None:
     for token, after in pairwise(tokens):
         if token.kind is not Kind.NUM or token.text != str(number) or after.text not in (".", ")", ":"):
             continue
-        opens = number > 1 or not text[: token.span.start].strip(" (|\n\t")
+        ahead = text[: token.span.start].strip(" (|\n\t")
+        opens = number > 1 or not ahead or ahead.endswith(":")
         if opens and sign in ("", after.text):
             token.kind = after.kind = Kind.STOP
             sign, number = after.text, number + 1

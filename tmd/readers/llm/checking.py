@@ -11,7 +11,7 @@ from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.grounder import why_never
 from tmd.language.clause import Clause, Mood, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import section
-from tmd.language.syntax.pronouns import is_pronoun
+from tmd.language.syntax.antecedents import is_pronoun
 from tmd.pddl.ground_formula import FALSE, TRUE, goal_cubes, instantiated
 from tmd.pddl.grounding.ground_task import ground_condition
 from tmd.pddl.model import Atom, Formula, GroundAtom, conjuncts

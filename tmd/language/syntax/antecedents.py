@@ -1,0 +1,267 @@
+"""Rank what pronouns and missing objects may mean, from the last few clauses.
+
+The best simple rule on real instructions is the direct object of the nearest earlier clause that has one, with
+agreement in number; nouns behind prepositions come after direct objects of the same clause, but before those of older
+clauses. The reader that knows the environment picks from the list.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass, replace
+
+from tmd.language.clause import PERSONS, Clause, Condition
+from tmd.language.lexicon.lexicon import section
+from tmd.language.syntax.reading import ClauseDraft, Phrase, TextReading
+
+_REACH = 5
+"""Clauses that a pronoun looks back."""
+_AGE, _PART, _LANDMARK, _COORDINATED = 4, 2, 1, 1
+"""Penalties of a mention: per clause of age, under "of", behind a preposition, in a coordination."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Mention:
+    """A thing that was spoken of, how far it stands from the verb, and how it was told apart."""
+
+    name: str
+    plural: bool
+    penalty: int
+    described: bool = False
+    behind: str = ""
+    """The preposition before it."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Scene:
+    """What one clause leaves behind for later ones; ``together`` are its direct objects."""
+
+    mentions: tuple[_Mention, ...]
+    together: tuple[str, ...]
+
+
+def is_singular(name: str) -> bool:
+    """Tell whether a pronoun stands for one thing."""
+    return name in section("singular_pronouns")
+
+
+def is_plural(name: str) -> bool:
+    """Tell whether a pronoun stands for several things."""
+    return name in section("plural_pronouns")
+
+
+def is_one(name: str) -> bool:
+    """Tell whether a language-object is *one*, or *red_one*: one of what was spoken of."""
+    return name.rpartition("_")[2] in section("one_words")
+
+
+def is_pronoun(name: str) -> bool:
+    """Tell whether a language-object stands for something said before."""
+    return is_singular(name) or is_plural(name) or name in section("open_pronouns") or is_one(name)
+
+
+def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...]]:
+    """Return the clauses, and what must not be done, with their antecedents filled in."""
+    scenes: list[_Scene] = []
+    clauses: list[Clause] = []
+    statements = list(reading.statements)
+    for index, draft in enumerate(reading.drafts):
+        while statements and statements[0][0] <= index:
+            said = statements.pop(0)[1]
+            scenes.append(_scene(said, said.clause(reading.text)))
+        clause = draft.clause(reading.text)
+        conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
+        clause = replace(clause, conditions=conditions)
+        scenes += [_alone(c) for condition in conditions if condition.word != "to" for c in condition.clauses]
+        hosts = [_scene(draft.host, draft.host.clause(reading.text))] if draft.host is not None else []
+        clause = _resolved(clause, draft, [*scenes, *hosts])
+        clauses.append(clause)
+        scenes.append(_scene(draft, clause))
+    forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
+    return tuple(clauses), tuple(forbidden)
+
+
+def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Clause:
+    places = [name for name in clause.objects if is_pronoun(name)]
+    if not draft.direct and clause.verb not in section("intransitive"):
+        places.append("")
+    antecedents, together = {}, {}
+    for pronoun in places:
+        before = {r.relation for r in clause.relations if r.target == pronoun}
+        ranked, count = _rank(pronoun, draft, scenes, before)
+        if is_one(pronoun):
+            ranked, count = _one(pronoun, ranked, clause, draft, before), 1
+        elif is_singular(pronoun) and not before.isdisjoint(section("insides")):
+            ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
+        if ranked:
+            antecedents[pronoun], together[pronoun] = ranked, count
+    return replace(clause, antecedents=antecedents, together=together)
+
+
+def _place(pronoun: str, draft: ClauseDraft) -> int:
+    """Return where a pronoun stands; one in a relative clause counts as standing at the verb."""
+    return next((p.place for p in draft.mentions() if p.name == pronoun), draft.verb.span.start)
+
+
+def _vessels(pronoun: str, clause: Clause, draft: ClauseDraft) -> list[str]:
+    """Return what the clause itself spoke of as a vessel: "coffee in a mug, and some ice cream in it"."""
+    vessels = {r.target for r in clause.relations if r.relation in section("insides")}
+    place = _place(pronoun, draft)
+    return [p.name for p in draft.mentions() if p.place < place and p.name in vessels and not p.pronoun]
+
+
+def _told(phrase: Phrase) -> bool:
+    return bool(phrase.said().attributes) or "_" in phrase.name
+
+
+def _one(
+    pronoun: str, ranked: tuple[str, ...], clause: Clause, draft: ClauseDraft, before: Collection[str]
+) -> tuple[str, ...]:
+    """Rank what *one* may be one of: what the clause itself spoke of before comes first.
+
+    Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what was
+    told apart; before all, the place that a thing is moved from where *one* is the place that it goes to.
+    """
+    alike = {r.target for r in clause.relations if r.relation in before}
+    own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
+    if before and ranked:
+        own = [p for p in own if p.name in alike or _told(p)]
+    own.sort(key=lambda p: (p.name not in alike, not (p.plural or _told(p))))
+    goes = not section("arrivals").isdisjoint(before)
+    left = [r.target for r in clause.relations if goes and r.relation in section("origins")]
+    names = tuple(dict.fromkeys((*left[:1], *(p.name for p in own[:1]), *ranked)))
+    plain = pronoun in section("one_words")
+    return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
+
+
+def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
+    """Return a clause that stands by itself with its pronouns' antecedents among the clauses before it."""
+    names = list(dict.fromkeys(name for c in before[::-1] for name in _named(c)))
+    places = [name for name in clause.objects if is_pronoun(name)]
+    telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
+    told = sorted(names, key=lambda name: name not in telling)
+    antecedents = {name: tuple(told if is_one(name) else names) for name in places if names}
+    return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
+
+
+def _named(clause: Clause) -> list[str]:
+    """Return what a clause speaks of by name, what it acts on first."""
+    names = [n for name in (*clause.direct, *clause.objects) for n in clause.meant(name)]
+    return [name for name in dict.fromkeys(names) if name and not is_pronoun(name) and name not in section("pronouns")]
+
+
+def _condition(condition: Condition, draft: ClauseDraft, scenes: list[_Scene]) -> Condition:
+    """Return a condition with the antecedents of its pronouns: from the clauses before, or from its own."""
+    ahead = () if draft.fronted else tuple(p.name for p in draft.direct if not p.pronoun)
+    recent = [name for name, _ in _scored(scenes[-_REACH:][::-1], set(), draft)]
+    behind = tuple(p.name for p in draft.mentions() if not p.pronoun)
+    many = {m.name for scene in scenes[-_REACH:] for m in scene.mentions if m.plural}
+    many |= {p.name for p in draft.mentions() if p.plural}
+    names = tuple(dict.fromkeys([*ahead, *recent, *behind]))
+    # "break the egg into it once it boils": one and the same
+    same = {p.name: tuple(dict.fromkeys([*recent, *names])) for p in draft.mentions() if p.pronoun}
+
+    def filled(clause: Clause) -> Clause:
+        own = [n for n in clause.objects if is_pronoun(n)]
+        found = {n: _agreeing(n, same.get(n, names), many) for n in own if names}
+        return replace(
+            clause, antecedents={**clause.antecedents, **found}, together={**clause.together, **dict.fromkeys(own, 1)}
+        )
+
+    return replace(condition, clauses=tuple(filled(clause) for clause in condition.clauses))
+
+
+def _agreeing(pronoun: str, names: tuple[str, ...], many: Collection[str]) -> tuple[str, ...]:
+    """Return the names with those first that agree with a pronoun in number."""
+    if not (is_singular(pronoun) or is_plural(pronoun)):
+        return names
+    return tuple(sorted(names, key=lambda name: (name in many) != is_plural(pronoun)))
+
+
+def _alone(clause: Clause) -> _Scene:
+    """Return what a subordinate clause leaves behind."""
+    names = _named(clause)
+    direct = [n for name in clause.direct for n in clause.meant(name)]
+    mentions = tuple(_Mention(name, clause.phrase(name).plural, 0 if name in direct else _LANDMARK) for name in names)
+    return _Scene(mentions, tuple(n for n in names if n in direct))
+
+
+def _rank(
+    pronoun: str, draft: ClauseDraft, scenes: list[_Scene], before: Collection[str]
+) -> tuple[tuple[str, ...], int]:
+    """Return the candidates, likeliest first, and how many of the first are meant together.
+
+    ``before`` are the prepositions that the pronoun stands behind.
+    """
+    recent = scenes[-_REACH:][::-1]
+    own = {p.name for p in draft.mentions()}
+    scored = _scored(recent, own, draft)
+    group: tuple[str, ...] = ()
+    if is_plural(pronoun):
+        group = _group(recent, own)
+    elif pronoun == "" and recent:
+        group = tuple(name for name in recent[0].together if name not in own)
+    if group:
+        return (*group, *(name for name, _ in scored if name not in group)), len(group)
+    if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
+        telling = {m.name for s in recent for m in s.mentions if m.described or m.plural}
+        alike = {m.name for s in recent for m in s.mentions if m.behind and m.behind in before}
+        scored.sort(key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
+    if is_singular(pronoun):
+        plural = {m.name for s in recent for m in s.mentions if m.plural}
+        scored = [pair for pair in scored if pair[0] not in plural] or scored
+    return tuple(name for name, _ in scored), 1
+
+
+def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
+    """Return what *them* means together: several objects of one clause, else those of the last two."""
+    for scene in recent:
+        group = tuple(name for name in scene.together if name not in own)
+        if group and (len(group) > 1 or any(m.plural and m.name == group[0] for m in scene.mentions)):
+            return group
+    pair = [name for scene in recent[:2][::-1] for name in scene.together if name not in own]
+    return tuple(dict.fromkeys(pair))
+
+
+def _scored(recent: list[_Scene], own: set[str], draft: ClauseDraft) -> list[tuple[str, int]]:
+    """Return the names of recent mentions with their least penalty, least first."""
+    best: dict[str, int] = {}
+    moving = draft.verb.stem in section("moving")
+    for age, scene in enumerate(recent):
+        for mention in scene.mentions:
+            if mention.name in own:
+                continue
+            mass = _AGE * _REACH if moving and mention.name.rpartition("_")[2] in section("mass") else 0
+            score = _AGE * age + mention.penalty + mass
+            best[mention.name] = min(score, best.get(mention.name, score))
+    return sorted(best.items(), key=lambda pair: pair[1])
+
+
+def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
+    """Return what a clause leaves behind."""
+    direct = [p for p in draft.direct if p.name not in PERSONS]
+    spread = _COORDINATED if len(direct) > 1 else 0
+    mentions: list[_Mention] = []
+    together: list[str] = []
+    for phrase in direct:
+        names = _meant(phrase, clause)
+        together.extend(names)
+        many = phrase.plural or is_plural(phrase.name)
+        mentions.extend(_Mention(name, many, spread, _told(phrase)) for name in names)
+        mentions.extend(_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase)
+    for name in clause.antecedents.get("", ())[: clause.together.get("", 1)]:
+        together.append(name)
+        mentions.append(_Mention(name, False, 0))
+    for landmark in draft.landmarks:
+        for part in landmark.all():
+            behind = next((r.relation for r in clause.relations if r.target == part.name), "")
+            distance = _LANDMARK + _PART * (part is not landmark)
+            mentions.extend(_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause))
+    named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
+    return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
+
+
+def _meant(phrase: Phrase, clause: Clause) -> list[str]:
+    if not phrase.pronoun:
+        return [phrase.name]
+    return list(clause.antecedents.get(phrase.name, ())[: clause.together.get(phrase.name, 1)])
