@@ -15,11 +15,11 @@ from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
 from tmd.language.syntax.antecedents import resolve
-from tmd.language.syntax.part_of_speech import decide
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading, parse_tokens
 from tmd.language.syntax.shape import shape
-from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tag, tokenise
+from tmd.language.syntax.tagger import decide, tag
+from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
@@ -60,8 +60,8 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     strange = _foreign(kept, words)
     if strange is not None:
         return Parsed(text, (), strange(text))
-    tokens = tag(kept, words)
-    decide(tokens, words)
+    tokens = tag(kept, words, trace)
+    decide(tokens, words, trace)
     tokens, dropped = rewrite(tokens, words, trace)
     shaped = shape(tokens, words)
     reading = TextReading(text).read(parse_tokens(shaped))

@@ -44,11 +44,6 @@ def _wordnet_verbs() -> tuple[Mapping[str, str], dict[str, str], frozenset[str]]
 
 
 @cache
-def _spellings() -> Mapping[str, str]:
-    return dict(entry.split("=") for entry in sections()["spellings"])
-
-
-@cache
 def _english() -> frozenset[str]:
     return frozenset(data_text("wordnet_words.txt.gz").split())
 
@@ -137,8 +132,8 @@ class Lexicon:
 
         Strength 3 is a verb of the own list, 2 one that is a noun as well, 1 more often a noun.
         """
-        if word in _spellings():
-            return _spellings()[word], "base", 3
+        if word in pairs("spellings"):
+            return pairs("spellings")[word], "base", 3
         found = verb_stem(word, self._known_verb, _wordnet_verbs()[1])
         if found is None:
             return None
@@ -305,12 +300,6 @@ def section(name: str) -> frozenset[str]:
 
 
 @cache
-def pairs(name: str) -> Mapping[str, str]:
-    """Return a section of entries ``word=word``."""
-    return dict(entry.split("=") for entry in sections()[name])
-
-
-@cache
 def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
     """Return a section of several-word entries by first word, longest first."""
     table: dict[str, list[tuple[str, ...]]] = {}
@@ -321,9 +310,14 @@ def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
 
 
 @cache
+def pairs(name: str) -> Mapping[str, str]:
+    """Return a section whose entries are "this=that"."""
+    return dict(entry.split("=") for entry in sections()[name])
+
+
 def slips() -> Mapping[str, str]:
     """Return the slips that no likeness finds, with the words they stand for."""
-    return dict(entry.split("=") for entry in sections()["slips"])
+    return pairs("slips")
 
 
 _IRREGULAR = {

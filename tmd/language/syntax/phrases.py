@@ -26,8 +26,8 @@ import yaml
 from tmd.diagnostics import Location, TmdError
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, data_text, sections
-from tmd.language.syntax.part_of_speech import decide
-from tmd.language.syntax.tokens import Kind, Token, tag, tokenise
+from tmd.language.syntax.tagger import decide, tag
+from tmd.language.syntax.tokens import Kind, Token, tokenise
 
 FILE = "phrases.yaml"
 _ANY = r"[^\t ]+\t[A-Z]+ "

@@ -177,7 +177,7 @@ class Phrase:
 
 @cache
 def _determiners() -> frozenset[str]:
-    names = ("determiners", "quantifiers", "definite", "indefinite", "all_words")
+    names = ("determiners", "quantifiers", "definite", "indefinite", "all_words", "none_words")
     return frozenset().union(*(section(name) for name in names))
 
 
@@ -696,7 +696,8 @@ class TextReading:
         if verbs and verbs[-1].stem in section("noticed") and _trees(rest, "group"):
             return [self._state([], rest, part)]
         verbs = [v for v in verbs if v.text not in section("loosely")]
-        if verbs and verbs[-1].kind is Kind.PARTICIPLE and not owns and _about_things(subject):
+        passive = bool(helpers) and helpers[-1].text in section("be")
+        if verbs and verbs[-1].kind is Kind.PARTICIPLE and (passive or (not owns and _about_things(subject))):
             return [self._done(subject, v, rest, part) for v in verbs if v.kind is Kind.PARTICIPLE]
         if verbs:
             return [self._event(subject, v, rest, part) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]

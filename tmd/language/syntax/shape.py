@@ -740,6 +740,8 @@ class _Shaper:
             token = self.tokens[place]
             if token.kind is K.CC and verb:
                 return place
+            if verb and said and token.kind in (K.FINITE, K.AUX):
+                return place  # "everything that is empty | goes in the bin"
             if token.form == "inf" and self._at(place + 1) is K.AUX:
                 return place  # "the mug that is empty | to be on the shelf"
             if self.tokens[place - 1].kind is K.ADJ and token.kind in (K.P, K.TO, K.EXC) and verb:
