@@ -6,7 +6,7 @@ A file is a mapping: ``rows`` is a list of mappings of texts, every other sectio
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NoReturn, TypeVar
 
@@ -172,9 +172,9 @@ class Tables:
         self.rows = [self._row(entry) for entry in entries]
 
     def _read(self, section: str, read: Callable[[str], _Read], into: dict[str, _Read]) -> None:
-        entry = self._sections.get(section)
-        for name in entry.values if entry else ():
-            into[name] = entry.checked(name, read)
+        if entry := self._sections.get(section):
+            for name in entry.values:  # one may name those before it
+                into[name] = entry.checked(name, read)
 
     def _row(self, entry: Entry) -> Row:
         condition = self._vocabulary.condition
