@@ -55,6 +55,10 @@ class Condition(NamedTuple):
     words: frozenset[str] | None = None
     lefts: frozenset[Kind] | None = None
 
+    def possible(self, text: str, left: Kind) -> bool:
+        """Tell whether it may hold for such a word behind such a class."""
+        return (self.words is None or text in self.words) and (self.lefts is None or left in self.lefts)
+
 
 class Vocabulary:
     """What conditions may speak of.

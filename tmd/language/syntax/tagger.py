@@ -215,8 +215,11 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
 
 def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
     """Give tokens another first class where a row of a table holds; what they were as verbs is forgotten."""
+    rows = tables().tables[table]
     for at, token in enumerate(tokens):
-        row = _first(table, Word(tokens, at, lexicon, _EDGE, _NEW))
+        if not rows.open and token.text not in rows.named:
+            continue
+        row = rows.first(Word(tokens, at, lexicon, _EDGE, _NEW))
         if row is not None:
             token.kind, token.stem, token.strength = row.kind, "", 0
             fired.append((token, row))
@@ -303,7 +306,7 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, fired: list[tuple[To
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
     word = token.text = slips().get(word, word).rstrip("'")
-    if word.endswith(tuple(sections()["contracted"])):
+    if word.endswith(sections()["contracted"]):
         token.kind = Kind.SUBJECT
         return
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
