@@ -64,7 +64,8 @@ def coverage(texts: Iterable[tuple[str, str]]) -> dict[str, int]:
         trace: list[str] = []
         parse(text, _lexicon(domain), trace)
         counts.update(set(trace))
-    return {row.id: counts[row.id] for row in (*tables().rows, *builtin_rows())}
+    names = [row.id for row in tables().rows] + [row.id for row in builtin_rows()]
+    return {name: counts[name] for name in names}
 
 
 def main() -> None:

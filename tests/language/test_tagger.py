@@ -6,6 +6,7 @@ import pytest
 
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon, builtin
+from tmd.language.syntax.phrases import builtin_rows
 from tmd.language.syntax.rows import Row, Tables
 from tmd.language.syntax.tagger import FEATURES, decide, tables, tag
 from tmd.language.syntax.tokens import Kind, tokenise
@@ -36,9 +37,10 @@ def test_the_row_decides_the_words_between_asterisks(row: Row, text: str) -> Non
     assert token.span.end == len(before) + len(words)
 
 
-def test_a_paraphrase_has_other_words() -> None:
-    for row in tables().rows:
-        assert row.entry["example"] != row.entry["paraphrase"]
+def test_no_row_has_the_id_of_a_phrase_or_says_its_example_twice() -> None:
+    rows = tables().rows
+    assert not {row.id for row in rows} & {row.id for row in builtin_rows()}
+    assert all(row.entry["example"] != row.entry["paraphrase"] for row in rows)
 
 
 @pytest.mark.parametrize(
@@ -58,7 +60,12 @@ def test_a_paraphrase_has_other_words() -> None:
         ("    when:", "    where:", 7, "unknown key 'where'"),
         ("id: one", "id: one\n    phrases: gadgets", 5, "'gadgets' is no section of words.txt"),
         ("class: N", "class: [N]", 6, "expected a text for 'class'"),
-        ("rows:\n", f"rows:\n{ROW.partition('rows:')[2].lstrip()[2:].join(['  - ', ''])}", 11, "two rows have the id 'one'"),
+        (
+            "rows:\n",
+            f"rows:\n{ROW.partition('rows:')[2].lstrip()[2:].join(['  - ', ''])}",
+            11,
+            "two rows have the id 'one'",
+        ),
     ],
 )
 def test_a_bad_row_is_refused_with_its_place(old: str, new: str, line: int, message: str) -> None:

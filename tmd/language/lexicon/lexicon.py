@@ -309,12 +309,6 @@ def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
     return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
 
 
-@cache
-def pairs(name: str) -> Mapping[str, str]:
-    """Return a section whose entries are "this=that"."""
-    return dict(entry.split("=") for entry in sections()[name])
-
-
 def slips() -> Mapping[str, str]:
     """Return the slips that no likeness finds, with the words they stand for."""
     return pairs("slips")

@@ -31,7 +31,7 @@ from tmd.language.syntax.tokens import Kind
 Test = Callable[[Any], bool]
 _Item = TypeVar("_Item")
 
-TOKENS = tuple("word left right beyond last last2 next".split())
+TOKENS = tuple(["word", "left", "right", "beyond", "last", "last2", "next"])
 _PIECE = re.compile(r"\s*([()&!]|\|(?=\s)|[^\s()&!]+)")
 _ATOM = re.compile(
     rf"(?:(?P<token>{'|'.join(TOKENS)})(?:\.|(?=[=:@~])))?"
@@ -54,6 +54,10 @@ class Condition(NamedTuple):
     holds: Test
     words: frozenset[str] | None = None
     lefts: frozenset[Kind] | None = None
+
+    def possible(self, text: str, left: Kind) -> bool:
+        """Tell whether it may hold for such a word behind such a class."""
+        return (self.words is None or text in self.words) and (self.lefts is None or left in self.lefts)
 
 
 class Vocabulary:
@@ -119,7 +123,9 @@ class Vocabulary:
     def _atom(self, piece: str) -> Condition:
         match = _ATOM.fullmatch(piece)
         if match is None:
-            raise ValueError(f"'{piece}' is no term, no feature and no comparison" if piece else "a condition ends early")
+            raise ValueError(
+                f"'{piece}' is no term, no feature and no comparison" if piece else "a condition ends early"
+            )
         token, values = match["token"] or "word", match["values"]
         if match["strength"]:
             numbers = [n for n in range(_STRONGEST + 1) if _COMPARED[match["compared"]](n, int(values))]

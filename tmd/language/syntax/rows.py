@@ -6,8 +6,9 @@ A file is a mapping: ``rows`` is a list of mappings of texts, every other sectio
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
 import yaml
@@ -113,28 +114,31 @@ class Row:
     entry: Entry
 
 
-@dataclass(slots=True)
+@dataclass
 class Table:
     """Rows in the order in which they are asked, found by the word and the class before it."""
 
     rows: list[Row] = field(default_factory=list)
     _found: dict[tuple[str, Kind], tuple[Row, ...]] = field(default_factory=dict)
-    _named: frozenset[str] | None = None
+
+    @cached_property
+    def named(self) -> frozenset[str]:
+        """The words that a row is for."""
+        return frozenset().union(*(row.when.words or () for row in self.rows))
+
+    @cached_property
+    def open(self) -> bool:
+        """A row is for any word."""
+        return any(row.when.words is None for row in self.rows)
 
     def first(self, word: Any) -> Row | None:  # noqa: ANN401 - what conditions look at
         """Return the first row that holds for a word."""
-        if self._named is None:
-            self._named = frozenset().union(*(row.when.words or () for row in self.rows))
         text, left = word.word.text, word.left.kind
-        key = text if text in self._named else "", left
-        if key not in self._found:
-            self._found[key] = tuple(
-                row
-                for row in self.rows
-                if (row.when.words is None or text in row.when.words)
-                and (row.when.lefts is None or left in row.when.lefts)
-            )
-        for row in self._found[key]:
+        key = text if text in self.named else "", left
+        rows = self._found.get(key)
+        if rows is None:
+            rows = self._found[key] = tuple(row for row in self.rows if row.when.possible(text, left))
+        for row in rows:
             if row.when.holds(word):
                 return row
         return None
@@ -172,9 +176,9 @@ class Tables:
         self.rows = [self._row(entry) for entry in entries]
 
     def _read(self, section: str, read: Callable[[str], _Read], into: dict[str, _Read]) -> None:
-        entry = self._sections.get(section)
-        for name in entry.values if entry else ():
-            into[name] = entry.checked(name, read)
+        if entry := self._sections.get(section):
+            for name in entry.values:  # one may name those before it
+                into[name] = entry.checked(name, read)
 
     def _row(self, entry: Entry) -> Row:
         condition = self._vocabulary.condition

@@ -26,7 +26,7 @@ from tmd.language.lexicon.lexicon import (
     singular,
     slips,
 )
-from tmd.language.syntax.conditions import TOKENS
+from tmd.language.syntax.conditions import TOKENS, Test
 from tmd.language.syntax.rows import Row, Tables
 from tmd.language.syntax.tokens import NAME, Kind, Token, fold
 
@@ -167,9 +167,10 @@ class Word:
         return False
 
 
-FEATURES = {
-    **{f.name: attrgetter(f"sentence.{f.name}") for f in fields(Sentence)},
-    **{name.replace("_", "-"): p.fget for name, p in vars(Word).items() if isinstance(p, property) and name not in TOKENS},
+FEATURES: dict[str, Test] = {f.name: attrgetter(f"sentence.{f.name}") for f in fields(Sentence)} | {
+    name.replace("_", "-"): attrgetter(name)
+    for name, value in vars(Word).items()
+    if isinstance(value, property) and name not in TOKENS
 }
 """What conditions may name."""
 
@@ -192,19 +193,15 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     tagged: list[Token] = []
     position = 0
     while position < len(tokens):
-        token = tokens[position]
-        row, merged, used = _phrase(tokens, position, lexicon) or _run(tokens, position) or (None, token, 1)
+        row, merged, used = _phrase(tokens, position, lexicon) or _run(tokens, position) or (None, tokens[position], 1)
         if row is not None:
             fired.append((merged, row))
-        elif token.kind is Kind.WORD:
-            _tag_word(token, lexicon, fired)
+        elif merged.kind is Kind.WORD:
+            starts = not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC)
+            _tag_word(merged, lexicon, starts, fired)
         if merged.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
             merged, used = fold(tokens[position : position + 3], Kind.NUM), 3
             merged.text = merged.inner[0].text  # "two or three eggs": as few as will do
-        starts = not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC)
-        if merged.kind is Kind.SUB and merged.text in lexicon.verbs and starts:
-            # "Till the bed": the domain has such a verb
-            merged.kind, merged.stem, merged.form, merged.strength = Kind.WORD, merged.text, "base", 2
         tagged.append(merged)
         position += used
     _each("things", tagged, lexicon, fired)
@@ -218,8 +215,11 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
 
 def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
     """Give tokens another first class where a row of a table holds; what they were as verbs is forgotten."""
+    rows = tables().tables[table]
     for at, token in enumerate(tokens):
-        row = _first(table, Word(tokens, at, lexicon, _EDGE, _NEW))
+        if not rows.open and token.text not in rows.named:
+            continue
+        row = rows.first(Word(tokens, at, lexicon, _EDGE, _NEW))
         if row is not None:
             token.kind, token.stem, token.strength = row.kind, "", 0
             fired.append((token, row))
@@ -301,13 +301,12 @@ def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
     return is_open and spoken and tokens[at + 3].kind is Kind.WORD
 
 
-def _tag_word(token: Token, lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
+def _tag_word(token: Token, lexicon: Lexicon, starts: bool, fired: list[tuple[Token, Row]]) -> None:
     word = token.text
-    if word.endswith("'s") and word not in section("be") and word not in section("whole"):
-        word = token.text = word[:-2]
-        token.form = "possessive"
+    if word.endswith("'s") and word not in section("be") | section("whole"):
+        word, token.form = word[:-2], "possessive"
     word = token.text = slips().get(word, word).rstrip("'")
-    if word.endswith(tuple(sections()["contracted"])):
+    if word.endswith(sections()["contracted"]):
         token.kind = Kind.SUBJECT
         return
     corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
@@ -315,16 +314,24 @@ def _tag_word(token: Token, lexicon: Lexicon, fired: list[tuple[Token, Row]]) ->
     row = _first_class(word)
     token.kind = row.kind
     fired.append((token, row))
-    if token.kind is Kind.WORD and word.endswith("ly") and len(word) > _LONG and not lexicon.is_noun(word):
-        token.kind = Kind.ADV
-    if token.capital and token.kind is Kind.WORD and not lexicon.knows(singular(word)):
-        token.form = NAME
-    if token.kind in (Kind.WORD, Kind.ADJ):
-        reading = _reading(word, lexicon)
-        if reading:
+    if token.kind is Kind.WORD:
+        _tag_open(token, lexicon)
+    if token.kind is Kind.SUB and starts and word in lexicon.verbs:
+        # "Till the bed": the domain has such a verb
+        token.kind, token.stem, token.form, token.strength = Kind.WORD, word, "base", 2
+    elif token.kind in (Kind.WORD, Kind.ADJ):
+        if reading := _reading(word, lexicon):
             token.stem, token.form, token.strength = reading[0], token.form or reading[1], reading[2]
     elif token.kind is Kind.LET:
         token.stem, token.form, token.strength = word, "base", 3
+
+
+def _tag_open(token: Token, lexicon: Lexicon) -> None:
+    """Tell adverbs and names among words of no list."""
+    if token.text.endswith("ly") and len(token.text) > _LONG and not lexicon.is_noun(token.text):
+        token.kind = Kind.ADV
+    elif token.capital and not lexicon.knows(singular(token.text)):
+        token.form = NAME
 
 
 def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:

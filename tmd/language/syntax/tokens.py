@@ -70,7 +70,6 @@ class Kind(StrEnum):
     """Joins the parts of a subordinate clause."""
 
 
-
 IMPLIED = "implied"
 """The form of a verb that was not said: "A glass of milk, please."."""
 NAME = "name"
@@ -125,6 +124,11 @@ _TOKEN = re.compile(
     re.UNICODE | re.IGNORECASE,
 )
 
+_KINDS = {
+    "markup": Kind.SKIP, "num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC,
+}  # fmt: skip
+"""The classes of matches by the names of their groups."""
+_AMPERSAND = "&amp;"
 MARKUP = "a sign, not a word"
 """Why HTML, entities and pictures are skipped."""
 _RUN = 3
@@ -142,28 +146,16 @@ def tokenise(text: str) -> list[Token]:
     """Cut a text into tokens. Everything between them is blank or a sign without meaning here."""
     tokens: list[Token] = []
     for match in _TOKEN.finditer(text):
-        span, word = Span(*match.span()), match.group().lower().translate(_UNSEEN)
-        kind = {"num": Kind.NUM, "stop": Kind.STOP, "comma": Kind.COMMA, "cc": Kind.CC}.get(
-            match.lastgroup or "", Kind.WORD
-        )
-        if match.lastgroup == "markup" and word != "&amp;":
-            tokens.append(Token(Kind.SKIP, word, span, note=MARKUP))
-            continue
-        if word == "&amp;":
-            kind, word = Kind.CC, "&"
-        if len(word) > _LONG_WORD:
-            word = word[:_LONG_WORD]
-        if kind is Kind.NUM:
-            word = word.replace(",", ".")  # a name of a thing has no comma
-        word = pairs("unmarked").get(word, word)
-        clitic, before = pairs("clitics").get(word), tokens[-1] if tokens and tokens[-1].kind is Kind.WORD else None
-        if clitic and before and text[span.start - 1] in ("'\u2019 " if clitic == word else "'\u2019"):
+        token = _token(match)
+        last = tokens[-1] if tokens and tokens[-1].kind is Kind.WORD else None
+        clitic = pairs("clitics").get(token.text)
+        if clitic and last and text[token.span.start - 1] in ("'\u2019 " if clitic == token.text else "'\u2019"):
             # "let's", "do n't": cut by a program
-            tokens[-1] = replace(before, text=before.text + clitic, span=Span(before.span.start, span.end))
+            tokens[-1] = replace(last, text=last.text + clitic, span=Span(last.span.start, token.span.end))
             continue
-        if word in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its"):
+        if token.text in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its"):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
-        tokens += _cut(Token(kind, word, span), pairs("copulas"))
+        tokens += _cut(token, pairs("copulas"))
     _enumeration(tokens, text)
     _capitals(tokens, text)
     for token, after in pairwise(tokens):
@@ -172,6 +164,19 @@ def tokenise(text: str) -> list[Token]:
             # "warm it up an pour it out": no article stands before such a sound
             token.text = pairs("before_consonants").get(token.text, token.text)
     return tokens
+
+
+def _token(match: re.Match[str]) -> Token:
+    span, word = Span(*match.span()), match.group().lower().translate(_UNSEEN)
+    kind = _KINDS.get(match.lastgroup or "", Kind.WORD)
+    if word == _AMPERSAND:
+        return Token(Kind.CC, "&", span)
+    if kind is Kind.SKIP:
+        return Token(kind, word, span, note=MARKUP)
+    word = word[:_LONG_WORD]
+    if kind is Kind.NUM:
+        word = word.replace(",", ".")  # a name of a thing has no comma
+    return Token(kind, pairs("unmarked").get(word, word), span)
 
 
 def _cut(token: Token, where: Mapping[str, str]) -> list[Token]:
@@ -226,27 +231,28 @@ def drop_repeats(tokens: list[Token]) -> tuple[list[Token], list[Token]]:
         if token.kind is Kind.STOP:
             last_seen.clear()
         key = tuple(words[position : position + _RUN])
-        before = last_seen.get(key)
-        if before is not None and len(key) == _RUN and position - before <= _LONGEST_RUN:
-            length = position - before
-            if length >= _RUN and words[before:position] == words[position : position + length]:
-                dropped.extend(tokens[position : position + length])
-                last_seen[key] = position
-                position += length
-                continue
+        length = position - last_seen.get(key, position)
         last_seen[key] = position
-        pair = words[position : position + 2]
-        plain = all(t.kind is Kind.WORD for t in tokens[position : position + 2])
-        if plain and pair == words[position + 2 : position + 4] and len(set(pair)) == 2:
-            dropped.extend(tokens[position : position + 2])
-            position += 2
-            continue
-        if kept and token.kind is Kind.WORD and kept[-1].text == token.text and kept[-1].kind is Kind.WORD:
-            dropped.append(token)
-        else:
-            kept.append(token)
-        position += 1
+        if not _repeats(words, position, length):
+            length = 2 if _doubled(tokens, position) else 0
+        if not length and kept and token.kind is Kind.WORD is kept[-1].kind and kept[-1].text == token.text:
+            length = 1
+        dropped += tokens[position : position + length]
+        kept += [] if length else [token]
+        position += length or 1
     return kept, dropped
+
+
+def _repeats(words: list[str], at: int, length: int) -> bool:
+    """Tell whether so many words from here on are those before."""
+    return _RUN <= length <= _LONGEST_RUN and words[at - length : at] == words[at : at + length]
+
+
+def _doubled(tokens: list[Token], at: int) -> bool:
+    """Tell whether two words come twice: "in the in the"."""
+    pair, after = tokens[at : at + 2], [token.text for token in tokens[at + 2 : at + 4]]
+    texts = [token.text for token in pair]
+    return texts == after and len(set(texts)) == 2 and all(token.kind is Kind.WORD for token in pair)
 
 
 def fold(tokens: list[Token], kind: Kind, joint: str = "_", form: str = "") -> Token:
