@@ -63,10 +63,10 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
     tokens, dropped = rewrite(tokens, words, trace)
-    shaped = shape(tokens, words)
+    shaped, taken_back = shape(tokens, words)
     reading = TextReading(text).read(parse_tokens(shaped))
     clauses, constraints = resolve(reading)
-    rest = [*tokens, *markup, *repeated, *dropped, *reading.skipped]
+    rest = [*tokens, *markup, *repeated, *dropped, *taken_back, *reading.skipped]
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 

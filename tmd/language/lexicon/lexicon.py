@@ -300,6 +300,12 @@ def section(name: str) -> frozenset[str]:
 
 
 @cache
+def pairs(name: str) -> Mapping[str, str]:
+    """Return a section whose entries are "this=that"."""
+    return dict(entry.split("=") for entry in sections()[name])
+
+
+@cache
 def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
     """Return a section of several-word entries by first word, longest first."""
     table: dict[str, list[tuple[str, ...]]] = {}

@@ -14,7 +14,7 @@ from lark.lexer import Lexer
 
 from tmd.language.clause import BE, PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section, sections, singular
-from tmd.language.syntax.shape import ALSO, CHOICE, RELATIVE, STATEMENT
+from tmd.language.syntax.shape import ALSO, CHOICE, DUTY, RELATIVE, STATEMENT
 from tmd.language.syntax.tokens import IMPLIED, NAME, Kind, Token
 
 EXISTS = "exists"
@@ -200,6 +200,12 @@ def _phrases(group: Tree[Leaf]) -> list[Phrase]:
     return result
 
 
+def _also(group: Tree[Leaf]) -> list[Phrase]:
+    """Return the phrases of a group that go with what stands before it: "… and the lid too"."""
+    joint = next((i for i, n in enumerate(group.children) if isinstance(n, Leaf) and n.source.form == ALSO), None)
+    return [] if joint is None else [_phrase(n) for n in _trees(group.children[joint:], "phrase")]
+
+
 def _phrase(node: Tree[Leaf]) -> Phrase:
     chain: list[Phrase] = []
     lead: list[Token] = []
@@ -383,12 +389,19 @@ class Attachment:
             return
         if preposition.form == ALSO:
             self.host, self.behind = self.earlier
-        name, targets = preposition.text, [self._told_apart(p) for p in _phrases(groups[0])]
+        name, also = pairs("relation_names").get(preposition.text, preposition.text), _also(groups[0])
+        targets = [self._told_apart(p) for p in _phrases(groups[0]) if p.name not in {q.name for q in also}]
+        self.draft.direct += also  # "put the pot on the bench, and the lid too"
+        if name in section("with_words") and targets and targets[0].said().quantifier is Quantifier.NONE:
+            name = sections()["without_words"][0]  # "with neither milk nor sugar"
+            for target in targets:
+                target.lead = tuple(w for w in target.lead if w not in section("none_words"))
         self.earlier = self.host, self.behind
         inner = self.behind in section("with_words") and len(targets) == 1 and targets[0].pronoun
         if inner and name in section("contents_places"):
             return  # "a mug with milk in it"
         paired, self.paired = self.paired, False
+        self.host = [*self.host, *also] if self.host else []
         if self.host and (paired or self._hosted(name, targets)):
             self._relate(name, self.host, targets)
         else:
@@ -557,6 +570,10 @@ class TextReading:
             draft.direct = last.direct
         if not (last.direct or last.landmarks) and _trees(arguments, "denial"):
             self.drafts.remove(last)  # "use neither the saw nor the drill"
+        if last.verb.stem in section("mutual_verbs") and len(last.direct) == 2 and not last.relations:
+            other = last.direct.pop()  # "swap the rope and the hose"
+            last.landmarks.append(other)
+            last.relations.append(Relation("with", last.direct[0].name, other.name))
         if same is not None and first.verb.stem in section("pro_verbs"):
             self._same(first, same)
 
@@ -848,7 +865,7 @@ class TextReading:
 
     def _aside(self, node: Tree[Leaf], conditions: Sequence[Node] = ()) -> None:
         """Read a statement; with a duty it is a demand."""
-        asked = node.data == "demand"
+        asked = node.data == "demand" or next(leaves(node)).form == DUTY
         denied = next(leaves(node)).negated
         for part in self._parts(node):
             verbal = [n.source for p in _trees(part.children, "predicate") for n in p.children if isinstance(n, Leaf)]
@@ -864,7 +881,8 @@ class TextReading:
                 self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
                 continue
             for draft in self._demanded(part, denied):
-                if draft.verb.stem == BE and draft.result is None and not draft.landmarks:
+                vague = all(p.pronoun for p in draft.direct)
+                if not draft.landmarks and draft.result is None and (draft.verb.stem == BE or (draft.verb.stem == HAVE and vague)):
                     continue
                 draft.spans += [t.span for t in leaves(node)]
                 self._modify(draft, conditions, fronted=True)
@@ -876,7 +894,8 @@ class TextReading:
     @staticmethod
     def _asks(token: Token, verbal: Sequence[Token]) -> bool:
         """Tell whether a word of a predicate makes it a demand: a duty, "belongs", "would like"."""
-        wished = token.stem in section("wishing") and any(t.text in section("modals") for t in verbal)
+        modal = any(t.text in section("modals") for t in verbal)
+        wished = modal and (token.stem in section("wishing") or token.text in section("wishful"))
         placed = token.kind in (Kind.FINITE, Kind.V) and token.stem in section("belonging") | section("staying")
         return token.text in section("duties") or wished or placed
 
@@ -887,8 +906,8 @@ class TextReading:
             placed = [r for r in draft.relations if r.relation in section("static") | section("arrivals")]
             none = any(p.said().quantifier is Quantifier.NONE for p in draft.direct)
             draft.verb.stem = pairs("demand_verbs").get(draft.verb.stem, draft.verb.stem)
-            if draft.verb.stem in section("wishing"):
-                draft.verb.stem, draft.verb.form = HAVE, IMPLIED
+            if draft.verb.stem in section("wishing") or draft.result in section("welcome"):
+                draft.verb.stem, draft.verb.form, draft.result = HAVE, IMPLIED, None
             elif draft.verb.stem in section("staying"):
                 stays = none or denied
                 draft.verb.stem, draft.mood = (BE, None) if stays else (sections()["leaving"][0], Mood.KEEP)

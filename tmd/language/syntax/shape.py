@@ -20,6 +20,8 @@ ALSO = "also"
 """The form of a preposition after a conjunction: "near the wall and near the door"."""
 RELATIVE = "relative"
 """The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
+DUTY = "duty"
+"""The form of the opener of a statement that says what shall be."""
 ALONE = "alone"
 """The form of a verb that lost its object to a slip: it shares none."""
 STATEMENT = "a statement, not an instruction"
@@ -27,6 +29,8 @@ UNNEEDED = "says what need not be done"
 REMINDER = "names a thing, and not what to do with it"
 ADDRESS = "addresses somebody"
 ASIDE = "an aside in brackets"
+QUESTION = "a question, not an instruction"
+CORRECTED = "taken back by what was said next"
 
 _NP = frozenset({K.DET, K.NUM, K.ADJ, K.N, K.PRON})
 _HEADS = frozenset({K.N, K.PRON})
@@ -44,8 +48,8 @@ _AHEAD = 15
 """Tokens between a verb and its particle, at most."""
 
 
-def shape(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
-    """Return the terminals of the clause grammar, in order."""
+def shape(tokens: list[Token], lexicon: Lexicon) -> tuple[list[Token], list[Token]]:
+    """Return the terminals of the clause grammar, in order, and what speakers have taken back."""
     tokens = _copulas(tokens)
     _placings(tokens)
     tokens = _settings(_numbered(_partitives(tokens)))
@@ -54,7 +58,7 @@ def shape(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _mark_sentences(tokens)
     shaper = _Shaper(tokens, lexicon)
     shaper.main(0, len(tokens))
-    return _drop_dangling(_link(shaper.out))
+    return _drop_dangling(_link(shaper.out)), shaper.dropped
 
 
 def next_of(tokens: Sequence[Token], at: int, skip: frozenset[Kind] = _IDLE) -> Token | None:
@@ -101,6 +105,8 @@ def _partitives(tokens: list[Token]) -> list[Token]:
         listed = token.text in section("partitives") and token.kind in (K.N, K.PRON, K.DET)
         if listed or (token.kind is K.NUM and not (at and tokens[at - 1].kind is K.N)):
             of.kind, token.kind = K.FILLER, K.DET
+            if [t.kind for t in tokens[at + 2 : at + 4]] == [K.DET, K.NUM]:
+                tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
         elif token.kind in _HEADS:
             of.kind = K.OF
     return tokens
@@ -315,9 +321,11 @@ def _moves_object(tokens: list[Token], at: int, place: int) -> bool:
 
 def _is_particle(tokens: list[Token], at: int, place: int, strict: bool) -> bool:
     text, following = tokens[place].text, next_of(tokens, place)
-    if _kind(following) not in _NP or text in section("pure_particles"):
+    if _kind(following) not in _NP:
         return True
     adjacent = all(t.kind in _IDLE for t in tokens[at + 1 : place])
+    if text in section("pure_particles"):
+        return adjacent or text not in pairs("relation_names")
     return adjacent and (strict or _takes_particle(tokens, at, place))
 
 
@@ -354,6 +362,8 @@ class _Shaper:
         self.subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
         self.depth = 0
+        self.dropped: list[Token] = []
+        """What speakers have taken back."""
         self.handlers: dict[Kind, Callable[[int, int], int]] = {
             K.STOP: self._stop,
             K.SUB: self._condition,
@@ -393,8 +403,8 @@ class _Shaper:
             K.V: self._keep,
             K.DET: self._inner_determiner,
             K.N: self._inner_noun,
-            K.COMMA: self._keep,
-            K.CC: self._keep,
+            K.COMMA: self._inner_joint,
+            K.CC: self._inner_joint,
         }
         self.opener: list[Token] = []
 
@@ -403,7 +413,44 @@ class _Shaper:
     def main(self, at: int, end: int) -> None:
         """Walk over what is outside of subordinate clauses."""
         while at < end:
-            at = self.handlers.get(self.tokens[at].kind, self._keep)(at, end)
+            if self.tokens[at].text in section("corrections") and self.out:
+                at = self._corrected(at)
+            elif (question := self._question(at)) > at:
+                at = self._skip(at, question, QUESTION)
+            else:
+                at = self.handlers.get(self.tokens[at].kind, self._keep)(at, end)
+
+    def _question(self, at: int) -> int:
+        """Return where a question that asks for nothing ends; ``at`` where none begins."""
+        starts = not at or self._at(at - 1) in _IDLE | {K.STOP, K.CC}
+        first = starts and self.tokens[at].text in section("questions") and (not self.out or self._last() in _BREAKS)
+        if not first or self._at(at + 1) is K.ING:
+            return at
+        stop = next((i for i in range(at, len(self.tokens)) if self.tokens[i].kind is K.STOP), len(self.tokens) - 1)
+        return stop if "?" in self.tokens[stop].text else at
+
+    def _corrected(self, at: int) -> int:
+        """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
+        begin = at + 1
+        while self._at(begin) in _LINKS | _IDLE:
+            begin += 1
+        kind = self._at(begin)
+        until = {K.P, K.TO} if kind in (K.P, K.TO) else _NP if kind in _NP else {K.SEP}
+        place = len(self.out)
+        while place and (self.out[place - 1].kind in _LINKS or self.out[place - 1].text in section("none_words")):
+            place -= 1
+        while place and self.out[place - 1].kind not in until:
+            place -= 1
+        while place and kind in _NP and self.out[place - 1].kind in _NP:
+            place -= 1
+        place -= kind in (K.P, K.TO)
+        for token in (self.tokens[at], *self.out[max(place, 0) :]):
+            token.note = CORRECTED
+        self.dropped += [self.tokens[at], *self.out[max(place, 0) :]]
+        del self.out[max(place, 0) :]
+        if self.verb is not None and self.verb.note:
+            self.verb, self.subject = None, len(self.out)
+        return begin
 
     def _inside(self, at: int, end: int) -> None:
         while at < end:
@@ -498,12 +545,28 @@ class _Shaper:
 
     def _joint(self, at: int, end: int) -> int:
         """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
+        if (also := self._also(at)) != at:
+            return also
         several = self.tokens[at].kind is K.COMMA and self._at(at + 1) is K.CC
         named = self._named()
         listed = any(t.kind is K.COMMA for t in self.out[self.subject :])
         if (self.verb is not None or (several and named and not listed)) and self._statement_follows(at):
             return self._stop(at, end)
         return self._keep(at, end)
+
+    def _also(self, at: int) -> int:
+        """Mark "and so does the mug", "and the mug too"; return where reading goes on, ``at`` for any other joint."""
+        so = at + 1 + (self._at(at + 1) is K.CC)
+        place = so
+        while self._at(place) in _NP:
+            place += 1
+        too = place < len(self.tokens) and self.tokens[place].text in section("also_words")
+        does = self._at(so) in (K.ADV, K.PURP) and self._at(so + 1) is K.AUX and self._at(so + 2) in _NP
+        if not (does or (too and place > so and self._at(place + 1) in _BREAKS)):
+            return at
+        self.tokens[at].form = ALSO
+        self.out.append(self.tokens[at])
+        return so + 2 * does
 
     def _named(self) -> bool:
         return any(t.kind in _HEADS for t in self.out[self.subject :])
@@ -581,6 +644,8 @@ class _Shaper:
         after = self.tokens[at + 1] if at + 1 < len(self.tokens) else token
         if after.text in section("reciprocals"):
             return at + 1
+        if after.text in section("there_words") and self._at(at + 2) is not K.AUX and self._last() is not K.V:
+            after.kind, after.text = K.PRON, sections()["singular_pronouns"][0]  # "leave it in there"
         if after.kind is K.NEG:
             after.kind, after.text = K.DET, sections()["none_words"][0]  # "with neither milk nor sugar"
             for word in self.tokens[at + 2 : at + 6]:
@@ -663,6 +728,9 @@ class _Shaper:
 
     def _condition(self, at: int, end: int) -> int:
         token = self.tokens[at]
+        if self._last() is K.EXC:
+            self.out.pop()
+            token.text = sections()["excepting"][0]  # "except if"
         if self._at(at + 1) is K.ING:
             self.tokens[at + 1].kind = K.V
         return self._bracket(token, K.SUB, at + 1, min(end, self.boundary(at)))
@@ -778,6 +846,9 @@ class _Shaper:
             return stop + 1
         finish = self._negation_end(stop)
         idle = self._at(self._peek(stop)) in (K.TO, K.STOP, K.COMMA)
+        helped = self._at(stop - 1) is K.TO and any(t.text in section("unneeded") for t in self.tokens[at:stop])
+        if token.text in section("needless") or helped:
+            return self._skip(at, finish, UNNEEDED)
         if lead is not None and lead.stem in section("unneeded") and idle:
             return self._skip(at, finish, UNNEEDED)
         if self._at(stop) is K.ING:
@@ -855,7 +926,9 @@ class _Shaper:
     def _auxiliary(self, at: int, end: int) -> int:
         """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
         there = at > 0 and self.tokens[at - 1].text in section("there_words")
-        token = self.tokens[at]
+        token, after = self.tokens[at], self._peek(at)
+        if after < len(self.tokens) and self.tokens[after].text in section("needless"):
+            return self._negation(after, end)
         fresh = self.verb is None and all(t.kind in _LINKS for t in self.out[self.subject :])
         if fresh and not there and token.text in section("getting") and self._at(at + 1) in _NP - {K.PRON}:
             token.kind, token.stem, token.form = K.V, token.text, "base"
@@ -939,6 +1012,8 @@ class _Shaper:
         if token.form == "inf" and self.opener[-1].kind is K.NEG and self._last() in _HEADS:
             return self._bracket(token, K.PURP, at + 1, end)
         if token.form == "inf":
+            if self._last() is K.AUX and self._at(at + 1) is K.AUX and self.out[-1].text in section("be"):
+                self.opener[-1].form = DUTY  # "no lamp is to be on"
             return at + 1
         token.kind = K.P
         return self._keep(at, end)
@@ -956,6 +1031,10 @@ class _Shaper:
     def _inner_subject(self, at: int, end: int) -> int:
         self.tokens[at].kind = K.PRON
         return self._keep(at, end)
+
+    def _inner_joint(self, at: int, end: int) -> int:
+        also = self._also(at)
+        return also if also != at else self._keep(at, end)
 
     def _inner_let(self, at: int, end: int) -> int:
         self.tokens[at].kind = K.V
@@ -1027,6 +1106,7 @@ class _Linker:
         if after is K.V and choice:
             self.tokens[end].form = CHOICE
         joined = any(t.kind is K.CC for t in self.tokens[at:end])
+        link.form = ALSO if any(t.form == ALSO for t in self.tokens[at:end]) else link.form
         kind = self._inner(before, after, end) if self.open else self._outer(before, after, end, joined)
         if kind is not None:
             link.kind = kind
