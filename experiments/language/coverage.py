@@ -21,7 +21,7 @@ from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, builtin
 from tmd.language.parser import parse
 from tmd.language.syntax.phrases import builtin_rows
-from tmd.language.syntax.tagger import tables
+from tmd.language.syntax.tagger import classes
 from tmd.world.folder import find_domain
 
 _LAST_ENVIRONMENT = 8
@@ -64,7 +64,7 @@ def coverage(texts: Iterable[tuple[str, str]]) -> dict[str, int]:
         trace: list[str] = []
         parse(text, _lexicon(domain), trace)
         counts.update(set(trace))
-    names = [row.id for row in tables().rows] + [row.id for row in builtin_rows()]
+    names = [row.id for row in classes().rows] + [row.id for row in builtin_rows()]
     return {name: counts[name] for name in names}
 
 

@@ -7,13 +7,12 @@ import pytest
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon, builtin
 from tmd.language.syntax.phrases import builtin_rows
-from tmd.language.syntax.rows import Row, Tables
-from tmd.language.syntax.tagger import FEATURES, decide, tables, tag
+from tmd.language.syntax.tagger import Classes, Row, classes, decide, tag
 from tmd.language.syntax.tokens import Kind, tokenise
 
 CASES = [
     pytest.param(row, text, id=f"{row.id}-{name}")
-    for row in tables().rows
+    for row in classes().rows
     for name, text in (("example", row.entry["example"]), ("paraphrase", row.entry["paraphrase"]))
 ]
 ROW = (
@@ -38,7 +37,7 @@ def test_the_row_decides_the_words_between_asterisks(row: Row, text: str) -> Non
 
 
 def test_no_row_has_the_id_of_a_phrase_or_says_its_example_twice() -> None:
-    rows = tables().rows
+    rows = classes().rows
     assert not {row.id for row in rows} & {row.id for row in builtin_rows()}
     assert all(row.entry["example"] != row.entry["paraphrase"] for row in rows)
 
@@ -49,9 +48,9 @@ def test_no_row_has_the_id_of_a_phrase_or_says_its_example_twice() -> None:
         ("left=DET", "left=ARTICLES", 7, "'ARTICLES' is no class of words"),
         ("left=DET", "word@tools & word@gadgets", 7, "'gadgets' is no section of words.txt"),
         ("left=DET", "first & (left=DET", 7, "'first' is no term, no feature and no comparison"),
-        ("left=DET", "(left=DET", 7, "a parenthesis is not closed"),
-        ("left=DET", "noun noun", 7, "'noun' is not expected here"),
-        ("left=DET", "noun &", 7, "a condition ends early"),
+        ("left=DET", "(left=DET", 7, "this condition is not well-formed: '(' was never closed"),
+        ("left=DET", "noun noun", 7, "this condition is not well-formed"),
+        ("left=DET", "noun &", 7, "this condition is not well-formed"),
         ("left=DET", "sure>=many", 7, "'sure>=many' is no term, no feature and no comparison"),
         ("class: N", "class: NOUN", 6, "'NOUN' is no class of words"),
         ("table: base", "table: bases", 5, "'bases' is no table"),
@@ -72,14 +71,14 @@ def test_a_bad_row_is_refused_with_its_place(old: str, new: str, line: int, mess
     text = ROW.replace(old, new, 1)
     assert text != ROW
     with pytest.raises(TmdError, match=re.escape(message)) as caught:
-        Tables(text, "pos.yaml", FEATURES)
+        Classes(text, "pos.yaml")
     assert caught.value.location
     assert caught.value.location.line == line
 
 
 @pytest.mark.parametrize("name", ["first", "unknown", "ing", "ed", "s", "base"])
 def test_no_word_is_left_undecided(name: str) -> None:
-    assert not tables().tables[name].rows[-1].entry["when"]
+    assert not classes().tables[name][-1].entry["when"]
 
 
 def test_to_is_no_infinitive_where_no_row_says_so() -> None:

@@ -1,28 +1,50 @@
-"""Tables of rows that say what words are, from data files; every fault is told with its place.
+"""Rows of data files: read with their places, and with conditions ready for use.
 
-A file is a mapping: ``rows`` is a list of mappings of texts, every other section maps names to texts.
+A file is a mapping: ``rows`` is a list of mappings of texts, every other section maps names to texts. A condition
+joins atoms by ``&`` and ``|`` (between blanks); ``!`` negates, parentheses group. An atom is a term that the file
+defines, a feature that the program computes, or one of these, in which ``|`` joins alternatives:
+
+=====================  ===================================================================================
+``left=DET|ADJ``       the class of the token before; the file may give several classes one name
+``right:the|a``        its text
+``word@nouns|verbs``   its text is in a section of ``words.txt``
+``word~er|or``         its text ends so
+``left.stem:go|run``   the same of its stem or its form: also ``right.form:s``, ``stem@intransitive``
+``sure>=2``            its strength as a verb, with ``=``, ``>=`` or ``<``: also ``right.sure=3``
+``right.capital``      it is written with a capital
+=====================  ===================================================================================
+
+The tokens are ``word``, which may be left out before an attribute, ``left`` and ``right`` (the nearest that are no
+adverbs), ``beyond`` (behind *right*), and the very next ones: ``last``, ``last2`` (before *last*) and ``next``.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any, NoReturn, TypeVar
 
 import yaml
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.syntax.conditions import Condition, Test, Vocabulary, of_sections
+from tmd.language.lexicon.lexicon import section, sections
 from tmd.language.syntax.tokens import Kind
 from tmd.yaml_nodes import compose
 
+Test = Callable[[Any], bool]
 _Read = TypeVar("_Read")
 
-NEEDED = ("id", "reason", "example", "paraphrase")
+NEEDED = ("id", "example", "paraphrase")
 """Every row has these."""
-_OWN = ("table", "class", "when", "pattern", "phrases", "unless", "form")
+LISTS = frozenset({"means"})
+"""Keys with a list instead of a text; tests read them."""
+_SIGNS = {"&": "and", "|": "or", "!": "not", "(": "(", ")": ")"}
+_PIECE = re.compile(r"\s*([()&!]|\|(?=\s)|[^\s()&!]+)")
+_ATOM = re.compile(
+    r"(?:(?P<token>word|left|right|beyond|last2?|next)(?:\.|(?=[=:@~])))?"
+    r"(?:(?P<text>stem|form)?(?P<sign>[:@~])|sure(?P<compared>>=|=|<)(?=\d\Z)|(?P<kind>)=|(?P<capital>capital)\Z)"
+    r"(?P<values>.*)"
+)
 
 
 class Entry:
@@ -36,7 +58,7 @@ class Entry:
             self.fail("", "expected 'name: text' pairs here")
         for key, value in node.value:
             self.places[key.value] = Location(file, value.start_mark.line + 1, value.start_mark.column + 1)
-            if not isinstance(value, yaml.ScalarNode):
+            if not isinstance(value, yaml.ScalarNode) and key.value not in LISTS:
                 self.fail(key.value, f"expected a text for '{key.value}'")
             self.values[key.value] = str(value.value)
 
@@ -55,158 +77,121 @@ class Entry:
         except (ValueError, re.error) as error:
             self.fail(key, str(error))
 
-    def check(self, keys: Collection[str]) -> None:
-        """Refuse a row that lacks what every row has, or has something else than these keys."""
-        for key in NEEDED:
-            if not self[key].strip():
-                self.fail(key, f"a row without {key}", f"every row has {', '.join(NEEDED)}")
-        for key in self.values:
-            if key not in (*NEEDED, *keys):
-                self.fail(key, f"unknown key '{key}'", f"known keys: {', '.join((*NEEDED, *keys))}")
 
-
-def read_entries(text: str, file: str, keys: Collection[str]) -> tuple[list[Entry], dict[str, Entry]]:
-    """Read the rows and the other sections of a file.
+def read_rows(node: yaml.Node | None, file: str, needed: Collection[str], further: Collection[str]) -> list[Entry]:
+    """Read a list of rows.
 
     Args:
-        text: The text of the file.
+        node: The list.
         file: Names it in errors.
-        keys: What a row may have beside what every row has (:data:`NEEDED`).
+        needed: Keys that every row has beside :data:`NEEDED`.
+        further: Keys that a row may have.
 
     Raises:
-        TmdError: The file is not YAML of this form, a row lacks something or has an unknown key, or two have one id.
+        TmdError: It is no list of mappings, a row lacks something or has an unknown key, or two rows have one id.
     """
-    root = compose(text, file)
-    parts = {key.value: value for key, value in root.value} if isinstance(root, yaml.MappingNode) else {}
-    listed = parts.pop("rows", None)
-    rows = [Entry(node, file) for node in listed.value] if isinstance(listed, yaml.SequenceNode) else []
-    lines: dict[str, int] = {}
+    if not isinstance(node, yaml.SequenceNode):
+        place = Location(file, node.start_mark.line + 1 if node else 1, 1)
+        raise TmdError("expected a list of rows here", location=place, code="bad-row")
+    needed, lines = (*NEEDED, *needed), dict[str, int]()
+    rows = [Entry(child, file) for child in node.value]
     for row in rows:
-        row.check(keys)
+        for key in needed:
+            if not row[key].strip():
+                row.fail(key, f"a row without {key}", f"every row has {', '.join(needed)}")
+        for key in row.values:
+            if key not in (*needed, *further):
+                row.fail(key, f"unknown key '{key}'", f"known keys: {', '.join((*needed, *further))}")
         if row["id"] in lines:
             row.fail("id", f"two rows have the id '{row['id']}'", f"the first is in line {lines[row['id']]}")
         lines[row["id"]] = row.places["id"].line
+    return rows
+
+
+def read_file(
+    text: str, file: str, needed: Collection[str], further: Collection[str]
+) -> tuple[list[Entry], dict[str, Entry]]:
+    """Return the rows and the other sections of a file; the arguments are those of :func:`read_rows`."""
+    root = compose(text, file)
+    parts = {key.value: value for key, value in root.value} if isinstance(root, yaml.MappingNode) else {}
+    rows = read_rows(parts.pop("rows", None), file, needed, further)
     return rows, {name: Entry(node, file) for name, node in parts.items()}
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
-    """A row that says what a word or a run of words is.
+class Conditions:
+    """Conditions as expressions of Python over a word, ``w``.
 
     Attributes:
-        id: Its name.
-        kind: The class it gives.
-        when: Its condition.
-        form: The form of the token from now on, where the row says one.
-        phrases: The section of entries of several words that have this class too ...
-        unless: ... but not where this holds.
-        pattern: The words of a run, with a blank behind each.
-        entry: The row as it is written.
+        names: The expressions of features and terms.
+        groups: Names of several classes.
     """
 
-    id: str
-    kind: Kind
-    when: Condition
-    form: str
-    phrases: str
-    unless: Condition
-    pattern: re.Pattern[str]
-    entry: Entry
+    def __init__(self, features: Mapping[str, str], functions: Mapping[str, Callable[..., Any]]) -> None:
+        """Begin with features, which may call these functions."""
+        self.names = dict(features)
+        self._known = {f"_{name}": section(name) for name in sections()} | dict(functions)
+        self.groups: dict[str, tuple[str, ...]] = {}
 
-
-@dataclass
-class Table:
-    """Rows in the order in which they are asked, found by the word and the class before it."""
-
-    rows: list[Row] = field(default_factory=list)
-    _found: dict[tuple[str, Kind], tuple[Row, ...]] = field(default_factory=dict)
-
-    @cached_property
-    def named(self) -> frozenset[str]:
-        """The words that a row is for."""
-        return frozenset().union(*(row.when.words or () for row in self.rows))
-
-    @cached_property
-    def open(self) -> bool:
-        """A row is for any word."""
-        return any(row.when.words is None for row in self.rows)
-
-    def first(self, word: Any) -> Row | None:  # noqa: ANN401 - what conditions look at
-        """Return the first row that holds for a word."""
-        text, left = word.word.text, word.left.kind
-        key = text if text in self.named else "", left
-        rows = self._found.get(key)
-        if rows is None:
-            rows = self._found[key] = tuple(row for row in self.rows if row.when.possible(text, left))
-        for row in rows:
-            if row.when.holds(word):
-                return row
-        return None
-
-
-class Tables:
-    """Everything a file says of classes of words.
-
-    Attributes:
-        rows: All rows in the order of the file.
-        tables: The rows by the table they stand in.
-        terms: The conditions that have a name.
-        parts: Pieces of patterns.
-    """
-
-    def __init__(self, text: str, file: str, features: Mapping[str, Test]) -> None:
-        """Read a file.
-
-        Args:
-            text: The text of the file.
-            file: Names it in errors.
-            features: What conditions may name.
+    def compiled(self, text: str) -> Test:
+        """Compile a condition; an empty one always holds.
 
         Raises:
-            TmdError: It is not well-formed, or names a class, a table, a term or a section that does not exist.
+            ValueError: It is not well-formed, or speaks of something unknown; in one line.
         """
-        entries, self._sections = read_entries(text, file, _OWN)
-        self._vocabulary = Vocabulary(features)
-        self.terms, self.parts = self._vocabulary.terms, dict[str, str]()
-        self._read("groups", self._vocabulary.kinds, self._vocabulary.groups)
-        self._read("terms", self._vocabulary.condition, self.terms)
-        self._read("parts", self._pattern, self.parts)
-        self.tables: dict[str, Table] = {}
-        self._read("tables", lambda _: Table(), self.tables)
-        self.rows = [self._row(entry) for entry in entries]
+        # the text can hold nothing but signs and the expressions made here, so eval is safe
+        test: Test = eval(f"lambda w: {self.expression(text) if text else True}", self._known)
+        return test
 
-    def _read(self, section: str, read: Callable[[str], _Read], into: dict[str, _Read]) -> None:
-        if entry := self._sections.get(section):
-            for name in entry.values:  # one may name those before it
-                into[name] = entry.checked(name, read)
+    def expression(self, text: str) -> str:
+        """Return a condition as an expression.
 
-    def _row(self, entry: Entry) -> Row:
-        condition = self._vocabulary.condition
-        row = Row(
-            entry["id"],
-            next(iter(entry.checked("class", self._vocabulary.kinds))),
-            entry.checked("when", condition) if entry["when"] else Condition(lambda _: True),
-            entry["form"],
-            entry["phrases"],
-            entry.checked("unless", condition) if entry["unless"] else Condition(lambda _: False),
-            re.compile(entry.checked("pattern", self._pattern)),
-            entry,
-        )
-        if row.phrases:
-            entry.checked("phrases", of_sections)
-        for name in entry["table"].split("|"):
-            if name not in self.tables:
-                entry.fail("table", f"'{name}' is no table", f"tables: {', '.join(self.tables)}")
-            self.tables[name].rows.append(row)
-        return row
+        Raises:
+            ValueError: As :meth:`compiled` does.
+        """
+        found = " ".join(_SIGNS.get(p) or self.names.get(p) or self._atom(p) for p in _PIECE.findall(text))
+        try:
+            compile(found, "", "eval")
+        except SyntaxError as error:
+            raise ValueError(f"this condition is not well-formed: {error.msg}") from None
+        return f"({found})"
 
-    def _pattern(self, text: str) -> str:
-        """Fill pieces of patterns in, or words of sections of ``words.txt``, the longest first."""
+    def kinds(self, names: str) -> tuple[str, ...]:
+        """Return classes by their names and names of groups, joined by ``|``."""
+        found: list[str] = []
+        for name in names.split("|"):
+            if name not in self.groups and name not in Kind.__members__:
+                raise ValueError(f"'{name}' is no class of words")
+            found += self.groups.get(name, (name,))
+        return tuple(found)
 
-        def filled(match: re.Match[str]) -> str:
-            if match[1] in self.parts:
-                return self.parts[match[1]]
-            words = sorted(of_sections(match[1]), key=lambda word: (-len(word), word))
-            return f"(?:{'|'.join(map(re.escape, words))}) "
+    def _atom(self, piece: str) -> str:
+        match = _ATOM.fullmatch(piece)
+        if match is None:
+            raise ValueError(f"'{piece}' is no term, no feature and no comparison")
+        token, values = f"w.{match['token'] or 'word'}", match["values"]
+        if match["capital"]:
+            return f"{token}.capital"
+        if match["compared"]:
+            sign = "==" if match["compared"] == "=" else match["compared"]
+            return f"({token}.strength {sign} {values})"
+        if match["kind"] is not None:
+            return _among(f"{token}.kind", self.kinds(values))
+        path = f"{token}.{match['text'] or 'text'}"
+        if match["sign"] == "~":
+            return f"{path}.endswith({tuple(values.split('|'))})"
+        if match["sign"] == ":":
+            return _among(path, values.split("|"))
+        return "(" + " or ".join(f"{path} in _{name}" for name in section_names(values)) + ")"
 
-        return re.sub(r"\{([a-z_|]+)\}", filled, text)
+
+def _among(path: str, values: Collection[str]) -> str:
+    # a set of constants is made once, when the expression is compiled
+    return f"({path} in {{{', '.join(map(repr, values))}}})"
+
+
+def section_names(names: str) -> list[str]:
+    """Return names of sections of ``words.txt``, joined by ``|``."""
+    for name in names.split("|"):
+        if name not in sections():
+            raise ValueError(f"'{name}' is no section of words.txt")
+    return names.split("|")

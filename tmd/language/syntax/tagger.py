@@ -2,15 +2,16 @@
 
 Each word gets one class before any grammar runs; leaving the choice to an ambiguous grammar picks the noun reading in
 lists and is far slower. What decides is data: of a table of ``data/pos.yaml`` the first row whose condition
-(:mod:`~tmd.language.syntax.conditions`) holds says what a word is.
+(:mod:`~tmd.language.syntax.rows`) holds says what a word is.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from functools import cache, lru_cache
-from operator import attrgetter
+from typing import Any
 
 from tmd.language.clause import NOWHERE
 from tmd.language.lexicon.lexicon import (
@@ -19,15 +20,13 @@ from tmd.language.lexicon.lexicon import (
     comparative_root,
     data_text,
     pairs,
-    phrases,
     positive,
     section,
     sections,
     singular,
     slips,
 )
-from tmd.language.syntax.conditions import TOKENS, Test
-from tmd.language.syntax.rows import Row, Tables
+from tmd.language.syntax.rows import Conditions, Entry, Test, read_file, section_names
 from tmd.language.syntax.tokens import NAME, Kind, Token, fold
 
 _EDGE = Token(Kind.STOP, "", NOWHERE)
@@ -60,105 +59,55 @@ _NEW = Sentence()
 class Word:
     """A word and what stands around it: what a condition looks at.
 
-    Its properties, with ``-`` for ``_``, are the features that conditions may name.
-
     Attributes:
         left: The token before it that is no adverb, decided.
         right: The token behind it that is no adverb, with its first class.
         beyond: The one behind that.
+        last: The very token before it.
+        last2: The one before that.
+        next: The very token behind it.
     """
 
-    __slots__ = ("at", "beyond", "left", "lexicon", "right", "sentence", "tokens", "word")
+    __slots__ = ("at", "beyond", "last", "last2", "left", "lexicon", "next", "right", "sentence", "tokens", "word")
 
-    def __init__(self, tokens: list[Token], at: int, lexicon: Lexicon, left: Token, sentence: Sentence) -> None:
+    def __init__(
+        self,
+        tokens: Sequence[Token],
+        at: int,
+        lexicon: Lexicon,
+        left: Token = _EDGE,
+        ahead: tuple[Token, Token] = (_EDGE, _EDGE),
+        sentence: Sentence = _NEW,
+    ) -> None:
         """Look at the word at one place of a text."""
-        self.word, self.tokens, self.at, self.lexicon = tokens[at], tokens, at, lexicon
-        self.left, self.sentence = left, sentence
-        self.right = self.beyond = _EDGE
+        self.word, self.tokens, self.at, self.lexicon, self.sentence = tokens[at], tokens, at, lexicon, sentence
+        self.left, (self.right, self.beyond) = left, ahead
+        self.last = tokens[at - 1] if at > 0 else _EDGE
+        self.last2 = tokens[at - 2] if at > 1 else _EDGE
+        self.next = tokens[at + 1] if at + 1 < len(tokens) else _EDGE
 
-    @property
-    def last(self) -> Token:
-        """The very token before it."""
-        return self.tokens[self.at - 1] if self.at > 0 else _EDGE
-
-    @property
-    def last2(self) -> Token:
-        """The one before that."""
-        return self.tokens[self.at - 2] if self.at > 1 else _EDGE
-
-    @property
-    def next(self) -> Token:
-        """The very token behind it."""
-        return self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else _EDGE
-
-    @property
-    def noun(self) -> bool:
-        """The lists or the domain know it as a noun."""
-        return self.lexicon.is_noun(self.word.text)
-
-    @property
-    def thing(self) -> bool:
-        """The domain has things that are called so."""
-        return self.lexicon.names_thing(self.word.text)
-
-    @property
-    def letters(self) -> bool:
-        """It has letters only."""
-        return self.word.text.isalpha()
-
-    @property
-    def number(self) -> bool:
-        """It is a number, in figures or in words."""
-        return _is_number(self.word.text)
-
-    @property
     def graded(self) -> bool:
-        """It is the comparative or superlative of an adjective that is dropped: "dirtiest"."""
+        """Tell whether it is the comparative or superlative of an adjective that is dropped: "dirtiest"."""
         root = positive(self.word.text)
         roots = (root, f"{root}e") if root != self.word.text else comparative_root(self.word.text)
         return not section("drop_adjectives").isdisjoint(roots)
 
-    @property
-    def compound(self) -> bool:
-        """It begins a compound of ``words.txt``: "light bulb"."""
-        return f"{self.word.text}_{singular(self.next.text)}" in section("compounds")
-
-    @property
     def verb_next(self) -> bool:
-        """The next word can be nothing but a verb, or is a likely one and the last of its part."""
-        verb = self.lexicon.verb(self.right.text)
-        ends = self.beyond.kind in (Kind.STOP, Kind.COMMA)
-        return verb is not None and verb[1] == "base" and (verb[2] == 3 or (verb[2] == 2 and ends))
+        """Tell whether the next word can be nothing but a verb, or is a likely one and the last of its part."""
+        _, form, strength = self.lexicon.verb(self.right.text) or ("", "", 0)
+        return form == "base" and strength >= 2 + (self.beyond.kind not in (Kind.STOP, Kind.COMMA))
 
-    @property
-    def particle(self) -> bool:
-        """The word behind it is its particle: "switch on"."""
-        return self.lexicon.particle(self.word.stem or self.word.text, self.right.text) is not None
+    def particle(self, verb: Token, particle: Token) -> bool | None:
+        """Tell whether a verb has a particle; ``True`` even before a noun, ``None`` not at all."""
+        return self.lexicon.particle(verb.stem or verb.text, particle.text)
 
-    @property
-    def sure_particle(self) -> bool:
-        """The word behind it is its particle even before a noun."""
-        return self.lexicon.particle(self.word.stem, self.right.text) is True
-
-    @property
-    def own_particle(self) -> bool:
-        """It is the particle of the verb before it: "put back"."""
-        return self.left.kind is Kind.V and self.lexicon.particle(self.left.stem, self.word.text) is not None
-
-    @property
     def predicate(self) -> bool:
-        """The adjectives before it belong to a verb: "is full"."""
+        """Tell whether the adjectives before it belong to a verb: "is full"."""
         before = (t.kind for t in reversed(self.tokens[max(0, self.at - 4) : self.at]))
         return next((kind for kind in before if kind not in (Kind.ADJ, Kind.ADV)), None) is Kind.AUX
 
-    @property
-    def adjacent(self) -> bool:
-        """No adverb stands before it."""
-        return self.last is self.left
-
-    @property
     def later_verb(self) -> bool:
-        """A verb comes later in the same part of the sentence."""
+        """Tell whether a verb comes later in the same part of the sentence."""
         for token in self.tokens[self.at + 1 :]:
             if token.kind in (Kind.STOP, Kind.COMMA, Kind.CC):
                 return False
@@ -167,18 +116,125 @@ class Word:
         return False
 
 
-FEATURES: dict[str, Test] = {f.name: attrgetter(f"sentence.{f.name}") for f in fields(Sentence)} | {
-    name.replace("_", "-"): attrgetter(name)
-    for name, value in vars(Word).items()
-    if isinstance(value, property) and name not in TOKENS
+FEATURES = {f.name: f"w.sentence.{f.name}" for f in fields(Sentence)} | {
+    "noun": "w.lexicon.is_noun(w.word.text)",
+    "thing": "w.lexicon.names_thing(w.word.text)",
+    "letters": "w.word.text.isalpha()",
+    "number": "is_number(w.word.text)",
+    "compound": "f'{w.word.text}_{singular(w.next.text)}' in _compounds",
+    "particle": "w.particle(w.word, w.right) is not None",
+    "sure-particle": "w.particle(w.word, w.right)",
+    "own-particle": "(w.left.kind == 'V' and w.particle(w.left, w.word) is not None)",
+    "adjacent": "w.last is w.left",
+    "graded": "w.graded()",
+    "verb-next": "w.verb_next()",
+    "predicate": "w.predicate()",
+    "later-verb": "w.later_verb()",
 }
-"""What conditions may name."""
+"""What conditions may name, as Python over a word, ``w``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """A row that says what a word or a run of words is.
+
+    Attributes:
+        id: Its name.
+        kind: The class it gives.
+        form: The form of the token from now on, where the row says one.
+        when: Its condition.
+        unless: Entries of several words of its section are not meant where this holds.
+        pattern: The words of a run, with a blank behind each.
+        entry: The row as it is written.
+    """
+
+    id: str
+    kind: Kind
+    form: str
+    when: Test
+    unless: Test
+    pattern: re.Pattern[str]
+    entry: Entry
+
+
+class Classes:
+    """Everything a file says of classes of words.
+
+    Attributes:
+        rows: All rows in the order of the file.
+        tables: The rows by the table they stand in.
+        terms: The conditions that have a name.
+        parts: Pieces of patterns.
+    """
+
+    def __init__(self, text: str, file: str) -> None:
+        """Read a file.
+
+        Raises:
+            TmdError: It is not well-formed, or names a class, a table, a term or a section that does not exist.
+        """
+        optional = ("when", "pattern", "phrases", "unless", "form")
+        entries, sections = read_file(text, file, ("table", "class", "reason"), optional)
+        conditions = Conditions(FEATURES, {"is_number": is_number, "singular": singular})
+        self.parts: dict[str, str] = {}
+        self.tables: dict[str, list[Row]] = {}
+        reading: tuple[tuple[str, Callable[[str], Any], dict[str, Any]], ...] = (
+            ("groups", conditions.kinds, conditions.groups),
+            ("terms", conditions.expression, conditions.names),
+            ("parts", self._pattern, self.parts),
+            ("tables", lambda _: [], self.tables),
+        )
+        for name, read, into in reading:
+            for key in sections[name].values if name in sections else ():  # one may name those before it
+                into[key] = sections[name].checked(key, read)
+        self.terms = {name: conditions.compiled(name) for name in conditions.names if name not in FEATURES}
+        self.rows = [self._row(entry, conditions) for entry in entries]
+
+    def _row(self, entry: Entry, conditions: Conditions) -> Row:
+        if entry["phrases"]:
+            entry.checked("phrases", section_names)
+        row = Row(
+            entry["id"],
+            Kind(entry.checked("class", conditions.kinds)[0]),
+            entry["form"],
+            entry.checked("when", conditions.compiled),
+            entry.checked("unless", conditions.compiled) if entry["unless"] else lambda _: False,
+            re.compile(entry.checked("pattern", self._pattern)),
+            entry,
+        )
+        for name in entry["table"].split("|"):
+            if name not in self.tables:
+                entry.fail("table", f"'{name}' is no table", f"tables: {', '.join(self.tables)}")
+            self.tables[name].append(row)
+        return row
+
+    def _pattern(self, text: str) -> str:
+        """Fill pieces of patterns in, or words of sections of ``words.txt``, the longest first."""
+
+        def filled(match: re.Match[str]) -> str:
+            if match[1] in self.parts:
+                return self.parts[match[1]]
+            words = {word for name in section_names(match[1]) for word in section(name)}
+            return f"(?:{'|'.join(map(re.escape, sorted(words, key=lambda word: (-len(word), word))))}) "
+
+        return re.sub(r"\{([a-z_|]+)\}", filled, text)
 
 
 @cache
-def tables() -> Tables:
-    """Return the tables of ``data/pos.yaml``."""
-    return Tables(data_text("pos.yaml"), "pos.yaml", FEATURES)
+def classes() -> Classes:
+    """Return what ``data/pos.yaml`` says."""
+    return Classes(data_text("pos.yaml"), "pos.yaml")
+
+
+def _first(table: str, word: Word) -> Row | None:
+    """Return the first row of a table that holds for a word."""
+    for row in classes().tables.get(table, ()):
+        if row.when(word):
+            return row
+    return None
+
+
+# -- first classes -----------------------------------------------------------------------------------------------------
 
 
 def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> list[Token]:
@@ -187,74 +243,72 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     Args:
         tokens: The words of a text.
         lexicon: The words of the domain.
-        trace: Where the ids of the rows go that decided something.
+        trace: Takes the ids of the rows that decide something.
     """
-    fired: list[tuple[Token, Row]] = []
+    trace = [] if trace is None else trace
     tagged: list[Token] = []
     position = 0
     while position < len(tokens):
-        row, merged, used = _phrase(tokens, position, lexicon) or _run(tokens, position) or (None, tokens[position], 1)
-        if row is not None:
-            fired.append((merged, row))
-        elif merged.kind is Kind.WORD:
-            starts = not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC)
-            _tag_word(merged, lexicon, starts, fired)
-        if merged.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
-            merged, used = fold(tokens[position : position + 3], Kind.NUM), 3
-            merged.text = merged.inner[0].text  # "two or three eggs": as few as will do
-        tagged.append(merged)
+        token, used = tokens[position], 1
+        found = _phrase(tokens, position, lexicon) or _run(tokens, position)
+        if found is not None:
+            row, token, used = found
+            trace.append(row.id)
+        elif token.kind is Kind.WORD:
+            _tag_word(token, lexicon, not tagged or tagged[-1].kind in (Kind.STOP, Kind.CC), trace)
+        if token.kind is Kind.NUM and used == 1 and _range(tokens, position, tagged):
+            token, used = fold(tokens[position : position + 3], Kind.NUM), 3
+            token.text = token.inner[0].text  # "two or three eggs": as few as will do
+        tagged.append(token)
         position += used
-    _each("things", tagged, lexicon, fired)
+    trace += [row.id for _, row in _each("things", tagged, lexicon)]
     _compounds(tagged, lexicon)
     for token in tagged:
         token.first = token.kind, token.form
-    if trace is not None:
-        trace += [row.id for _, row in fired]
     return tagged
 
 
-def _each(table: str, tokens: list[Token], lexicon: Lexicon, fired: list[tuple[Token, Row]]) -> None:
+def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token, Row]]:
     """Give tokens another first class where a row of a table holds; what they were as verbs is forgotten."""
-    rows = tables().tables[table]
-    for at, token in enumerate(tokens):
-        if not rows.open and token.text not in rows.named:
-            continue
-        row = rows.first(Word(tokens, at, lexicon, _EDGE, _NEW))
-        if row is not None:
-            token.kind, token.stem, token.strength = row.kind, "", 0
-            fired.append((token, row))
+    fired = [(token, row) for at, token in enumerate(tokens) if (row := _first(table, Word(tokens, at, lexicon)))]
+    for token, row in fired:
+        token.kind, token.stem, token.strength = row.kind, "", 0
+    return fired
 
 
 def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
     """Keep all words of names of the domain with a particle inside."""
-    texts = [t.text for t in tokens]
-    for at in range(len(texts) if lexicon.compounds else 0):
-        for length in lexicon.compound_lengths.get(texts[at], ()):
-            words = (*texts[at : at + length - 1], singular(texts[min(at + length, len(texts)) - 1]))
-            if words in lexicon.compounds:
-                for token in tokens[at : at + length]:
+    for at in range(len(tokens) if lexicon.compounds else 0):
+        for length in lexicon.compound_lengths.get(tokens[at].text, ()):
+            run = tokens[at : at + length]
+            if (*(t.text for t in run[:-1]), singular(run[-1].text)) in lexicon.compounds:
+                for token in run:
                     token.kind, token.stem, token.strength = Kind.N, "", 0
 
 
 @cache
-def _with_phrases() -> tuple[Row, ...]:
-    return tuple(row for row in tables().rows if row.phrases)
+def _phrases() -> Mapping[str, Sequence[tuple[tuple[str, ...], Row]]]:
+    """Return entries of several words by the first one, the longest first, each with the row that has its section."""
+    found: dict[str, list[tuple[tuple[str, ...], Row]]] = {}
+    for row in classes().rows:
+        for entry in sections()[row.entry["phrases"]] if row.entry["phrases"] else ():
+            words = tuple(entry.split("_"))
+            if len(words) > 1:
+                found.setdefault(words[0], []).append((words, row))
+    return {first: sorted(entries, key=lambda e: -len(e[0])) for first, entries in found.items()}
 
 
 def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Row, Token, int] | None:
-    """The longest phrase of ``words.txt`` that begins here."""
-    best, most = None, 1
-    for row in _with_phrases():
-        for words in phrases(row.phrases).get(tokens[at].text, ()):
-            run = tokens[at : at + len(words)]
-            if len(words) > most and tuple(t.text for t in run) == words:
-                token = fold(run, row.kind)
-                word = Word([token], 0, lexicon, _EDGE, _NEW)
-                word.right, word.beyond = [*tokens[at + len(words) :][:2], _EDGE, _EDGE][:2]
-                if not row.unless.holds(word):
-                    token.text = pairs("joined").get(token.text, token.text)
-                    best, most = (row, token, len(words)), len(words)
-    return best
+    """Return the longest phrase of ``words.txt`` that begins here."""
+    for words, row in _phrases().get(tokens[at].text, ()):
+        run = tokens[at : at + len(words)]
+        if tuple(t.text for t in run) == words:
+            token = fold(run, row.kind)
+            right, beyond, *_ = [*tokens[at + len(words) :][:2], _EDGE, _EDGE]
+            if not row.unless(Word([token], 0, lexicon, ahead=(right, beyond))):
+                token.text = pairs("joined").get(token.text, token.text)
+                return row, token, len(words)
+    return None
 
 
 def _run(tokens: list[Token], at: int) -> tuple[Row, Token, int] | None:
@@ -262,33 +316,28 @@ def _run(tokens: list[Token], at: int) -> tuple[Row, Token, int] | None:
     if not _begins_run(tokens[at].text):
         return None
     words = "".join(f"{token.text.replace(' ', '_')} " for token in tokens[at : at + _LONGEST_RUN])
-    for row in tables().tables["runs"].rows:
+    for row in classes().tables["runs"]:
         if match := row.pattern.match(words):
             used = match.group().count(" ")
             return row, fold(tokens[at : at + used], row.kind, " ", row.form), used
     return None
 
 
-def _first(table: str, word: Word) -> Row | None:
-    """The first row of a table that holds for a word."""
-    rows = tables().tables.get(table)
-    return rows.first(word) if rows else None
-
-
 @lru_cache(maxsize=1 << 14)
 def _begins_run(word: str) -> bool:
-    return re.match(tables().parts["begin"], f"{word} ") is not None
+    return re.match(classes().parts["begin"], f"{word} ") is not None
 
 
 @lru_cache(maxsize=1 << 14)
 def _first_class(word: str) -> Row:
-    """The row that gives a word its first class."""
-    row = _first("first", Word([Token(Kind.WORD, word, NOWHERE)], 0, builtin(), _EDGE, _NEW))
+    """Return the row that gives a word its first class."""
+    row = _first("first", Word([Token(Kind.WORD, word, NOWHERE)], 0, builtin()))
     assert row is not None, "the last row holds for any word"
     return row
 
 
-def _is_number(word: str) -> bool:
+def is_number(word: str) -> bool:
+    """Tell whether a word is a number, in figures or in words."""
     return (word[0].isdigit() and not word.endswith(("st", "nd", "rd", "th"))) or word in section("numbers")
 
 
@@ -296,12 +345,12 @@ def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
     """Tell "take two or three eggs" and "3-4 plates" from "take cup 1 or 2"."""
     words = [t.text for t in tokens[at + 1 : at + 4]]
     spoken = not before or before[-1].kind is not Kind.WORD or before[-1].strength == 3
-    joined = len(words) == 3 and words[0] in section("ranges") and _is_number(words[1])
+    joined = len(words) == 3 and words[0] in section("ranges") and is_number(words[1])
     is_open = joined and _first_class(words[2]).kind in (Kind.WORD, Kind.ADJ)
     return is_open and spoken and tokens[at + 3].kind is Kind.WORD
 
 
-def _tag_word(token: Token, lexicon: Lexicon, starts: bool, fired: list[tuple[Token, Row]]) -> None:
+def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) -> None:
     word = token.text
     if word.endswith("'s") and word not in section("be") | section("whole"):
         word, token.form = word[:-2], "possessive"
@@ -313,9 +362,12 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, fired: list[tuple[To
     word = token.text = (corrected or word).replace("-", "_")
     row = _first_class(word)
     token.kind = row.kind
-    fired.append((token, row))
+    trace.append(row.id)
     if token.kind is Kind.WORD:
-        _tag_open(token, lexicon)
+        if word.endswith("ly") and len(word) > _LONG and not lexicon.is_noun(word):
+            token.kind = Kind.ADV
+        elif token.capital and not lexicon.knows(singular(word)):
+            token.form = NAME
     if token.kind is Kind.SUB and starts and word in lexicon.verbs:
         # "Till the bed": the domain has such a verb
         token.kind, token.stem, token.form, token.strength = Kind.WORD, word, "base", 2
@@ -326,16 +378,8 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, fired: list[tuple[To
         token.stem, token.form, token.strength = word, "base", 3
 
 
-def _tag_open(token: Token, lexicon: Lexicon) -> None:
-    """Tell adverbs and names among words of no list."""
-    if token.text.endswith("ly") and len(token.text) > _LONG and not lexicon.is_noun(token.text):
-        token.kind = Kind.ADV
-    elif token.capital and not lexicon.knows(singular(token.text)):
-        token.form = NAME
-
-
 def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:
-    """What a word is as a verb; one with a hyphen may end in it."""
+    """Return what a word is as a verb; one with a hyphen may end in it."""
     reading = lexicon.verb(word)
     if reading is None and "_" in word:
         if lexicon.particle(*word.split("_", 1)) is not None:
@@ -346,26 +390,26 @@ def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:
     return reading
 
 
+# -- classes by neighbours ---------------------------------------------------------------------------------------------
+
+
 def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> list[tuple[Token, Row]]:
     """Set the class of every token that its neighbours decide, in place, in one pass.
 
     Args:
         tokens: The words of a text with their first classes.
         lexicon: The words of the domain.
-        trace: Where the ids of the rows go that decided something.
+        trace: Takes the ids of the rows that decide something.
 
     Returns:
         The tokens that were decided, each with the row that did it.
     """
     sentence, left = Sentence(), _EDGE
-    fired: list[tuple[Token, Row]] = []
-    _each("clauses", tokens, lexicon, fired)
-    ahead = _ahead(tokens)
-    for at, token in enumerate(tokens):
+    fired = _each("clauses", tokens, lexicon)
+    for at, (token, ahead) in enumerate(zip(tokens, _ahead(tokens), strict=True)):
         if token.kind is Kind.TO:
             token.form = ""  # the words of a statement are decided twice
-        word = Word(tokens, at, lexicon, left, sentence)
-        word.right, word.beyond = ahead[at]
+        word = Word(tokens, at, lexicon, left, ahead, sentence)
         row = _decide(word)
         if row is not None:
             token.kind, token.form = row.kind, row.form or token.form
@@ -381,23 +425,22 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
 
 
 def _ahead(tokens: list[Token]) -> list[tuple[Token, Token]]:
-    """The next two tokens behind each that are no adverbs."""
+    """Return the next two tokens behind each that are no adverbs."""
     found: list[tuple[Token, Token]] = []
     right = beyond = _EDGE
     for token in reversed(tokens):
         found.append((right, beyond))
         if token.kind is not Kind.ADV:
             right, beyond = token, right
-    found.reverse()
-    return found
+    return found[::-1]
 
 
 def _decide(word: Word) -> Row | None:
-    """The first row that holds for a word; ``None`` leaves it as it is."""
-    token, rows = word.word, tables()
+    """Return the first row that holds for a word; ``None`` leaves it as it is."""
+    token = word.word
     if token.kind is not Kind.WORD:
         return _first(token.kind, word)
-    table = (token.form if token.form in rows.tables else "base") if token.stem else "unknown"
+    table = (token.form if token.form in classes().tables else "base") if token.stem else "unknown"
     row = _first(table, word)
     if table == "base" and row is not None and row.kind is Kind.N:
         return _first("adjective", word) or row
@@ -406,16 +449,16 @@ def _decide(word: Word) -> Row | None:
 
 def _remember(word: Word, sentence: Sentence) -> None:
     """Note what a decided word says of the sentence."""
-    token, kind, terms = word.word, word.word.kind, tables().terms
+    token, kind, terms = word.word, word.word.kind, classes().terms
     if kind in (Kind.SUB, Kind.REL, Kind.PURP):
-        if not terms["timed"].holds(word):
+        if not terms["timed"](word):
             sentence.sub, sentence.nominal = True, kind is Kind.REL
     elif kind is Kind.LET:
         if word.left.kind in (Kind.CC, Kind.COMMA):
             sentence.sub = sentence.nominal = False
-        sentence.let = not terms["leaving"].holds(word)
+        sentence.let = not terms["leaving"](word)
     elif kind is Kind.SUBJECT and token.text in section("subjects"):
-        sentence.narrative = terms["narrator"].holds(word)
+        sentence.narrative = terms["narrator"](word)
     elif kind in (Kind.N, Kind.PRON):
         sentence.nominal = True
     elif kind in (Kind.FINITE, Kind.AUX):
@@ -425,9 +468,8 @@ def _remember(word: Word, sentence: Sentence) -> None:
             known = word.lexicon.verb(token.text)
             token.stem, token.form = known[0] if known else token.text, "base"
         sentence.sub = sentence.nominal = sentence.let = False
-        sentence.verb = True
-        sentence.narrative = sentence.narrative or token.form == "s"
-        if terms["serial"].holds(word):
+        sentence.verb, sentence.narrative = True, sentence.narrative or token.form == "s"
+        if terms["serial"](word):
             word.left.kind = Kind.FILLER
-        elif terms["helped"].holds(word):
+        elif terms["helped"](word):
             word.last.kind = word.last2.kind = Kind.ADV
