@@ -15,9 +15,11 @@ from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
 from tmd.language.syntax.antecedents import resolve
+from tmd.language.syntax.brackets import Bracketer
+from tmd.language.syntax.joins import join
+from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
 from tmd.language.syntax.reading import TextReading, parse_tokens
-from tmd.language.syntax.shape import shape
 from tmd.language.syntax.tagger import decide, tag
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
 
@@ -63,10 +65,10 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
     tokens, dropped = rewrite(tokens, words, trace)
-    shaped, taken_back = shape(tokens, words)
-    reading = TextReading(text).read(parse_tokens(shaped))
+    bracketer = Bracketer(join(tokens, words), words)
+    reading = TextReading(text).read(parse_tokens(Linker(bracketer.run()).run()))
     clauses, constraints = resolve(reading)
-    rest = [*tokens, *markup, *repeated, *dropped, *taken_back, *reading.skipped]
+    rest = [*tokens, *markup, *repeated, *dropped, *bracketer.dropped, *reading.skipped]
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 

@@ -20,7 +20,7 @@ from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quanti
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import parse
 from tmd.language.syntax.antecedents import is_pronoun
-from tmd.language.syntax.shape import REMINDER
+from tmd.language.syntax.brackets import REMINDER
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits, Cube

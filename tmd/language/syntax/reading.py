@@ -14,7 +14,8 @@ from lark.lexer import Lexer
 
 from tmd.language.clause import BE, PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section, sections, singular
-from tmd.language.syntax.shape import ALSO, CHOICE, DUTY, RELATIVE, STATEMENT
+from tmd.language.syntax.brackets import ALSO, DUTY, RELATIVE, STATEMENT
+from tmd.language.syntax.links import CHOICE
 from tmd.language.syntax.tokens import IMPLIED, NAME, Kind, Token
 
 EXISTS = "exists"
