@@ -19,8 +19,9 @@ from tmd.language.syntax.brackets import Bracketer
 from tmd.language.syntax.joins import join
 from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
-from tmd.language.syntax.reading import TextReading, parse_tokens
+from tmd.language.syntax.reading import TextReading
 from tmd.language.syntax.tagger import decide, tag
+from tmd.language.syntax.tree import parse_tokens
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
 
 NO_VERB = "no verb that this could belong to"

@@ -12,7 +12,9 @@ from dataclasses import dataclass, replace
 
 from tmd.language.clause import PERSONS, Clause, Condition
 from tmd.language.lexicon.lexicon import section
-from tmd.language.syntax.reading import ClauseDraft, Phrase, TextReading
+from tmd.language.syntax.drafts import ClauseDraft
+from tmd.language.syntax.noun_phrases import Phrase
+from tmd.language.syntax.reading import TextReading
 
 _REACH = 5
 """Clauses that a pronoun looks back."""

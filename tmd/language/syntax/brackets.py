@@ -366,7 +366,9 @@ class Bracketer(Words):
         if to < at + _NEAR and self.follows(to, "INF AUX") and self.kind(at + 1) is not K.PRON:
             return True
         place, things = at + 1, False
-        while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (self.kind(place) is not K.ADJ or self._leads(place)):
+        while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (
+            self.kind(place) is not K.ADJ or self._leads(place)
+        ):
             things = things or self.kind(place) is K.N
             place += 1
         return things and (self.kind(place) in (K.PARTICIPLE, K.ADJ) or self.among(place - 1, "end_states"))

@@ -99,7 +99,9 @@ def _numbered(words: Words) -> list[Token]:
             token.kind = K.N  # "the red one"
         elif words.among(at, "other_words") and not words.follows(at + 1, "(IDLE|ADJ)* (N|NUM|HEAD)"):
             token.kind = K.PRON if token.kind in (K.DET, K.ADJ) else token.kind  # "and another in the crate"
-        elif token.kind is K.NUM and not counted and not (words.among(at, "fractions") and words.follows(at + 1, "DET")):
+        elif (
+            token.kind is K.NUM and not counted and not (words.among(at, "fractions") and words.follows(at + 1, "DET"))
+        ):
             if before is not None:
                 joined = fold([before, token], K.N)
                 joined.parts = before.parts
@@ -119,7 +121,9 @@ def _settings(words: Words) -> None:
         place = at + 1 + (tokens[at + 1].kind is K.DET)
         joined = token.kind in (K.P, K.TO) and words.among(at, "setting_places") and words.among(place, "settings")
         scale = words.among(place + 1, "scales")
-        if not joined or (not scale and (words.kind(place + 1) in (K.N, K.PARTICIPLE) or words.among(place + 1, "of_words"))):
+        if not joined or (
+            not scale and (words.kind(place + 1) in (K.N, K.PARTICIPLE) or words.among(place + 1, "of_words"))
+        ):
             continue
         setting = tokens[place]
         others = [token, *tokens[place + 1 : place + 1 + scale]]

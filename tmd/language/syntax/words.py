@@ -91,4 +91,3 @@ def _name(token: Token) -> str:
 def mark(kind: Kind, at: int) -> Token:
     """Return a token of a class that no word stands for, at a place of the text."""
     return Token(kind, "", Span(at, at))
-
