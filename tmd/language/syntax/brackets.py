@@ -311,13 +311,17 @@ class Bracketer(Words):
             thing = self.kind(deed + 1) in NP
             return self._skip(at, self._clause_end(deed), REMINDER) if thing else deed + 1
         end = self._negation_end(deed)
-        helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
-        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
-        if self.among(at, "needless") or helped or idle:
+        if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
         if self.kind(deed) is K.ING:
             self.tokens[deed].kind = K.V
         return self._bracket(token, K.NEG, deed, end)
+
+    def _unneeded(self, at: int, deed: int) -> bool:
+        """Tell whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
+        helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
+        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
+        return self.among(at, "needless") or helped or idle
 
     # statements
 

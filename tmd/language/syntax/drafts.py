@@ -109,10 +109,13 @@ class ClauseDraft:
         if not (self.direct and (leaves_it or keeps)):
             return Mood.DO
         placed = [r for r in self.relations if r.relation not in section("unplaced")]
-        there = all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
-        stays = any(p.whole for p in self.direct) or there or self.relative  # "leave the key in there"
+        stays = self.relative or any(p.whole for p in self.direct) or self._there(placed)
         alone = self.result in section("alone_words")  # "leave the cup on the desk alone"
         return Mood.KEEP if not placed or alone or (leaves_it and stays) else Mood.DO
+
+    def _there(self, placed: list[Relation]) -> bool:
+        """Tell whether something is named, and its place is where it is: "leave the key in there"."""
+        return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
 
     def _folded(self, text: str, form: str) -> str | None:
         spans = [t.span for t in self.folds if t.form == form]

@@ -94,14 +94,11 @@ def _numbered(words: Words) -> list[Token]:
     result: list[Token] = []
     for at, token in enumerate(words.tokens):
         before = result[-1] if result and result[-1].kind is K.N else None
-        counted = words.follows(at + 1, "(IDLE|ADJ)* (N|NUM)")
         if token.kind in (K.NUM, K.PRON) and words.among(at, "one_words") and before is not None:
             token.kind = K.N  # "the red one"
         elif words.among(at, "other_words") and not words.follows(at + 1, "(IDLE|ADJ)* (N|NUM|HEAD)"):
             token.kind = K.PRON if token.kind in (K.DET, K.ADJ) else token.kind  # "and another in the crate"
-        elif (
-            token.kind is K.NUM and not counted and not (words.among(at, "fractions") and words.follows(at + 1, "DET"))
-        ):
+        elif token.kind is K.NUM and not _counts(words, at):
             if before is not None:
                 joined = fold([before, token], K.N)
                 joined.parts = before.parts
@@ -110,6 +107,12 @@ def _numbered(words: Words) -> list[Token]:
             token.kind = K.PRON if singular(token.text) == token.text else K.N
         result.append(token)
     return result
+
+
+def _counts(words: Words, at: int) -> bool:
+    """Tell whether a number counts a noun that follows: "two clean cups", "half a cup"."""
+    fraction = words.among(at, "fractions") and words.follows(at + 1, "DET")
+    return fraction or words.follows(at + 1, "(IDLE|ADJ)* (N|NUM)")
 
 
 def _settings(words: Words) -> None:

@@ -66,23 +66,23 @@ class Linker(Words):
 
     def _inner(self, before: Kind, after: Kind, end: int) -> Kind | None:
         """Classify a link inside of a subordinate clause."""
-        nouns, predicate = before in HEADS and after in NP, self._open[-1]
         if after in (K.END, K.SEP) or before in OPENERS:
             return None
         if before in VERBAL and after in VERBAL:
             return K.VCC
-        if nouns and not predicate and self._place_in_front():
-            return None  # "apart from the red cup, all the cups"
-        if (before is K.STATE and after is K.STATE) or (nouns and not (predicate and self._predicate_follows(end))):
+        if before is K.STATE and after is K.STATE:
             return K.CONJ
-        if after is K.P and not nouns:
+        predicate = self._open[-1]
+        if before in HEADS and after in NP:
+            if not predicate:
+                return None if self._place_in_front() else K.CONJ  # "apart from the red cup, all the cups"
+            if not self.follows(end, "(NP|OF|P)* (VERBAL|STATE)"):
+                return K.CONJ
+        elif after is K.P:
             self.tokens[end].form = ALSO
             return None
         self._open[-1] = False
         return K.LINK
-
-    def _predicate_follows(self, at: int) -> bool:
-        return self.follows(at, "(NP|OF|P)* (VERBAL|STATE)")
 
     def _outer(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
         """Classify a link between the parts of a unit."""
@@ -95,6 +95,10 @@ class Linker(Words):
             return K.SEP
         if after is K.P and joined:
             self.tokens[end].form = ALSO
+        return self._between_things(before, after, end)
+
+    def _between_things(self, before: Kind, after: Kind, end: int) -> Kind | None:
+        """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
         if before is K.STATE:
             return K.CONJ if after is K.STATE else K.SEP if after in NP else None
         if before not in HEADS or after not in NP:

@@ -73,18 +73,21 @@ class Phrase:
         if not (self.plural or self.pronoun or self.of):
             words = tuple(w for w in words if w not in section("both_words"))  # "both the cup and the mug": one of each
         quantity = self.quantity or next((w for w in self.lead if is_number(w) and number_of(w) != 1), "")
-        both = any(w in section("both_words") for w in words)
-        described = (w for w in self.lead if w not in _determiners() | section("other_words") and not is_number(w))
+        both = not section("both_words").isdisjoint(words)
         return NounPhrase(
             self.name,
             self._quantifier(words, quantity),
             number_of(quantity) if quantity else 2 if both else None,
             self.determined and section("indefinite").isdisjoint(self.lead),
             self.plural,
-            tuple(dict.fromkeys([*described, *self.attributes])),
+            tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
             self.either,
             not section("each_words").isdisjoint(words),
         )
+
+    def _adjectives(self) -> list[str]:
+        """Return the adjectives before the head."""
+        return [w for w in self.lead if w not in _determiners() | section("other_words") and not is_number(w)]
 
     def _quantifier(self, words: tuple[str, ...], quantity: str) -> Quantifier:
         one_of = self.plural and self.lead[:1] != () and number_of(self.lead[0]) == 1
@@ -114,11 +117,7 @@ def phrases_of(group: Tree[Leaf]) -> list[Phrase]:
     """Return the phrases of a group; "or" makes them alternatives."""
     phrases = [phrase_of(node) for node in trees(group.children, "phrase")]
     if any(isinstance(n, Leaf) and n.source.form == CHOICE for n in group.children):
-        for phrase in phrases:
-            phrase.either = tuple(p.name for p in phrases)
-        none = [w for w in phrases[0].lead if w in section("none_words")]
-        for phrase in phrases[1:] if none else ():
-            phrase.lead = (*none, *phrase.lead)  # "neither the lamp nor the radio"
+        _choose(phrases)
     result: list[Phrase] = []
     for phrase in phrases:
         host = result[-1] if result else None
@@ -129,6 +128,15 @@ def phrases_of(group: Tree[Leaf]) -> list[Phrase]:
     return result
 
 
+def _choose(phrases: list[Phrase]) -> None:
+    """Make phrases alternatives; "neither" denies all of them."""
+    none = [w for w in phrases[0].lead if w in section("none_words")]
+    for phrase in phrases:
+        phrase.either = tuple(p.name for p in phrases)
+        if none and phrase is not phrases[0]:
+            phrase.lead = (*none, *phrase.lead)
+
+
 def also_of(group: Tree[Leaf]) -> list[Phrase]:
     """Return the phrases of a group that go with what stands before it: "… and the lid too"."""
     joint = next((i for i, n in enumerate(group.children) if isinstance(n, Leaf) and n.source.form == ALSO), None)
@@ -136,6 +144,7 @@ def also_of(group: Tree[Leaf]) -> list[Phrase]:
 
 
 def phrase_of(node: Tree[Leaf]) -> Phrase:
+    """Return one phrase, with what hangs on it with "of"."""
     chain: list[Phrase] = []
     lead: list[Token] = []
     for child in node.children:
@@ -151,27 +160,21 @@ def phrase_of(node: Tree[Leaf]) -> Phrase:
 
 
 def _head(words: list[Token], lead: list[Token]) -> Phrase:
-    written = "_".join(t.text for t in words)
-    if len(words) == 1 and words[0].text in section("other_words"):
-        return Phrase("one", words[0].span.start, False, True, lead=(*(t.text for t in lead), words[0].text))
-    if len(words) == 1 and words[0].text in section("ordinals"):
-        return Phrase(
-            f"{words[0].text}_{sections()['one_words'][0]}",
-            words[0].span.start,
-            False,
-            True,
-            lead=tuple(t.text for t in lead),
-        )
-    one = words[-1].text in section("one_words")
-    pronoun = words[-1].kind is Kind.PRON or one
-    said = tuple(t.text for t in lead)
+    """Return the phrase of a head; "the white one" and "the other" tell which of what was spoken of."""
+    start, said = words[0].span.start, tuple(t.text for t in lead)
+    texts, last = [t.text for t in words], words[-1]
+    one = sections()["one_words"][0]
+    if texts[0] in section("other_words") and len(texts) == 1:
+        return Phrase(one, start, False, True, lead=(*said, *texts))
+    if texts[0] in section("ordinals") and len(texts) == 1:
+        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
+    written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
-    start = words[0].span.start
-    if one:  # "the white one": what was spoken of, and which of it
-        names = [t.text for t in words[:-1]]
-        name = "_".join([*names, singular(words[-1].text)])
-        return Phrase(name, start, name != written, True, quantity, lead=(*said, *names))
-    name = written if pronoun or words[-1].form == NAME else singular(written)
+    if last.text in section("one_words"):
+        name = "_".join([*texts[:-1], singular(last.text)])
+        return Phrase(name, start, name != written, True, quantity, lead=(*said, *texts[:-1]))
+    pronoun = last.kind is Kind.PRON
+    name = written if pronoun or last.form == NAME else singular(written)
     return Phrase(name, start, name != written, pronoun, quantity, lead=said)
 
 

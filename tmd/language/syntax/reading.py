@@ -11,9 +11,9 @@ from tmd.language.clause import BE, Condition, Mood, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import DUTY, STATEMENT
 from tmd.language.syntax.drafts import TO, WHERE, WITH, Attachment, ClauseDraft
-from tmd.language.syntax.joins import SETTING, first_of
+from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, phrases_of
-from tmd.language.syntax.sayings import BRING, HAVE, SET, Saying, demand, described
+from tmd.language.syntax.sayings import HAVE, Saying, demand, described, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
@@ -64,8 +64,8 @@ class TextReading:
         verbs = [t for t in leaves(trees(node.children, "verbs")[0]) if t.kind is Kind.V]
         drafts = [ClauseDraft(verb, spans=[verb.span, *verb.parts]) for verb in verbs]
         first, last = drafts[0], drafts[-1]
-        arguments: list[Node] = [n for n in node.children if isinstance(n, Tree) and n.data != "verbs" or _is_fold(n)]
-        last.spans.extend(s for t in leaves(node) if t.kind is not Kind.V for s in (t.span, *t.parts))
+        arguments = [n for n in node.children if not is_a(n, "verbs") and (isinstance(n, Tree) or _is_fold(n))]
+        last.spans.extend(spans(arguments))
         for aside in trees(front, *_ASIDES):
             self._aside(aside)
         front = self._taken_up([n for n in front if not is_a(n, *_ASIDES)], arguments, last)
@@ -105,13 +105,8 @@ class TextReading:
             other = last.direct.pop()
             last.landmarks.append(other)
             last.relations.append(Relation(WITH, last.direct[0].name, other.name))
-        named = [p for p in last.landmarks if any(r.target == p.name for r in last.relations)]
-        again = last.verb.stem in section("pro_verbs") and any(p.name in section("same_words") for p in last.direct)
-        if before is not None and named and again:
-            last.verb.stem, last.direct, last.result = before.verb.stem, named, before.result
-            last.landmarks, last.relations = [], [r for r in before.relations if r.source not in _names(before.direct)]
-            last.take_places(before)
-            last.folds += before.folds
+        if before is not None and last.verb.stem in section("pro_verbs"):
+            _repeat(last, before)
 
     def _attach(
         self,
@@ -193,15 +188,13 @@ class TextReading:
         named = [p for p in said.direct if not p.pronoun]
         denied = _NOT if opener.negated else ""
         by_name = {p.name: p for p in said.landmarks}
-        targets: list[tuple[str, Phrase]] = []
-        if opener.text in section("where_words"):
-            targets = [(WHERE, p) for p in named]
-        elif said.verb.stem == BE and said.result is not None and not named:
+        where, state = opener.text in section("where_words"), said.verb.stem == BE
+        targets = [(denied + r.relation, by_name[r.target]) for r in said.relations if r.target in by_name]
+        if where or (named and (state or said.verb.stem in section("holding"))):
+            targets = [(WHERE if where else WITH, p) for p in named]
+        elif state and said.result is not None:
             noun.attributes.append(denied + said.result)
-        elif named and (said.verb.stem == BE or said.verb.stem in section("holding")):
-            targets = [(WITH, p) for p in named]
-        else:
-            targets = [(denied + r.relation, by_name[r.target]) for r in said.relations if r.target in by_name]
+            targets = []
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.further[phrase.name] = phrase.said()
@@ -297,13 +290,7 @@ class TextReading:
             verb = Token(Kind.V, HAVE, Span(start, start), stem=HAVE, form=IMPLIED)
             draft = ClauseDraft(verb, spans=spans(nodes))
             self._attach(draft, nodes)
-            if draft.result in pairs("state_verbs"):
-                verb.stem, draft.result, verb.form = pairs("state_verbs")[draft.result or ""], None, "base"
-                draft.elliptic = True
-            elif any(r.relation in section("bringing") for r in draft.relations):
-                verb.stem = BRING
-            elif draft.result is not None or any(t.form == SETTING for t in draft.folds):
-                verb.stem = BE if draft.result is not None else SET
+            name_verb(draft)
             self.drafts.append(draft)
 
     def _orders(self, nodes: Sequence[Node]) -> bool:
@@ -330,5 +317,13 @@ def _is_fold(node: Node) -> bool:
     return isinstance(node, Leaf) and node.source.kind is Kind.MOD
 
 
-def _names(phrases: Sequence[Phrase]) -> set[str]:
-    return {p.name for p in phrases}
+def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:
+    """Read "do the same with the glass" as the clause before, with another object."""
+    named = [p for p in draft.landmarks if any(r.target == p.name for r in draft.relations)]
+    if not named or not any(p.name in section("same_words") for p in draft.direct):
+        return
+    moved = {p.name for p in before.direct}
+    draft.verb.stem, draft.direct, draft.result = before.verb.stem, named, before.result
+    draft.landmarks, draft.relations = [], [r for r in before.relations if r.source not in moved]
+    draft.take_places(before)
+    draft.folds += before.folds

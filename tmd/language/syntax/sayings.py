@@ -70,21 +70,28 @@ class Saying:
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
-        owns = bool(self.helpers) and self.helpers[-1].text in section("having")
-        passive = bool(self.helpers) and self.helpers[-1].text in section("be")
         last = self.verbs[-1].stem if self.verbs else ""
-        if last in section("becoming") | section("staying") and trees(self.rest, "state"):
-            return [self._state(attach)]
         if last in section("noticed") and trees(self.rest, "group"):
-            self.subject = []
+            self.subject = []  # what you see is there
+            return [self._state(attach)]
+        if last in section("becoming") | section("staying") and trees(self.rest, "state"):
             return [self._state(attach)]
         verbs = [v for v in self.verbs if v.text not in section("loosely")]
         done = [v for v in verbs if v.kind is Kind.PARTICIPLE]
-        if done and verbs[-1] is done[-1] and (passive or (not owns and about_things(self.subject))):
+        if done and verbs[-1] is done[-1] and self._passive():
             return [self._done(verb, attach) for verb in done]
         if verbs:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
-        return [self._owned(attach) if owns and trees(self.rest, "group") else self._state(attach)]
+        owned = self._helped("having") and trees(self.rest, "group")
+        return [self._owned(attach) if owned else self._state(attach)]
+
+    def _helped(self, name: str) -> bool:
+        """Tell whether its last auxiliary is in a section of ``words.txt``."""
+        return bool(self.helpers) and self.helpers[-1].text in section(name)
+
+    def _passive(self) -> bool:
+        """Tell whether a participle says in what state its subject is, not what it has done."""
+        return self._helped("be") or (not self._helped("having") and about_things(self.subject))
 
     def draft(self, stem: str) -> ClauseDraft:
         """Return an empty clause that stands where it stands."""
@@ -170,6 +177,20 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
         verb.stem = SET
 
 
+def name_verb(draft: ClauseDraft) -> None:
+    """Give a verb to what is only named with a state, a setting or a place: "TV on", "sound low", "cup to the sink"."""
+    verb = draft.verb
+    if draft.result in pairs("state_verbs"):
+        verb.stem, draft.result, verb.form = pairs("state_verbs")[draft.result or ""], None, "base"
+        draft.elliptic = True
+    elif any(r.relation in section("bringing") for r in draft.relations):
+        verb.stem = BRING
+    elif draft.result is not None:
+        verb.stem = BE
+    elif any(t.form == SETTING for t in draft.folds):
+        verb.stem = SET
+
+
 def described(draft: ClauseDraft, ahead: Sequence[Phrase], node: Tree[Leaf]) -> Phrase:
     """Return the noun that a relative clause is about: the last, or the one of which the last says where it is.
 
@@ -182,9 +203,12 @@ def described(draft: ClauseDraft, ahead: Sequence[Phrase], node: Tree[Leaf]) -> 
     head = next((phrase for phrase in reversed(ahead) if phrase.name in placed), None)
     if head is None or last.plural:
         return last
-    if next((t.text for t in leaves(node) if t.kind is Kind.AUX), "") in section("plural_forms"):
-        return head if head.plural else last
+    plural = any(t.text in section("plural_forms") for t in leaves(node) if t.kind is Kind.AUX)
+    return head if (head.plural if plural else _is_whole(head, last, draft, static)) else last
+
+
+def _is_whole(head: Phrase, last: Phrase, draft: ClauseDraft, static: Sequence[Relation]) -> bool:
+    """Tell whether all of a kind are meant, and their place is not where they are to be put."""
     elsewhere = any(r.source in (head.name, last.name) and r.target != last.name for r in static)
     placing = draft.verb.stem in section("placing") and not elsewhere
-    whole = head.said().quantifier is Quantifier.ALL and not head.plural
-    return head if whole and not placing else last
+    return head.said().quantifier is Quantifier.ALL and not head.plural and not placing

@@ -12,7 +12,7 @@ from lark.exceptions import UnexpectedInput
 from lark.lexer import Lexer
 
 from tmd.language.clause import Span
-from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.syntax.tokens import Token
 
 UNEXPECTED = "does not fit into a clause here"
 
@@ -68,22 +68,15 @@ def leaves(node: Node) -> Iterator[Token]:
 
 
 def is_a(node: Node, *names: str) -> bool:
+    """Tell whether a node is a rule of one of these names."""
     return isinstance(node, Tree) and node.data in names
 
 
 def trees(nodes: Sequence[Node], *names: str) -> list[Tree[Leaf]]:
+    """Return those of the nodes that are rules of one of these names."""
     return [n for n in nodes if isinstance(n, Tree) and n.data in names]
 
 
 def spans(nodes: Sequence[Node]) -> list[Span]:
     """Return the places of the words under some nodes, with those that belong to them."""
     return [span for node in nodes for token in leaves(node) for span in (token.span, *token.parts)]
-
-
-def words_of(node: Node, kind: Kind) -> list[Token]:
-    """Return the words of a class that stand right under a node."""
-    return (
-        [n.source for n in node.children if isinstance(n, Leaf) and n.source.kind is kind]
-        if isinstance(node, Tree)
-        else []
-    )

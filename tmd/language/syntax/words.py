@@ -31,7 +31,7 @@ _CODES = {name: chr(0x4E00 + place) for place, name in enumerate((*Kind, INF, ON
 
 @cache
 def _compiled(pattern: str) -> re.Pattern[str]:
-    """Compile a pattern: a regular expression with names of classes and groups for letters, and blanks that count not."""
+    """Compile a pattern: a regular expression with names of classes and groups for letters; blanks do not count."""
 
     def letters(name: re.Match[str]) -> str:
         return "[" + "".join(_CODES[kind] for kind in GROUPS.get(name[0], (name[0],))) + "]"
