@@ -322,6 +322,7 @@ def faults_of(lexicon: Lexicon, domain: Domain | None = None) -> list[TmdError]:
     found: list[TmdError] = []
     for predicate in base.predicates:
         found += _predicate_faults(predicate, lexicon, domain, names)
+    found += _type_faults(lexicon, domain) if domain is not None else ()
     for entry in rows:
         found += _entry_faults(entry, base, is_row=True)
     for entry in adjectives:
@@ -354,6 +355,16 @@ def _predicate_faults(
         return
     for form in predicate.forms:
         yield from _syntax_faults(form)
+
+
+def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:
+    """Yield the types that a lexicon itself gives for one of the shared rows, and that its domain does not have."""
+    kinds = hierarchy(domain)
+    for name, meant in lexicon.base.types.items():
+        place = lexicon.places.get(("types", name))
+        if _of(place, lexicon) and not any(kinds.known(kind) for kind in meant):
+            hint = nearest(meant[0], sorted(kinds.parents), what="types") if meant else None
+            yield _fault(f"the domain has no type '{', '.join(meant)}'", place, hint, "unknown-type")
 
 
 def _syntax_faults(entry: Declared) -> Iterator[TmdError]:

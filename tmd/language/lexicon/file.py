@@ -27,7 +27,7 @@ BASES = "base"
 """The folder of base lexicons, beside the folders of domains."""
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
 _TERM = re.compile(r"\??[a-z][a-z0-9_-]*\Z")
-_WORDS = ("verbs", "phrasal", "nouns", "verb_synonyms", "groups")
+_WORDS = ("types", "verbs", "phrasal", "nouns", "verb_synonyms", "groups")
 """The sections whose entries are words; for each the place is kept."""
 
 
