@@ -27,6 +27,8 @@ from tmd.veil.corpus import Corpus
 _DATA = ("words.txt", "senses.txt", "wordnet_verbs.txt")
 """The files of English words that are looked through, in ``tmd/language/data``."""
 _MOST_NEAR = 6
+_MOST_OTHERS = 8
+"""Rows of verbs that ask for the same are printed for people only so many."""
 _FARTHEST = 3
 """Verbs that are only so many families away are near in meaning."""
 
@@ -306,7 +308,14 @@ def _domain_lines(verb: str, meaning: InDomain) -> Iterator[str]:
         yield f"  demonstrations: {meaning.shown} of {meaning.clauses} clauses"
     else:
         yield f"  demonstrations: none of {meaning.clauses} clauses"
-    yield from _section("rows that are tried, in this order", (_of_tried(verb, one) for one in meaning.rows))
+    nearer = [one for one in meaning.rows if one.why != _SAME]
+    others = [one for one in meaning.rows if one.why == _SAME]
+    shown = [*nearer, *others[:_MOST_OTHERS]]
+    yield from _section(
+        "rows that are tried, in this order", (_of_tried(verb, one) for one in meaning.rows if one in shown)
+    )
+    if len(others) > _MOST_OTHERS:
+        yield f"  and {len(others) - _MOST_OTHERS} more of verbs that ask for the same (--json has all)"
     if not meaning.rows:
         yield "  no row of any source"
     if meaning.nearest:

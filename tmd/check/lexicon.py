@@ -200,7 +200,7 @@ def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdErr
     for entry in lexicon.goals:
         for verb in entry.pattern.partition(" ")[0].split("|"):
             other = lexicon.canonical_verb(verb)
-            if other != verb and verb not in told:
+            if other != verb and verb not in told and lexicon.own("verb_synonyms", verb):
                 told.add(verb)
                 message = f"'{verb}' has a goal of its own, and stands for '{other}' as well"
                 hint = f"its own goals are tried before those of '{other}'; remove one of the two if they mean the same"

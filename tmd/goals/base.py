@@ -4,7 +4,7 @@ A base lexicon is written once for many domains. Its rows speak of *shared predi
 conditions that may say the same in a domain::
 
     predicates:
-      held ?x: [(holding pr2 ?x), (holding ?x), (grasped ?x)]
+      held ?x: (holding pr2 ?x) | (holding ?x) | (grasped ?x)
     goals:
       - take X: (held ?x)
 
@@ -30,7 +30,9 @@ from tmd.goals.sources.table import (
 )
 from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, SharedPredicate
 from tmd.pddl.model import Domain, Formula, hierarchy
-from tmd.pddl.reading.syntax import Group, Node, Word, nearest, parse, read_text, split_lines
+from tmd.pddl.reading.checking import check_condition
+from tmd.pddl.reading.formulas import read_condition
+from tmd.pddl.reading.syntax import Group, Node, Source, Word, nearest, parse, read_text, split_lines
 
 _OPERATORS = frozenset({"and", "or", "not", "imply", "=", WAS, FIRST})
 _QUANTIFIERS = ("forall", "exists")
@@ -166,7 +168,7 @@ class _Translation:
         found = []
         for one in _with_one_preposition(entry):
             try:
-                found.append(replace(self._row(one), pattern=entry.pattern))
+                found.append(self._row(one))
             except TmdError:
                 continue
         return found, reason
@@ -240,21 +242,29 @@ class _Translation:
                 if self._has(predicate, form):
                     return self._with_types(_substituted(predicate, form, arguments))
             tried.append(predicate)
-        conditions = ", ".join(form.condition for predicate in tried for form in predicate.forms)
+        conditions = " | ".join(" ".join(form.condition.split()) for predicate in tried for form in predicate.forms)
         raise TmdError(f"this domain has nothing for ({node.head} {' '.join(arguments)}): {conditions or 'none'}")
 
     def _has(self, predicate: SharedPredicate, form: Declared) -> bool:
-        """Whether the domain has what a condition of a shared predicate speaks of."""
+        """Whether the domain has what a condition of a shared predicate speaks of, with arguments of its types."""
         if (predicate, form) not in self._fit:
+            variables = {term for term in predicate.terms if term.startswith("?")}
             try:
-                written = _text(self._with_types(parse(form.condition, "").groups[0]))
-                variables = {term for term in predicate.terms if term.startswith("?")}
-                read_row_condition(replace(form, condition=written), variables, self._domain)
+                node = self._with_types(parse(form.condition, "").groups[0])
+                formula = read_condition(_present(node), Source("", ()))
+                self._fit[predicate, form] = not check_condition(formula, variables, self._domain)
             except TmdError:
                 self._fit[predicate, form] = False
-            else:
-                self._fit[predicate, form] = True
         return self._fit[predicate, form]
+
+
+def _present(node: Node) -> Node:
+    """Return a condition without ``was`` and ``first``."""
+    if isinstance(node, Word):
+        return node
+    if node.head in (WAS, FIRST) and len(node.parts) == 2:
+        return _present(node.parts[1])
+    return replace(node, parts=tuple(_present(part) for part in node.parts))
 
 
 def _shadows(first: SharedPredicate, second: SharedPredicate) -> bool:
@@ -346,15 +356,20 @@ def _predicate_faults(
             hint = nearest(predicate.name, sorted(set(names)), what="shared predicates")
             message = f"no base lexicon that is included has a predicate '{predicate.name}'"
             yield _fault(message, predicate.location, hint, "unknown-predicate")
-        variables = {term for term in predicate.terms if term.startswith("?")}
         for form in predicate.forms:
-            try:
-                read_row_condition(form, variables, domain)
-            except TmdError as error:
-                yield _fault(error.message, error.location, error.hint, error.code)
+            yield from _syntax_faults(form) or _domain_faults(predicate, form, domain)
         return
     for form in predicate.forms:
         yield from _syntax_faults(form)
+
+
+def _domain_faults(predicate: SharedPredicate, form: Declared, domain: Domain) -> list[TmdError]:
+    """Return what a condition that a lexicon gives for a shared predicate says that its domain does not have."""
+    document = parse(form.condition, "")
+    formula = read_condition(_present(document.groups[0]), document.source)
+    variables = {term for term in predicate.terms if term.startswith("?")}
+    found = check_condition(formula, variables, domain, document.source)
+    return [_fault(error.message, _within(form, error.location), error.hint, error.code) for error in found]
 
 
 def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:
@@ -367,14 +382,17 @@ def _type_faults(lexicon: Lexicon, domain: Domain) -> Iterator[TmdError]:
             yield _fault(f"the domain has no type '{', '.join(meant)}'", place, hint, "unknown-type")
 
 
-def _syntax_faults(entry: Declared) -> Iterator[TmdError]:
-    """Yield what keeps a condition from being one, whatever the domain."""
+def _syntax_faults(entry: Declared) -> list[TmdError]:
+    """Return what keeps a condition from being one, whatever the domain."""
     try:
-        if len(parse(entry.condition, "").groups) != 1:
-            hint = "write (and (…) (…)) for several"
-            yield _fault("a goal is one condition", entry.location, hint, "bad-goal")
+        document = parse(entry.condition, "")
+        if len(document.groups) == 1:
+            read_condition(_present(document.groups[0]), document.source)
+            return []
+        hint = "write (and (…) (…)) for several"
+        return [_fault("a goal is one condition", entry.location, hint, "bad-goal")]
     except TmdError as error:
-        yield _fault(error.message, _within(entry, error.location), error.hint, error.code)
+        return [_fault(error.message, _within(entry, error.location), error.hint, error.code)]
 
 
 def _entry_faults(entry: Declared, base: Base, *, is_row: bool) -> Iterator[TmdError]:
@@ -384,7 +402,7 @@ def _entry_faults(entry: Declared, base: Base, *, is_row: bool) -> Iterator[TmdE
     except TmdError as error:
         yield _fault(error.message, error.location, error.hint, error.code)
         return
-    told = list(_syntax_faults(entry))
+    told = _syntax_faults(entry)
     if told:
         yield from told
         return

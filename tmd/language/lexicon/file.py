@@ -227,7 +227,7 @@ def _places(source: _Source, parts: Mapping[str, yaml.Node]) -> dict[tuple[str, 
 
 
 def _predicates(source: _Source, node: yaml.Node) -> tuple[SharedPredicate, ...]:
-    """A mapping of ``name ?x`` to one condition, or to a list of them."""
+    """Read a mapping of ``name ?x`` to a condition, or to several with ``|`` between them."""
     if not isinstance(node, yaml.MappingNode):
         source.fail(node.start_mark, "expected 'predicate: condition' pairs here", "write 'held ?x: (holding ?x)'")
     found = []
@@ -235,10 +235,24 @@ def _predicates(source: _Source, node: yaml.Node) -> tuple[SharedPredicate, ...]
         words = key.value.strip("()").split() if isinstance(key, yaml.ScalarNode) else []
         if not words or not _NAME.match(words[0]) or not all(_TERM.match(word) for word in words[1:]):
             source.fail(key.start_mark, "expected a predicate with its arguments here", "write 'held ?x: (holding ?x)'")
-        written = value.value if isinstance(value, yaml.SequenceNode) else [value]
-        forms = tuple(Declared(" ".join(words), *source.condition(child)) for child in written)
+        text, place = source.condition(value)
+        folded = value.end_mark.line > value.start_mark.line
+        forms = tuple(
+            Declared(" ".join(words), form, place if folded else replace(place, column=place.column + offset))
+            for offset, form in _ways(text)
+        )
         found.append(SharedPredicate(words[0], tuple(words[1:]), forms, source.place(key.start_mark)))
     return tuple(found)
+
+
+def _ways(text: str) -> list[tuple[int, str]]:
+    """Split a text at each ``|``; every piece with its offset."""
+    found, begin = [], 0
+    for piece in text.split("|"):
+        lead = len(piece) - len(piece.lstrip())
+        found.append((begin + lead, piece.strip()))
+        begin += len(piece) + 1
+    return found
 
 
 def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
