@@ -222,7 +222,7 @@ class Lexicon:
             or self.verb(word) is not None
             or word in _english()
             or positive(word) in _closed_words()
-            or not _closed_words().isdisjoint(comparative_root(word))
+            or not section("drop_adjectives").isdisjoint(comparative_root(word))
             or self._is_doer(word)
             or singular(word) in _english()
         )
