@@ -15,17 +15,8 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import permutations
 
-from tmd.goals.sources.table import (
-    ACTIONS,
-    LOCATED,
-    PREPOSITIONS,
-    GoalRow,
-    GoalTable,
-    Slot,
-    family,
-    result_verbs,
-    results,
-)
+from tmd.goals.sources.table import ACTIONS, GoalRow, GoalTable, Slot
+from tmd.goals.words import PREPOSITIONS, family, results, table, words_of
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
@@ -123,7 +114,7 @@ class _Words:
 
     def states(self) -> Iterator[GoalRow]:
         """``open X: (opened ?x)`` for every verb of English whose outcome a predicate or a constant has in its name."""
-        for verb in result_verbs():
+        for verb in table("results"):
             for word in results(verb):
                 wanted, positive = word.removeprefix("-"), not word.startswith("-")
                 for predicate in self.domain.predicates:
@@ -215,7 +206,7 @@ class _Words:
         first, *rest = split_name(predicate.name)
         verb = builtin().verb(first)
         placed = not rest and verb is not None and verb[1] == "ed" and "put" in family(verb[0])  # "stowed"
-        if parts & LOCATED or placed:
+        if parts & words_of("located") or placed:
             for preposition in ("in", "on", "next_to"):
                 yield preposition, self._atom(predicate, given)
 
@@ -263,7 +254,7 @@ class _Words:
             verb = builtin().verb(first)
             things = self.things(predicate)
             said = predicate.name in self.made and predicate.name not in self.passing
-            if not said or verb is None or verb[1] != "ed" or first in LOCATED or not 0 < len(things) < 3:
+            if not said or verb is None or verb[1] != "ed" or first in words_of("located") or not 0 < len(things) < 3:
                 continue
             slots = [Slot("?x")]
             names = {things[0].name: "?x"}

@@ -27,13 +27,11 @@ from tmd.goals.sources.table import (
     GoalTable,
     PutBack,
     read_row,
-    results,
-    words_of,
 )
+from tmd.goals.words import is_pronoun, results, words_of
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
-from tmd.language.syntax.pronouns import is_pronoun
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE
 from tmd.pddl.model import Domain, Instruction, Predicate
@@ -197,10 +195,9 @@ class _Learner:
         names = {variable: name for variable, (_, name) in zip(("?x", "?y"), slots, strict=False)}
         moments = Moments(states[0], states[0])
         for text, row in self._literals(tuple(names)):
-            grounder.live = 0
             said = {**names, RELATION: relation or "in"}
-            found = grounder.ground(row.condition, said, names, moments)
-            if not grounder.live or found == FALSE:
+            found, live = grounder.ground_live(row.condition, said, names, moments)
+            if not live or found == FALSE:
                 continue
             count = shape.counts[text]
             count.possible += 1
