@@ -208,7 +208,7 @@ class _Grounding:
                 return disjunction(self.of(part, e) for e in bindings(parameters, self.grounder.objects, binding))
 
     def _any_way(self, parts: Sequence[Formula], binding: Mapping[str, str]) -> Formula:
-        """Return a disjunction: where one way is open for what was named itself, nothing stands in for it in another."""
+        """Return a disjunction: where one way is open for what was named, nothing stands in for it in another."""
         exactly = _Grounding(self.grounder.exactly, self.slots, self.moments)
         plain = [exactly.of(part, binding) for part in parts]
         self.live += exactly.live

@@ -50,9 +50,18 @@ def words_of(section: str, key: str = "") -> frozenset[str]:
 
 PREPOSITIONS: Mapping[str, tuple[str, ...]] = table("prepositions")
 """Each preposition of a pattern, with the words that it stands for; the first is the most usual."""
-BE, THING, ONE, IT = (next(iter(words_of(*place))) for place in (
-    ("verbs", "state"), ("endings", "thing"), ("nouns", "one"), ("nouns", "it"),
-))  # fmt: skip
+
+
+def the_word(section: str, key: str) -> str:
+    """Return the only word of a row of a table."""
+    return table(section)[key][0]
+
+
+BE: str = the_word("verbs", "state")
+ONE: str = the_word("nouns", "one")
+IT: str = the_word("nouns", "it")
+SETTING: str = the_word("relations", "setting")
+"""The relation of a setting: *to low*."""
 
 
 def is_relation(word: str, kind: str) -> bool:

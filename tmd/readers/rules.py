@@ -16,7 +16,7 @@ from tmd.goals.reading.referents import ANY_TYPE
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
-from tmd.goals.words import BE, is_condition, is_pronoun, is_relation, is_verb, words_of
+from tmd.goals.words import BE, is_condition, is_pronoun, is_relation, is_verb, the_word, words_of
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import parse
@@ -334,7 +334,7 @@ def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
     yield replace(_step(clause, number, clause), optional=clause.heading)
     if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
-        waiting = Clause(next(iter(words_of("verbs", "waiting"))), span=clause.span, text=clause.text)
+        waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
         yield replace(_step(waiting, number, clause, main=False), optional=True)
     for word, inner in _said(clause, "later"):
         # "before you leave" says when, and is nothing to be done where nobody knows how

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from tmd.goals.clause_goal import ClauseReading, Unit
 from tmd.goals.reading.referents import Referents, is_none
 from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
-from tmd.goals.words import PREPOSITIONS, family, is_relation, is_verb, relations_said, table, words_of
+from tmd.goals.words import PREPOSITIONS, ends_as, family, is_relation, is_verb, relations_said, table, words_of
 from tmd.language.clause import PERSONS, Quantifier
 
 
@@ -98,7 +98,7 @@ class Fitting:
 
     def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
         """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""
-        if noun == said or said is None or noun.endswith("s"):
+        if noun == said or said is None or ends_as(noun, "plural"):
             return noun == said
         named = self.nouns.things(noun, reading.state)
         return bool(named) and named == self.nouns.things(said, reading.state)

@@ -13,7 +13,7 @@ from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.sources.table import ACTIONS, GoalTable
-from tmd.goals.words import BE, family, is_relation, is_verb, relations_said, words_of
+from tmd.goals.words import BE, family, is_relation, is_verb, relations_said, the_word, words_of
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.task import Bits
@@ -58,7 +58,7 @@ class GoalReader:
         placed = [r for r in clause.relations if r.source in clause.direct]
         somewhere = any(not is_relation(r.relation, "composing") for r in placed)
         if clause.implied and is_verb(clause.verb, "having") and somewhere:
-            settle = next(iter(words_of("verbs", "settling")))
+            settle = the_word("verbs", "settling")
             found = self.read(replace(clause, verb=settle, implied=False), state, memory)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be

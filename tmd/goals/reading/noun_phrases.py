@@ -197,7 +197,7 @@ class Nouns(Facts):
         return self.related_now(names, "of", tuple(contents), moments)
 
     def too_few(self, phrase: NounPhrase, substances: Collection[str], state: Bits) -> tuple[str, ...]:
-        """Return the things called so that hold ``substances``, where more were counted: *two eggs*, and there is one."""
+        """Return the things that hold ``substances``, where more were counted: *two eggs*, and there is one."""
         called = [m.name for m in self.mentions.of(phrase.name, state) if m.how == NAME and self.is_supply(m.name)]
         holding = tuple(n for n in called if not set(substances).isdisjoint(self.contents(n, state)))
         return holding if phrase.quantifier is Quantifier.NUMBER and len(holding) < (phrase.number or 1) else ()

@@ -16,12 +16,14 @@ from tmd.goals.words import (
     IT,
     NEGATED,
     ONE,
+    SETTING,
     ends_as,
     is_noun,
     is_one,
     is_pronoun,
     is_relation,
     table,
+    the_word,
     words_of,
 )
 from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier, Relation
@@ -62,7 +64,7 @@ class Referents:
         said = self._without_rooms(clause)
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
-            found.append(("to", clause.setting.split()[-1]))
+            found.append((SETTING, clause.setting.split()[-1]))
         contents = {r.source: r.target for r in clause.relations if is_relation(r.relation, "partitive")}
         measures = words_of("measures")
 
@@ -108,7 +110,7 @@ class Referents:
         """Return relations with *without* for what is joined to a place: "in the bowl, no raspberry"."""
         none = {t for _, t in relations if is_none(t, clause)}
         places = {r for r, t in relations if t not in none}
-        without = next(iter(words_of("relations", "lacking")))
+        without = the_word("relations", "lacking")
         return [(without if t in none and r in places else r, t) for r, t in relations]
 
     def _whereabouts(self, relation: str, target: str, reading: ClauseReading) -> list[tuple[str, str]]:
@@ -130,7 +132,7 @@ class Referents:
         return places[:1] or [(relation, target)]
 
     def reattached(self, reading: ClauseReading) -> Clause:
-        """Return the clause with the last of two places as where its thing shall be: "the cup on the table in the sink".
+        """Return the clause with the last of two places as the destination: "the cup on the table in the sink".
 
         The parser takes that for a table in the sink. It is not where the first place tells which cup is meant, and the
         table is in no sink.
@@ -186,7 +188,7 @@ class Referents:
         return not noun or self._is_pronoun(noun) or noun in words_of("anaphors")
 
     def _is_pronoun(self, noun: str) -> bool:
-        """Return whether a noun is a pronoun, and no name that the domain has for something: ``red_one: [red_block]``."""
+        """Return whether a noun is a pronoun, and no name of the domain: ``red_one: [red_block]``."""
         return is_pronoun(noun) and noun not in self.lexicon.nouns
 
     def puts_back(self, reading: ClauseReading) -> bool:
@@ -282,7 +284,7 @@ class Referents:
         return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
 
     def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        all_of_them = next(iter(table("nouns")["plural"]))
+        all_of_them = the_word("nouns", "plural")
         names = (n for noun in nouns for n in self._antecedent(noun, all_of_them, types, reading).names)
         return Referent(pronoun, tuple(dict.fromkeys(names)), Mode.ALL)
 

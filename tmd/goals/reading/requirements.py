@@ -10,7 +10,7 @@ from tmd.goals.clause_goal import ClauseReading, words
 from tmd.goals.reading.noun_phrases import Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.sources.table import RELATION, GoalRow
-from tmd.goals.words import NEGATED, PREPOSITIONS, is_relation, results
+from tmd.goals.words import NEGATED, PREPOSITIONS, is_relation, results, words_of
 from tmd.language.clause import Quantifier
 from tmd.pddl.ground_formula import FALSE, TRUE, atoms_of, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula, GroundAtom, Not
@@ -141,7 +141,7 @@ class Requirements:
             return []
         if not is_relation(said.relation, "accompanying"):
             whole = [other for name in said.names for other in (name, *self.grounder.relatives(name, 0))]
-            self._on_the_way(said, ("in", "on"), whole)
+            self._on_the_way(said, sorted(words_of("relations", "resting")), whole)
         return None if any(self.nouns.contents(n, said.reading.state) for n in said.names) else []
 
     def _there(self, said: _Said) -> list[Requirement] | None:

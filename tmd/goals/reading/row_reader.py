@@ -376,7 +376,7 @@ class RowReader:
     def _at_origin(self, referent: Referent, places: Places, reading: ClauseReading) -> Referent:
         """Return of *everything off the table* what is there now."""
         for _, relation, target in places:
-            if target is not None and relations_said(relation, ("from",)):
+            if target is not None and is_relation(relation, "origin"):
                 ends = self.referents.targets(target, reading)
                 there = self.nouns.related_now(referent.names, relation, ends, reading.moments)
                 referent = referent.only(there or referent.names)
@@ -458,7 +458,7 @@ class RowReader:
         return self._any_of(alive, reading) if referent.definite else disjunction(alive)
 
     def _any_of(self, alive: Sequence[Formula], reading: ClauseReading) -> Formula:
-        """Return *the sock* of several socks: one for which it does not hold yet; all if things shall cease to be so."""
+        """Return *the sock* of several socks: one for which it does not hold yet; all, of what shall cease to be."""
         left = [part for part in alive if not self.grounder.truth(part, reading.state)] if len(alive) > 1 else []
         if left and all(map(only_negative, alive)):
             return conjunction(left)

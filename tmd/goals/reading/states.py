@@ -65,7 +65,7 @@ class States:
         return formula
 
     def _likeliest(self, found: Sequence[tuple[Formula, Referent]], reading: ClauseReading) -> tuple[Formula, Referent]:
-        """Return of what a pronoun may mean what can be so and otherwise; and what is by now, if it is to be left so."""
+        """Return of what a pronoun may mean what can be so and otherwise; what is so by now, if it is left so."""
         fitting = [each for each in found if each[0] not in (TRUE, FALSE)] or found
         clause = reading.clause
         if is_verb(clause.verb, "leaving"):
