@@ -220,7 +220,8 @@ class _Grounding:
         predicate, operator = split_predicate(formula.predicate)
         atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
         places = [place for place, term in enumerate(formula.terms) if term in self.slots]
-        meant = self.grounder.standing_in(atom, places)
+        spared = self.moments.excepted
+        meant = [a for a in self.grounder.standing_in(atom, places) if a == atom or spared.isdisjoint(a.args)]
         self.live += len(meant)
         if operator:
             state = self.moments.now if operator == WAS else self.moments.first

@@ -84,6 +84,11 @@ def is_noun(noun: str, kind: str) -> bool:
     return noun in words_of("nouns", kind)
 
 
+def is_idle(adjective: str) -> bool:
+    """Return whether an adjective never tells which thing is meant: *a nice cup*, *only the cup*."""
+    return adjective in words_of("idle_adjectives")
+
+
 def is_one(noun: str) -> bool:
     """Return whether a noun is *one*, or *red_one*: one of what was spoken of."""
     return noun == ONE or noun.endswith(f"_{ONE}")

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from difflib import get_close_matches
 from enum import StrEnum
 from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.words import is_noun, state_words
+from tmd.goals.words import is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
 from tmd.pddl.ground_formula import FALSE, TRUE
 from tmd.pddl.task import Bits
 from tmd.veil.world import CONTAINED, World
+
+_SLIP_LENGTH = 5
+"""Shorter words are never taken for misspelt ones."""
+_SLIP_RATIO = 0.8
+"""Least likeness of a misspelt word."""
 
 
 class Mode(StrEnum):
@@ -131,6 +137,7 @@ class Nouns(Facts):
         if best is None:
             return ()
         best = self._numbered(noun, self._told_apart(noun, best, state))
+        best = [name for name in best if self.guess or not self.unexplained(noun, name, state)]
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
 
     def _likeliest(self, noun: str, state: Bits, types: tuple[str, ...] | None) -> list[str] | None:
@@ -191,6 +198,37 @@ class Nouns(Facts):
         contrary = set(modifiers) & section("keep_adjectives") and all(map(self._modified, names))
         return list(self.related_now(names, "of", owners, moments)) or ([] if contrary else names)
 
+    def unexplained(self, noun: str, name: str, state: Bits) -> list[str]:
+        """Return the modifiers of a compound that say nothing of a thing: *tea*, of a jar of coffee.
+
+        A modifier may be a part of its name, the name of its class or whole, something that it holds or may hold, what
+        it belongs to, a state that it is in, or the room.
+        """
+        modifiers = [
+            w for w in split_name(noun)[:-1] if not (is_idle(w) or w in words_of("ordinals") or w in words_of("rooms"))
+        ]
+        if not modifiers or noun in self.lexicon.nouns or noun in self.mentions.classes:
+            return []
+        held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
+        kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
+        called = sorted({word for kind in kinds for word in split_name(kind)})
+        left = [w for w in modifiers if not (set(called) & set(state_words(w)) or _is_slip(w, called))]
+        moments = Moments(state, state)
+        if left and self._belongs("_".join(left), name, moments):
+            return []
+        return [w for w in left if not (self._belongs(w, name, moments) or self._is_so(w, name, moments))]
+
+    def _belongs(self, modifier: str, name: str, moments: Moments) -> bool:
+        """Return whether a thing holds, may hold or is related to what a modifier names; a substance: comes from it."""
+        named = [m.name for m in self.mentions.ranked(modifier) if m.how in (NAME, ALIAS)]
+        if self.is_constant(name):
+            return any(not self.is_constant(n) or n in self.turns_into(name) for n in named)
+        return bool(self.related_now((name,), "of", named, moments))
+
+    def _is_so(self, word: str, name: str, moments: Moments) -> bool:
+        formula = None if self.is_constant(name) else self.attribute(word, name, moments)
+        return formula is not None and self.grounder.truth(formula, moments.now)
+
     def holders(self, noun: str, contents: Iterable[str], moments: Moments) -> tuple[str, ...]:
         """Return of everything that ``noun`` may mean what holds some of ``contents`` now: *the bag of crisps*."""
         names = (m.name for m in self._matches(noun, moments.now))
@@ -232,7 +270,7 @@ class Nouns(Facts):
         if named or aliases:
             later = {other for one in aliases for other in self.turns_into(one)} if not named else set()
             fresh = [name for name in aliases if name not in later] or aliases
-            chosen = named or fresh
+            chosen = [n for n in named or fresh if self.guess or not self.unexplained(noun, n, state)]
             return tuple(self._numbered(noun, chosen)) if self._of_that_kind(noun, named or aliases) else ()
         inside = (c for thing in self.things(noun, state) for c in self.contents(thing, state))
         return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
@@ -253,7 +291,7 @@ class Nouns(Facts):
                 named = tuple(n for n in names if word in split_name(n))
                 contrary = word in section("keep_adjectives") and len(names) > 1 and all(map(self._modified, names))
                 if not named and not contrary:
-                    unknown.append(word)
+                    unknown += [] if is_idle(word) else [word]
                     continue
                 names = named
                 continue
@@ -275,6 +313,11 @@ class Nouns(Facts):
     def _modified(self, name: str) -> bool:
         """Return whether the name of an object says which one of its kind it is: ``red_block``."""
         return len([word for word in split_name(name) if not word.isdigit()]) > 1
+
+
+def _is_slip(word: str, called: Sequence[str]) -> bool:
+    """Return whether a word is another one misspelt."""
+    return len(word) >= _SLIP_LENGTH and bool(get_close_matches(word, called, 1, _SLIP_RATIO))
 
 
 def mode_of(phrase: NounPhrase, *, group: bool, thing: bool, place: bool = False) -> tuple[Mode, int]:

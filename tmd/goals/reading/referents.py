@@ -34,7 +34,6 @@ from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
 ANY_TYPE = (OBJECT,)
-_RELATIVE = tuple(f"{word}_" for word in sorted(words_of("relative_words")))
 
 
 class Referents:
@@ -73,6 +72,9 @@ class Referents:
             return is_relation(relation, "accompanying") or (target in measures and not of)
 
         found = [(r, contents.get(t, t) if measured(r, t) else t) for r, t in found]
+        # "the eggs in the fridge except the one on the shelf": what is acted on is excepted from
+        excepted = [(r.relation, r.target) for r in said if is_relation(r.relation, "excepting")]
+        found = [pair for pair in found if pair not in excepted] + (excepted if name in clause.direct else [])
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def _without_rooms(self, clause: Clause) -> Sequence[Relation]:
@@ -321,7 +323,7 @@ class Referents:
         among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and certain
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
-            every = mode is Mode.ALL
+            every = mode in (Mode.ALL, Mode.NUMBER)
             objects, group = self._all_kinds(noun, objects, context.types, context.reading, all_of_it=every)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
@@ -338,9 +340,10 @@ class Referents:
             # "a hot cup of coffee": the cup shall be so, with what is in it
             reading.wanted[noun] = phrase.attributes
             names = whole.names
-        if any(word.startswith(_RELATIVE) for word in unknown) and len(names) > 1:
+        if unknown and self.nouns.guess:
+            reading.notes += [f"'{words(word)}' says nothing here that could be checked" for word in unknown]
+        elif unknown:
             names = ()
-        reading.notes += [f"'{words(word)}' says nothing here that could be checked" for word in unknown]
         referent = self._restricted(whole.only(names), context.relations, reading, whole)
         if referent.mode is Mode.ALL:  # "all of it to the table, but leave the bowl"
             referent = referent.only(choose(NOT_LEFT, referent.names, context))
@@ -475,7 +478,8 @@ class Referents:
             one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
             wide = self.every_kind_of(target, reading.clause, reading.state)
             found.update(dict.fromkeys((*names, *(() if one else wide))))
-        return tuple(found)
+        parts = (part for name in found for part in self.grounder.relatives(name, 0))
+        return tuple(dict.fromkeys((*found, *parts)))
 
     def _where_it_was_said(self, noun: str, names: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
         """Return those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
