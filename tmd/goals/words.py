@@ -6,7 +6,7 @@ of verbs, relations and nouns; ``senses.txt`` of :mod:`tmd.language` has what ve
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 
@@ -18,6 +18,10 @@ CONTRARY = "-"
 """The mark of a word for the contrary, in ``senses.txt``."""
 _OTHER_WAY = ">"
 """The mark of one way of doing what a verb says, in ``senses.txt``."""
+_MORE = "<"
+"""The mark of a verb that says more, in ``senses.txt``."""
+_NEAR = 4
+"""The first so many members of a family ask for the same as each other."""
 
 
 @cache
@@ -115,15 +119,20 @@ def relations_said(relation: str, allowed: tuple[str, ...]) -> tuple[str, ...]:
 def family(verb: str) -> tuple[str, ...]:
     """Return verbs that ask for the same as ``verb``, nearest first: its own family, then the families it stands in.
 
-    A member with a ``>`` is one way of doing it: to cook may be to fry, but to fry is not just to cook.
+    A member with a ``>`` is one way of doing it: to cook may be to fry, but to fry is not just to cook. One with a
+    ``<`` says more: to toss is to put, but to put is not to toss.
     """
     families = table("families")
-    found = dict.fromkeys(member.removeprefix(_OTHER_WAY) for member in families.get(verb, ()))
-    within = [(head, members) for head, members in families.items() if verb in members]
-    found.update(dict.fromkeys(head for head, _ in within))
-    found.update(dict.fromkeys(m.removeprefix(_OTHER_WAY) for _, members in within for m in members[:4]))
+    wide = [(head, members) for head, members in families.items() if verb in members or _MORE + verb in members]
+    heads = [head for head, _ in wide]
+    alike = (member for _, members in wide for member in members[:_NEAR])
+    found = dict.fromkeys((*_not_more(families.get(verb, ())), *heads, *_not_more(alike)))
     found.pop(verb, None)
     return tuple(found)
+
+
+def _not_more(members: Iterable[str]) -> list[str]:
+    return [member.removeprefix(_OTHER_WAY) for member in members if not member.startswith(_MORE)]
 
 
 def results(verb: str) -> tuple[str, ...]:
