@@ -8,17 +8,33 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import Protocol, TypeAlias
 
+from tmd.goals.clause_goal import ClauseReading
+from tmd.goals.grounder import Grounder
+from tmd.goals.reading.noun_phrases import Nouns
 from tmd.goals.words import is_relation, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.nouns import split_name
-
-if TYPE_CHECKING:
-    from tmd.goals.clause_goal import ClauseReading
-    from tmd.goals.reading.referents import Referents
+from tmd.veil.world import World
 
 Names: TypeAlias = tuple[str, ...]
+
+
+class Finder(Protocol):
+    """Finds what nouns mean, as :class:`tmd.goals.reading.referents.Referents` does."""
+
+    world: World
+    grounder: Grounder
+    nouns: Nouns
+
+    def targets(self, noun: str, reading: ClauseReading) -> Names:
+        """Return the objects or constants that a noun behind a preposition may mean."""
+        ...
+
+    def puts_back(self, reading: ClauseReading) -> bool:
+        """Return whether things go where they were."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +52,7 @@ class Context:
         likely: All that it may mean, of whatever type.
     """
 
-    referents: Referents
+    referents: Finder
     reading: ClauseReading
     noun: str
     phrase: NounPhrase

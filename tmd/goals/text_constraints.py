@@ -54,7 +54,7 @@ class ConstraintReader:
     def read(self, parsed: Parsed, state: Bits, memory: Memory) -> TextConstraints | Refusal:
         """Return what prohibitions and *leave it as it is* ask for, from the start of the text on."""
         found = TextConstraints()
-        for clause in parsed.constraints:
+        for clause in (clause for clause in parsed.constraints if not is_of_the_end(clause)):
             avoided = self._avoided(clause, state, memory)
             if isinstance(avoided, Refusal):
                 return avoided
@@ -188,6 +188,12 @@ class ConstraintReader:
     def _literals(self, cube: Cube) -> list[Formula]:
         positive = [_literal(atom) for atom in self.task.names(cube.positive)]
         return positive + [_literal(atom, holds=False) for atom in self.task.names(cube.negative)]
+
+
+def is_of_the_end(clause: Clause) -> bool:
+    """Return whether a prohibition is about how things are left that are known only then: *and don't leave it open*."""
+    left = is_verb(clause.verb, "leaving") and clause.result and clause.direct
+    return bool(left) and all(map(is_pronoun, clause.direct))
 
 
 def _literal(atom: GroundAtom, *, holds: bool = True) -> Formula:

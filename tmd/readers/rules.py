@@ -6,7 +6,7 @@ before it lead to.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
@@ -16,7 +16,7 @@ from tmd.goals.reading.referents import ANY_TYPE
 from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
-from tmd.goals.words import BE, is_condition, is_pronoun, is_relation, is_verb, the_word, words_of
+from tmd.goals.words import BE, is_condition, is_relation, is_verb, words_of
 from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import parse
@@ -34,6 +34,7 @@ from tmd.readers.interface import (
     StepGoals,
     Usage,
 )
+from tmd.readers.rule_steps import USE, RuleStep, steps_of
 from tmd.veil.world import World
 
 
@@ -120,25 +121,6 @@ class ClauseDialogue:
 
 
 @dataclass(frozen=True, slots=True)
-class RuleStep(Step):
-    """A step as the rules read it.
-
-    Attributes:
-        clause: The clause with its grammar.
-        guards: The conditions that guard the step.
-        otherwise: Whether it is done where the guards of the step before it did not hold.
-        optional: Whether it may be left out where it is not understood: *when they are done*.
-        awaited: Whether it is waited for, not asked for: *until it boils*.
-    """
-
-    clause: Clause
-    guards: tuple[Condition, ...] = ()
-    otherwise: bool = False
-    optional: bool = False
-    awaited: bool = False
-
-
-@dataclass(frozen=True, slots=True)
 class _Progress:
     """What was said and done before a step.
 
@@ -176,8 +158,7 @@ class RuleDialogue(ClauseDialogue):
         constraints = self._constraints.read(parsed, state, memory)
         if isinstance(constraints, Refusal):
             return constraints
-        steps = in_order(parsed.clauses)
-        self.steps = tuple(replace(step, continued=_goes_on(step, parsed.clauses)) for step in steps)
+        self.steps = steps_of(parsed, use=not self._constraints.leaves_a_trace(USE))
         self.memory = _Progress(replace(memory, left=constraints.left))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
         return None
@@ -292,61 +273,6 @@ def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     if step.clause.result in words_of("outcomes", "complete"):
         unread.add(RefusalKind.IMPOSSIBLE)  # "when they are done"
     return refusal.kind in unread
-
-
-def _goes_on(step: RuleStep, clauses: Sequence[Clause]) -> bool:
-    """Return whether the next clause goes on with what a step acts on: *pick up the boxes and put them in the bag*."""
-    following = clauses[step.number + 1] if step.number + 1 < len(clauses) else None
-    if following is None or following.mood is not Mood.DO:
-        return False
-    direct = set(step.direct)
-    return any(direct & set(names) for names in following.antecedents.values())
-
-
-def in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
-    """Return the steps of a text in the order of doing."""
-    heading = next((clause for clause in clauses if clause.heading), None)
-    if heading is not None and not heading.implied:
-        clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
-    ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
-    return tuple(step for number, clause in ordered for step in _steps(clause, number))
-
-
-def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> RuleStep:
-    """Return a step with the guards of the clause that it belongs to."""
-    guards = tuple(condition for condition in owner.conditions if is_condition(condition.word, "guard"))
-    return RuleStep(clause, number, main=main, direct=clause.direct, guards=guards, otherwise=owner.otherwise)
-
-
-def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
-    if clause.mood is Mood.KEEP:
-        step = _step(clause, number, clause)
-        if clause.result and clause.result not in words_of("outcomes", "alone"):
-            verb = clause.verb if all(map(is_pronoun, clause.direct)) else BE
-            yield replace(step, clause=replace(clause, verb=verb, mood=Mood.DO))
-        elif step.guards:
-            yield step  # "if it is there, leave it, otherwise …"
-        return
-    for _, inner in _said(clause, "earlier"):
-        # "once it boils" is about what boils by then, if that is what is meant
-        awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
-        yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
-    yield replace(_step(clause, number, clause), optional=clause.heading)
-    if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
-        # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
-        waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
-        yield replace(_step(waiting, number, clause, main=False), optional=True)
-    for word, inner in _said(clause, "later"):
-        # "before you leave" says when, and is nothing to be done where nobody knows how
-        optional = not is_condition(word, "tolerant") or is_verb(inner.verb, "parting")
-        awaited, jointly = is_condition(word, "awaited"), is_condition(word, "joint")
-        yield replace(_step(inner, number, clause, main=False), optional=optional, awaited=awaited, jointly=jointly)
-
-
-def _said(clause: Clause, kind: str) -> Iterator[tuple[str, Clause]]:
-    """Yield the clauses of the conditions of a kind, each with the word that opens its condition."""
-    said = (c for c in clause.conditions if is_condition(c.word, kind) and not c.negated)
-    return ((condition.word, inner) for condition in said for inner in condition.clauses)
 
 
 def bindings_of(goal: CandidateGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:

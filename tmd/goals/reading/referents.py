@@ -94,9 +94,14 @@ class Referents:
         clause = reading.clause
         direct = [name for name in clause.direct if name not in PERSONS]
         direct = direct or ([""] if "" in clause.antecedents else [])
+        none = [name for name in direct if is_none(name, clause)]
+        if len(none) < len(direct):
+            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
         units = [Unit(name, self.relations_of(name, clause)) for name in direct]
+        without = the_word("relations", "lacking")
         for unit in units:
             unit.relations = self._lacking(unit.relations, clause)
+            unit.relations += [(without, name) for name in none if name not in direct]
             measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
             if unit.direct in words_of("measures") and measured is not None:
                 others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
@@ -261,6 +266,10 @@ class Referents:
         if bound is None:
             phrase = NounPhrase(antecedent, definite=True, plural=many)
             return self._named(antecedent, phrase, types, [], reading)
+        if bound.containers and self.puts_back(reading):
+            things = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
+            if things.names:
+                return things
         known = (*bound.names, *bound.containers)
         names = tuple(n for n in known if self.grounder.is_a(n, types))
         if not names:
@@ -452,7 +461,11 @@ class Referents:
         """
         for relation, target in relations:
             names = self.targets(target, reading)
-            if is_relation(relation, "excepting"):
+            excepting = is_relation(relation, "excepting")
+            if excepting and is_one(target) and self._any_one(target, reading) and referent.names:
+                referent = replace(referent, mode=Mode.NUMBER, number=len(referent.names) - 1)  # "all but one"
+                continue
+            if excepting:
                 left: Iterable[str] = self.excepted([(relation, target)], reading)
             elif relation.startswith(NEGATED) or is_none(target, reading.clause):  # "the chair that has no pillow"
                 plain = relation.removeprefix(NEGATED)
@@ -468,6 +481,11 @@ class Referents:
                 continue
             referent = referent.only(n for n in referent.names if n not in left)
         return referent
+
+    def _any_one(self, noun: str, reading: ClauseReading) -> bool:
+        """Return whether any one will do: nothing was said that tells which."""
+        said = reading.clause.phrase(noun)
+        return not (said.definite or said.plural or said.attributes or self.relations_of(noun, reading.clause))
 
     def excepted(self, relations: Iterable[tuple[str, str]], reading: ClauseReading) -> tuple[str, ...]:
         """Return what *except* takes away."""
