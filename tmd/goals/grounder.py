@@ -6,14 +6,13 @@ its parts control, then the whole and its other parts. *Open the fridge* opens i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from tmd.goals.sources.table import WAS, atoms_in, split_predicate, subformulas
+from tmd.goals.sources.table import WAS, split_predicate
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction, negation
 from tmd.pddl.model import (
-    ActionSchema,
     And,
     Atom,
     Equals,
@@ -24,12 +23,10 @@ from tmd.pddl.model import (
     Imply,
     Not,
     Or,
-    conjuncts,
     universe,
 )  # fmt: skip
-from tmd.pddl.semantics import bindings, holds
-from tmd.pddl.task import Bits, Task
-from tmd.pddl.writer import format_formula
+from tmd.pddl.semantics import bindings
+from tmd.pddl.task import Bits
 from tmd.veil.world import PART_OF, World
 
 _LEVELS = 4
@@ -230,62 +227,3 @@ class _Grounding:
         if any(one in task.static and one not in task.index for one in meant):
             return TRUE
         return disjunction(Atom(one.predicate, one.args) for one in meant)
-
-
-_OF_TYPE = "it is not of the type"
-
-
-def why_impossible(condition: Formula, binding: Mapping[str, str], grounder: Grounder) -> str:
-    """Return the first fact that can never hold, with what forbids it."""
-    wanted = (
-        GroundAtom(split_predicate(atom.predicate)[0], tuple(binding.get(term, term) for term in atom.terms))
-        for atom in atoms_in(condition)
-    )
-    closed = (atom for atom in wanted if not any(a.startswith("?") for a in atom.args))
-    reasons = [why_never(atom, grounder.task) for atom in closed if not grounder.can_hold(atom)]
-    # a broken condition says more than that something is of another type
-    broken = [reason for reason in reasons if _OF_TYPE not in reason]
-    return next(iter((*broken, *reasons)), "no plan can bring that about")
-
-
-def why_never(atom: GroundAtom, task: Task) -> str:
-    """Return what forbids that ``atom`` ever becomes true: the broken condition of the action that comes nearest."""
-    changing = {one.predicate for one in task.atoms}
-    objects = universe(task.problem)
-    wrong_kind: str | None = None
-    for action, binding in _makers(atom, task):
-        wrong = [p for p in action.parameters if p.name in binding and not objects.is_a(binding[p.name], p.types)]
-        if wrong:
-            kind = f"{_OF_TYPE} {' or '.join(wrong[0].types)}"
-            wrong_kind = wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: {kind}"
-            continue
-        for part in conjuncts(action.precondition):
-            if _is_settled(part, binding, changing) and not holds(part, task.problem.init, objects, binding):
-                return f"{action.name} needs {_said(part, binding)}"
-    return wrong_kind or f"no action makes {atom} true"
-
-
-def _makers(atom: GroundAtom, task: Task) -> Iterator[tuple[ActionSchema, dict[str, str]]]:
-    """Yield the actions that make atoms like ``atom`` true, with what its arguments bind."""
-    for action in task.problem.domain.actions:
-        for effect in action.effects:
-            if not effect.positive or effect.atom.predicate != atom.predicate or effect.parameters:
-                continue
-            pairs = list(zip(effect.atom.terms, atom.args, strict=True))
-            if all(term == arg for term, arg in pairs if not term.startswith("?")):
-                yield action, {term: arg for term, arg in pairs if term.startswith("?")}
-
-
-def _is_settled(part: Formula, binding: Mapping[str, str], changing: set[str]) -> bool:
-    """Return whether the truth of a part of a precondition never changes and depends on bound variables only."""
-    atoms = list(atoms_in(part))
-    inner = {p.name for f, _ in subformulas(part) if isinstance(f, Forall | Exists) for p in f.parameters}
-    variables = {t for a in atoms for t in a.terms if t.startswith("?")}
-    return not {a.predicate for a in atoms} & changing and variables <= set(binding) | inner
-
-
-def _said(part: Formula, binding: Mapping[str, str]) -> str:
-    text = format_formula(part)
-    for variable, name in sorted(binding.items(), key=lambda pair: -len(pair[0])):
-        text = text.replace(variable, name)
-    return " ".join(text.split())

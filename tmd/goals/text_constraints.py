@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseGoal
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Memory
@@ -60,7 +60,8 @@ class ConstraintReader:
                 return avoided
             found |= avoided
         for clause in parsed.clauses:
-            found |= TextConstraints(untouched=frozenset(self._done_without(clause, state)))
+            untouched = self._done_without(clause, state) | self._excepted(clause, parsed, state, memory)
+            found |= TextConstraints(untouched=frozenset(untouched))
             other = any(clause.phrase(noun).quantifier is Quantifier.OTHER for noun in clause.direct)
             if clause.mood is not Mood.KEEP or clause.otherwise or clause.conditions or other:
                 continue
@@ -132,6 +133,15 @@ class ConstraintReader:
         without = none | {r.target for r in clause.relations if is_relation(r.relation, "lacking")}
         things = (t for t in without if not nouns.constants(t, ANY_TYPE, state))
         return self._with_parts(n for target in things for n in nouns.things(target, state))
+
+    def _excepted(self, clause: Clause, parsed: Parsed, state: Bits, memory: Memory) -> set[str]:
+        """Return what a clause excepts, with its parts, unless another clause speaks of it."""
+        referents = self.reader.referents
+        pairs = [pair for noun in clause.direct for pair in referents.relations_of(noun, clause)]
+        names = self._with_parts(referents.excepted(pairs, ClauseReading(clause, Moments(state, state), memory)))
+        others = (noun for other in parsed.clauses if other is not clause for noun in other.resolved())
+        spoken = self._with_parts(name for noun in others for name in self.reader.nouns.things(noun, state))
+        return {name for name in names - spoken if not self.reader.nouns.is_constant(name)}
 
     def _with_parts(self, names: Iterable[str]) -> set[str]:
         """Return things, their parts, and the parts of others that work them: a tap, and its handle."""

@@ -6,10 +6,11 @@ before it lead to.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.clause_goal import ClauseGoal
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE
@@ -166,12 +167,11 @@ class RuleDialogue(ClauseDialogue):
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""
         assert isinstance(step, RuleStep) and isinstance(memory, _Progress)
-        spoken: dict[str, None] = {}
-        due = self._due(step, memory, state, spoken)
-        if isinstance(due, Refusal):
-            return due
-        recent = tuple(dict.fromkeys((*spoken, *memory.memory.recent)))
-        progress = replace(memory, memory=replace(memory.memory, recent=recent))
+        guarded = self._due(step, memory, state)
+        if isinstance(guarded, Refusal):
+            return guarded
+        due, remembered = guarded
+        progress = replace(memory, memory=remembered)
         if step.otherwise or step.guards:
             progress = replace(progress, guard=due if not step.otherwise else progress.guard)
         if not due:
@@ -203,7 +203,7 @@ class RuleDialogue(ClauseDialogue):
         if goal.formula == TRUE:
             return memory
         cube = next((c for c in goal.cubes if c.holds(state)), goal.cubes[0])
-        return replace(memory, memory=bindings_of(goal, cube, self._goals, memory.memory))
+        return replace(memory, memory=bindings_of(goal.bindings, cube, self._goals, memory.memory))
 
     def handled(self, step: Step) -> Sequence[HandledGroup] | None:
         """Return the objects that a demonstrated sequence must handle: for each noun one of them, or all."""
@@ -224,37 +224,48 @@ class RuleDialogue(ClauseDialogue):
         named = not (referents.points_back(noun) or noun in (*clause.quantities, *PERSONS))
         return named and not referents.nouns.constants(noun, ANY_TYPE, self._goals.world.task.init)
 
-    def _due(self, step: RuleStep, context: _Progress, state: Bits, spoken: dict[str, None]) -> bool | Refusal:
-        """Return whether a step is to be done in ``state``; ``spoken`` gets the objects that its conditions mention."""
+    def _due(self, step: RuleStep, context: _Progress, state: Bits) -> tuple[bool, Memory] | Refusal:
+        """Return whether a step is to be done in ``state``, and the memory with what its conditions mention."""
+        memory = context.memory
         if step.otherwise:
-            return context.guard is False
+            return context.guard is False, memory
         if context.guard is not None and step.guards and all(guard.carried for guard in step.guards):
-            return context.guard  # "if the lamp is on, turn it off and bring it": what was so when it was said
+            return context.guard, memory  # "if the lamp is on, turn it off and bring it": what was so when it was said
         for condition in step.guards:
-            found = self._holds(condition, context, state, spoken)
+            found = self._holds(condition, memory, state)
             if isinstance(found, Refusal):
                 return found
-            if found == is_condition(condition.word, "contrary"):
-                return False
-        return True
+            held, memory = found
+            if held == is_condition(condition.word, "contrary"):
+                return False, memory
+        return True, memory
 
-    def _holds(self, condition: Condition, context: _Progress, state: Bits, spoken: dict[str, None]) -> bool | Refusal:
+    def _holds(self, condition: Condition, memory: Memory, state: Bits) -> tuple[bool, Memory] | Refusal:
+        """Return whether a condition holds, and the memory of what made it true: *it* is that tin, not any."""
         if not condition.clauses:
             message = f"the condition '{condition.text}' is not understood"
             return Refusal(RefusalKind.CONDITION, message, "say it as a state: if the door is open")
         truth = True
         for clause in condition.clauses:
-            goal = self._goals.read(clause, state, context.memory)
+            goal = self._goals.read(clause, state, memory)
             if not isinstance(goal, Refusal):
-                truth = truth and any(cube.holds(state) for cube in goal.cubes)
-                objects = self._goals.world.profiles.objects
-                spoken.update((n, None) for names in goal.meant.values() for n in names if n in objects)
+                cube = next((cube for cube in goal.cubes if cube.holds(state)), None)
+                truth = truth and cube is not None
+                memory = self._spoken(goal, cube, memory)
             elif self._is_never(clause, condition, goal):
                 truth = False  # "if there is milk": where there is none, there is none
             else:
                 message = f"the condition '{condition.text}': {goal.message}"
                 return replace(goal, kind=RefusalKind.CONDITION, message=message)
-        return truth != condition.negated
+        return truth != condition.negated, memory
+
+    def _spoken(self, goal: ClauseGoal, cube: Cube | None, memory: Memory) -> Memory:
+        """Return the memory after a condition; where it does not hold, only what was spoken of."""
+        if cube is not None:
+            return bindings_of(goal.meant, cube, self._goals, memory)
+        objects = self._goals.world.profiles.objects
+        spoken = (n for names in goal.meant.values() for n in names if n in objects)
+        return replace(memory, recent=tuple(dict.fromkeys((*spoken, *memory.recent))))
 
     def _is_never(self, clause: Clause, condition: Condition, refusal: Refusal) -> bool:
         """Return whether a refusal says that what a condition asks for does not hold."""
@@ -275,7 +286,7 @@ def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     return refusal.kind in unread
 
 
-def bindings_of(goal: CandidateGoal, cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
+def bindings_of(meant: Mapping[str, tuple[str, ...]], cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
     """Return what later clauses remember of a clause whose goal was reached as ``cube``."""
     atoms = reader.world.task.names(cube.positive | cube.negative)
     mentioned = dict.fromkeys(a for atom in atoms for a in atom.args)
@@ -283,7 +294,7 @@ def bindings_of(goal: CandidateGoal, cube: Cube, reader: GoalReader, memory: Mem
     bound = dict(memory.bound)
     recent: dict[str, None] = {}
     # "heat it in the microwave, and add the noodles": to what was heated; where it was done comes after that
-    for noun, names in sorted(goal.bindings.items(), key=lambda said: " " in said[0]):
+    for noun, names in sorted(meant.items(), key=lambda said: " " in said[0]):
         chosen = _chosen(names, mentioned, reader)
         containers: dict[str, None] = {}
         if all(map(is_constant, chosen)):

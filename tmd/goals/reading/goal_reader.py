@@ -12,6 +12,7 @@ from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
+from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.table import ACTIONS, GoalTable
 from tmd.goals.words import BE, family, is_relation, is_verb, relations_said, the_word, words_of
 from tmd.language.clause import Clause
@@ -173,8 +174,7 @@ class GoalReader:
         return (canonical,) if canonical != verb else ()
 
     def _unknown(self, clause: Clause) -> Refusal:
-        known = sorted({verb for table in self.tables for verb in table.verbs()} - {BE})
-        hint = f"say it with another verb, such as {', '.join(known[:6])}" if known else None
-        return Refusal(
-            RefusalKind.UNKNOWN_VERB, f"nobody has shown or declared what '{words(clause.verb)}' means", hint
-        )
+        known = {verb for table in self.tables for verb in table.verbs()} - {BE}
+        near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
+        hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
+        return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)

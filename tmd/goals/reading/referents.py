@@ -566,11 +566,11 @@ class Referents:
         known = self.nouns.things(noun, reading.state)
         if known and attributes:
             what = "nothing" if is_noun(noun, "everything") else f"no {words(noun)}"
-            return Refusal(RefusalKind.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(attributes)}")
+            return Refusal(RefusalKind.NO_SUCH_THING, f"{what} here is {' and '.join(map(words, attributes))}")
         if known and any(is_relation(r, "excepting") for r, _ in self.relations_of(noun, clause)):
             return Refusal(RefusalKind.NO_SUCH_THING, f"every '{said}' that is meant here is excepted")
         if known:
-            message = f"'{said}' is nothing that '{words(clause.verb)}' can be said of here"
+            message = f"'{words(clause.verb)}' does not apply to '{said}' here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
         hint = "name a thing that is there, or allow guesses"
         return Refusal(RefusalKind.NO_SUCH_THING, f"nothing here is called '{said}'", hint)

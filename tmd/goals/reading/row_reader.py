@@ -9,11 +9,12 @@ from typing import TypeAlias
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
 from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Unit, text_of, words
-from tmd.goals.grounder import Grounder, why_impossible
+from tmd.goals.grounder import Grounder
 from tmd.goals.reading.fitting import Fitting
 from tmd.goals.reading.noun_phrases import Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Requirements
+from tmd.goals.reasons import forms, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable, Slot
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said
 from tmd.language.clause import Quantifier
@@ -223,6 +224,7 @@ class RowReader:
             return self._with_places(rows, unit, reading)
         failure: Refusal | None = None
         held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
+        first: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
         reading.pronoun = unit.direct
         options = self.referents.antecedents(unit.direct, reading)
         for number, (_, is_object) in enumerate(options or [("", True)]):
@@ -236,13 +238,25 @@ class RowReader:
                     return found
                 held = held or (found, reading.meant)  # so already: rather what is not
                 reading.meant = before
-            elif held is None or not is_object or found[1].looks_back:
-                return found
-        if held is not None:
-            reading.meant = held[1]
-            return held[0]
+            elif first is None and (held is None or not is_object or found[1].looks_back):
+                first = found, reading.meant
+                reading.meant = before
+                if not self._undoes(found[0], reading) and not is_object:
+                    continue  # "put the milk in the fridge and close it": rather what was opened meanwhile
+                break
+            elif first is not None and (is_object or self._undoes(found[0], reading)):
+                first = first if is_object else (found, reading.meant)
+                break
+        best = first or held
+        if best is not None:
+            reading.meant = best[1]
+            return best[0]
         assert failure is not None
         return failure
+
+    def _undoes(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Return whether what is asked for held before the text: what was done meanwhile is undone."""
+        return bool(atoms_of(formula)) and self.grounder.truth(formula, reading.memory.first)
 
     def _with_places(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
         """Return the goal with places that point back: what was spoken of last and a row fits.
@@ -287,9 +301,9 @@ class RowReader:
             reading.meant, reading.approach, reading.notes = before
         if failure is not None:
             return failure
-        message = f"'{text_of(reading.clause)}' does not fit what is known of its verb"
-        known = "; ".join(dict.fromkeys(row.pattern for row in rows))
-        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, f"known: {known}")
+        verb = reading.clause.verb
+        message = f"'{text_of(reading.clause)}' says too little or too much for '{words(verb)}'"
+        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, f"say {forms(rows, verb)}")
 
     def _with_fewer(
         self, shorter: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
