@@ -84,6 +84,14 @@ def real(path: Path) -> Path:
     return Path(os.path.realpath(path))
 
 
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def bundled(kind: str) -> list[Path]:
+    """Return where the bundled ``domains`` or ``problems`` are: in an installed package, beside it in a checkout."""
+    return [root for root in (_PACKAGE / "bundled" / kind, _PACKAGE.parent / kind) if root.is_dir()]
+
+
 def make_directory(path: str | Path) -> Path:
     """Make a directory and those above it, if they are not there.
 

@@ -312,6 +312,8 @@ def _files(corpus: Corpus) -> Iterator[tuple[str, Path]]:
         path = corpus.folder.path / name
         if path.is_file():
             yield name, path
+    for included in corpus.lexicon.included:
+        yield f"include/{Path(included).name}", Path(included)
     for pattern in ("environments/*.yaml", "environments/*.pddl", "*/demonstrations.jsonl"):
         for path in sorted(corpus.directory.glob(pattern)):
             yield path.relative_to(corpus.directory).as_posix(), path

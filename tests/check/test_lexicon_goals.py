@@ -165,7 +165,8 @@ def test_a_lexicon_without_goals_has_no_such_notes(tmp_path: Path) -> None:
 def test_a_verb_with_a_goal_is_served(tmp_path: Path) -> None:
     path = tmp_path / "lexicon.yaml"
     path.write_text("verbs: [polish, dust]\nverb_synonyms:\n  buff: polish\ngoals:\n  - polish X: (clean ?x)\n")
-    told = check_lexicon(path, (), (), ["Look at it."])
+    lexicon = read_lexicon(path)
+    told = check_lexicon(path, lexicon, lexicon.goal_verbs, (), (), ["Look at it."])
     assert [fault.message.split("'")[1] for fault in told] == ["dust"]
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from tmd.check.lexicon import check_lexicon
+from tmd.language.lexicon.file import read_lexicon
 
 LEXICON = """\
 verbs: [heat]
@@ -34,6 +35,7 @@ def test_one_word_of_those_that_mean_the_same_serves_all(
 ) -> None:
     path = tmp_path / "lexicon.yaml"
     path.write_text(LEXICON)
-    found = check_lexicon(path, actions, (), [text])
+    lexicon = read_lexicon(path)
+    found = check_lexicon(path, lexicon, lexicon.goal_verbs, actions, (), [text])
     assert {fault.code for fault in found} == {"unserved-verb"}
     assert sorted(fault.message.split("'")[1] for fault in found) == sorted(unserved)

@@ -45,6 +45,7 @@ def test_its_lexicon_declares_goals_and_says_how(start: str, tmd: Tmd, tmp_path:
     lexicon = read_lexicon(file)
     assert len(lexicon.goals) >= 2
     assert {"put", "take"} <= lexicon.goal_verbs
+    assert [Path(base).stem for base in lexicon.included] == ["household"]
     comment = file.read_text().partition("\ngoals:\n")[0].rpartition("\n\n")[2]
     assert all(line.startswith("#") for line in comment.splitlines())
     assert all(word in comment for word in ("PDDL", "slots", "prepositions", "`tmd check`"))

@@ -168,7 +168,7 @@ def test_no_plan_for_a_text(tmd: Tmd, tmp_path: Path) -> None:
     assert ended.code == ExitCode.NOT_GROUNDED
     record = json.loads(ended.out)
     assert (record["status"], record["steps"], record["plan"]) == ("not_grounded", [], [])
-    assert record["reason"].startswith("no plan: clause 1: nobody has shown or declared what 'flurble' means")
+    assert record["reason"].startswith("no plan: clause 1: unknown verb 'flurble'")
     assert record["reason"] in ended.err
     assert not list(tmp_path.iterdir())
 

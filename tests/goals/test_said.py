@@ -146,7 +146,7 @@ REFUSED = [
         "Polish the cup.",
         0,
         Kind.UNKNOWN_VERB,
-        "nobody has shown or declared what 'polish' means",
+        "unknown verb 'polish'",
     ),
     (
         "02_table/corner1",

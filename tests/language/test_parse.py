@@ -11,7 +11,7 @@ from tmd.language import Lexicon, Parsed, parse, print_clause, read_clause
 from tmd.language.clause import Mood, Quantifier
 from tmd.language.lexicon.lexicon import sections
 from tmd.language.parser import FOREIGN, NO_VERB, NO_WORDS, is_filler
-from tmd.language.syntax.shape import REMINDER
+from tmd.language.syntax.brackets import REMINDER
 from tmd.language.syntax.tokens import Kind, tokenise
 
 

@@ -22,6 +22,7 @@ from tmd.check.pddl_file import (
 )
 from tmd.diagnostics import Location, TmdError
 from tmd.files import real
+from tmd.language.lexicon.file import BASES
 from tmd.pddl.model import Problem
 from tmd.pddl.reading.syntax import Source, read_text, split_lines
 from tmd.world.folder import find_domain
@@ -344,7 +345,7 @@ def _files(directory: Path) -> Iterator[Path]:
 def _is_ours(path: Path) -> bool:
     """Whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
     if path.suffix in (".yaml", ".yml"):
-        return path.name in DATA_FILES or path.parent.name == "environments"
+        return path.name in DATA_FILES or path.parent.name in ("environments", BASES)
     return path.suffix == ".pddl" or path.name in DATA_FILES or path.name.endswith(".planviz.json")
 
 

@@ -53,6 +53,8 @@ _ERRORS = {
     "unknown-state": "a state that an object does not have",
     "unknown-action": "an action that the domain does not have",
     "unknown-domain": "a domain that is not there",
+    "unknown-base": "a base lexicon that is not there",
+    "include-cycle": "a base lexicon that includes itself",
     "missing-skill": "an action without a skill",
     "missing-role": "a skill that is not told what it needs",
     "stale-domain": "a domain.pddl that is not what its sources compile to",

@@ -15,7 +15,7 @@ from tmd.check.lint.problem import lint_cases
 from tmd.diagnostics import Location, MissingToolError, TmdError
 from tmd.files import real
 from tmd.language import parse, print_clause
-from tmd.language.lexicon.file import read_lexicon
+from tmd.language.lexicon.file import BASES, read_lexicon
 from tmd.language.lexicon.lexicon import Lexicon, section, singular
 from tmd.pddl.model import Domain, Problem, State
 from tmd.pddl.reading.reader import read_domain, read_problem
@@ -303,7 +303,8 @@ class DataFiles:
             "templates.yaml": self._templates,
         }
         others = {".jsonl": self._demonstrations, ".json": self._planviz}
-        check = known.get(file.name) or others.get(file.suffix, self._environment)
+        other = self._base_lexicon if file.parent.name == BASES else self._environment
+        check = known.get(file.name) or others.get(file.suffix, other)
         self._try(check, file)
 
     def _try(self, check: Callable[[Path], object], file: Path) -> None:
@@ -333,8 +334,15 @@ class DataFiles:
             check_shapes(folder)
 
     def _lexicon(self, file: Path) -> None:
-        from tmd.check.lexicon import check_goal_verbs, check_goals, check_lexicon, segments_of, texts_of
-        from tmd.language.lexicon.file import read_lexicon
+        from tmd.check.lexicon import (
+            check_goal_verbs,
+            check_goals,
+            check_lexicon,
+            declared_verbs,
+            segments_of,
+            texts_of,
+        )
+        from tmd.goals.base import faults_of
 
         folder = self._folder(file)
         actions = [action.name for action in folder.domain.actions]
@@ -342,11 +350,19 @@ class DataFiles:
         lexicon = read_lexicon(file)
         texts = [text for path in corpora for text in texts_of(path)]
         segments = (text for path in corpora for text in segments_of(path))
+        meant = declared_verbs(lexicon, folder.domain)
         for fault in (
-            *check_lexicon(file, actions, _names(folder), texts),
+            *faults_of(lexicon, folder.domain),
+            *check_lexicon(file, lexicon, meant, actions, _names(folder), texts),
             *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
-            *check_goal_verbs(file, lexicon, actions, segments),
+            *check_goal_verbs(file, lexicon, meant, actions, segments),
         ):
+            self.checker.report(fault, file)
+
+    def _base_lexicon(self, file: Path) -> None:
+        from tmd.goals.base import faults_of
+
+        for fault in faults_of(read_lexicon(file)):
             self.checker.report(fault, file)
 
     def _corpora(self, folder: Path) -> list[Path]:

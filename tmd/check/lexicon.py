@@ -12,7 +12,7 @@ from tmd.check.codes import SEVERITY, Severity
 from tmd.check.lint.reachable import Possible, Scope, possible, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, family, read_pattern, read_table
-from tmd.language.lexicon.file import read_lexicon
+from tmd.goals.tables import declared_goals
 from tmd.language.lexicon.lexicon import Declared, Lexicon, section, verb_candidates
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
@@ -25,42 +25,61 @@ _PARTICLE_WITHIN = 5
 """A particle stands at most that many words behind its verb."""
 
 
-def check_lexicon(path: Path, actions: Collection[str], names: Collection[str], texts: Iterable[str]) -> list[TmdError]:
-    """What is odd about a lexicon.
+def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
+    """Return the verbs that rows of a lexicon, or rows of base lexicons that apply, say the meaning of."""
+    try:
+        return frozenset(declared_goals(lexicon, domain).verbs())
+    except TmdError:
+        return lexicon.goal_verbs  # faults are told by themselves
+
+
+def check_lexicon(
+    path: Path,
+    lexicon: Lexicon,
+    meant: Collection[str],
+    actions: Collection[str],
+    names: Collection[str],
+    texts: Iterable[str],
+) -> list[TmdError]:
+    """What is odd about the words of a lexicon itself.
 
     Args:
         path: The file.
+        lexicon: What it says.
+        meant: The verbs that have a declared meaning.
         actions: The names of the domain's actions.
         names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
         texts: The texts of the domain's demonstrations.
-
-    Raises:
-        TmdError: The file is not a lexicon.
     """
-    lexicon = read_lexicon(path)
     source = _Lines(path)
     found = []
     for noun, targets in sorted(lexicon.nouns.items()):
         for target in targets:
-            if names and target not in names:
+            if names and target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
                 found.append(source.error(noun, target, message, hint, "unknown-target"))
     served = _Served(texts, actions)
     verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
     # one word of several that stand for the same verb is enough: its template serves all of them
-    meant = lexicon.goal_verbs
     shown = {
-        serving for verb, serving in verbs.items() if {verb, serving} & meant or verb in served or serving in served
+        serving for verb, serving in verbs.items() if {verb, serving} & {*meant} or verb in served or serving in served
     }
+    own = {verb for name in ("verbs", "phrasal", "verb_synonyms") for verb in verbs if _declares(lexicon, name, verb)}
     for verb, serving in sorted(verbs.items()) if served.texts else ():
-        if serving not in shown:
+        if serving not in shown and verb in own:
             message = f"no demonstration, no action and no goal serves the verb '{verb}'"
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
             hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
             found.append(source.error(verb, verb, message, hint, "unserved-verb"))
     return found
+
+
+def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
+    """Whether a section of the lexicon itself has a verb."""
+    place = lexicon.places.get((section_name, verb))
+    return place is not None and place.file == lexicon.source
 
 
 def texts_of(path: Path) -> list[str]:
@@ -133,17 +152,18 @@ _POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
 
 
 def check_goal_verbs(
-    path: Path, lexicon: Lexicon, actions: Collection[str], segments: Iterable[str]
+    path: Path, lexicon: Lexicon, meant: Collection[str], actions: Collection[str], segments: Iterable[str]
 ) -> Iterator[TmdError]:
     """Notes on the verbs of a lexicon that declares goals.
 
     Args:
         path: The lexicon's file.
         lexicon: What it says.
+        meant: The verbs that have a declared meaning.
         actions: The names of the domain's actions.
         segments: The pieces of its demonstrations' texts that were carried out one after another.
     """
-    if not lexicon.goals:
+    if not meant:
         return
     written = Written(path)
     yield from _standing_for_another(lexicon, written)
@@ -152,7 +172,7 @@ def check_goal_verbs(
         for verb in _first_verb(text, lexicon):
             verbs.setdefault(verb, "a demonstration")
     for verb, where in sorted(verbs.items()):
-        if not _has_goal(verb, lexicon):
+        if not _has_goal(verb, meant, lexicon):
             message = f"no goal says what '{verb}' means, which {where} speaks of"
             hint = f"write '- {verb} X: (…)' under goals, or '{verb}: OTHER' under verb_synonyms"
             yield written.error(written.in_section("goals"), message, hint, "no-goal")
@@ -180,7 +200,7 @@ def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdErr
     for entry in lexicon.goals:
         for verb in entry.pattern.partition(" ")[0].split("|"):
             other = lexicon.canonical_verb(verb)
-            if other != verb and verb not in told:
+            if other != verb and verb not in told and lexicon.own("verb_synonyms", verb):
                 told.add(verb)
                 message = f"'{verb}' has a goal of its own, and stands for '{other}' as well"
                 hint = f"its own goals are tried before those of '{other}'; remove one of the two if they mean the same"
@@ -211,11 +231,11 @@ def _is_verb(word: str, lexicon: Lexicon) -> bool:
     return found is not None and found[0] == word and found[2] >= _A_VERB
 
 
-def _has_goal(verb: str, lexicon: Lexicon) -> bool:
+def _has_goal(verb: str, meant: Collection[str], lexicon: Lexicon) -> bool:
     """Whether a row is for a verb, for its verb without a particle, or for one that means the same."""
     plain = verb.partition("_")[0]
     own = {verb, plain, lexicon.canonical_verb(verb), lexicon.canonical_verb(plain)}
-    return bool(lexicon.goal_verbs & (own | {other for one in own for other in family(one)}))
+    return any(verb in meant for verb in own | {other for one in own for other in family(one)})
 
 
 _NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")

@@ -15,7 +15,7 @@ from tmd.pddl.task import Bits, Cube
 
 @dataclass(frozen=True, slots=True)
 class ClauseGoal:
-    """What a clause asks for.
+    """The goal of a clause.
 
     Attributes:
         clause: The clause.
@@ -23,9 +23,8 @@ class ClauseGoal:
         cubes: The same as a disjunction of conjunctions over the task's atoms.
         row: The row it was read by; ``None`` for a state ("the door is open").
         meant: For each noun the objects it may mean.
-        approach: What shall hold on the way, before the goal does: *in the microwave*, *with the remote*.
-        released: Objects whose earlier commitments need not be kept: what is poured leaves where it was.
-        notes: What of the clause was not taken into account.
+        approach: Conditions on the way, before the goal holds: *in the microwave*, *with the remote*.
+        notes: The parts of the clause that were not taken into account.
     """
 
     clause: Clause
@@ -34,13 +33,12 @@ class ClauseGoal:
     row: GoalRow | None = None
     meant: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     approach: tuple[Formula, ...] = ()
-    released: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
 
 @dataclass(slots=True)
 class Unit:
-    """One thing that the verb acts on, with what stands behind prepositions."""
+    """One thing that the verb acts on, with what is said behind prepositions."""
 
     direct: str | None
     relations: list[tuple[str, str]]
@@ -48,35 +46,47 @@ class Unit:
 
 @dataclass(slots=True)
 class ClauseReading:
-    """What one clause is read with, in one state."""
+    """The work of reading one clause in one state.
+
+    Attributes:
+        strict: Every place that was said must have a slot.
+        awaited: It is not asked for but waited for: a pronoun means that of which it holds already.
+        wanted: Adjectives of nouns that tell what shall be, not which thing is meant.
+        asked: The nouns whose meaning is being asked for: none leads to itself.
+        pronoun: The pronoun whose antecedents are being tried.
+        antecedent: The number of the antecedent that is tried for it.
+        taken: The thing that a noun is taken for, where the same clause speaks of another one as well.
+    """
 
     clause: Clause
-    state: Bits
     moments: Moments
     memory: Memory
+    strict: bool = False
+    awaited: bool = False
     notes: list[str] = field(default_factory=list)
     meant: dict[str, tuple[str, ...]] = field(default_factory=dict)
     approach: list[Formula] = field(default_factory=list)
-    released: list[str] = field(default_factory=list)
     wanted: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    """Adjectives of nouns that tell what shall be, not which thing is meant."""
     asked: set[str] = field(default_factory=set)
-    """The nouns whose meaning is being asked for: none leads to itself."""
-    strict: bool = False
-    """Every place that was said must have a slot."""
-    awaited: bool = False
-    """It is not asked for but waited for: of what a pronoun may mean, that of which it holds already is meant."""
     pronoun: str | None = None
     antecedent: int | None = None
-    """Which of what ``pronoun`` may mean is tried."""
     taken: dict[str, str] = field(default_factory=dict)
-    """Which thing a noun is taken for, where the same clause speaks of another one as well."""
 
-    def again(self, *, strict: bool) -> ClauseReading:
-        """A fresh reading of the same clause."""
-        return ClauseReading(self.clause, self.state, self.moments, self.memory, strict=strict, awaited=self.awaited)
+    @property
+    def state(self) -> Bits:
+        """The state when the clause begins."""
+        return self.moments.now
+
+    def again(self, *, strict: bool = False) -> ClauseReading:
+        """Return a fresh reading of the same clause."""
+        return ClauseReading(self.clause, self.moments, self.memory, strict, self.awaited)
 
 
 def text_of(clause: Clause) -> str:
-    """The clause as it was said, for messages."""
-    return " ".join(clause.text.split()) or clause.verb.replace("_", " ")
+    """Return the clause as it was said, for messages."""
+    return " ".join(clause.text.split()) or words(clause.verb)
+
+
+def words(name: str) -> str:
+    """Return a name as words, for messages."""
+    return name.replace("_", " ")

@@ -6,25 +6,46 @@ its parts control, then the whole and its other parts. *Open the fridge* opens i
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from tmd.goals.sources.table import FIRST, WAS, split_predicate
+from tmd.goals.sources.table import WAS, split_predicate
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction, negation
-from tmd.pddl.model import And, Atom, Equals, Exists, Forall, Formula, GroundAtom, Imply, Not, Or, conjuncts, universe
-from tmd.pddl.semantics import bindings, holds
-from tmd.pddl.task import Bits, Task
-from tmd.pddl.writer import format_formula
+from tmd.pddl.model import (
+    And,
+    Atom,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    GroundAtom,
+    Imply,
+    Not,
+    Or,
+    universe,
+)  # fmt: skip
+from tmd.pddl.semantics import bindings
+from tmd.pddl.task import Bits
 from tmd.veil.world import PART_OF, World
+
+_LEVELS = 4
+"""The kinds of relatives: parts, what the thing is linked to, its whole, the other parts of that."""
 
 
 @dataclass(frozen=True, slots=True)
 class Moments:
-    """The states that a condition may speak of: when its clause begins, and before the whole text."""
+    """The states that a condition may speak of, and what it does not speak of.
+
+    Attributes:
+        now: The state when its clause begins.
+        first: The state before the whole text.
+        excepted: Objects that ``forall`` leaves out: *clear the table except the cup*.
+    """
 
     now: Bits
     first: Bits
+    excepted: frozenset[str] = frozenset()
 
 
 class Grounder:
@@ -32,45 +53,40 @@ class Grounder:
 
     Args:
         world: The environment.
+        exact: Nothing stands in for what was named.
     """
 
-    def __init__(self, world: World) -> None:
+    def __init__(self, world: World, *, exact: bool = False) -> None:
         self.world = world
         self.task = world.task
-        self._objects = universe(world.task.problem)
+        self.exact = exact
+        self.objects = universe(world.task.problem)
         self._relatives: dict[str, tuple[tuple[str, ...], ...]] = {}
-        self.exact = False
-        """Nothing stands in for what was named."""
-        self.excepted: frozenset[str] = frozenset()
-        """Objects that ``forall`` leaves out: *clear the table except the cup*."""
-        self.live = 0
-        """How many atoms of the conditions ground last may hold, counted by who asks."""
+
+    @cached_property
+    def exactly(self) -> Grounder:
+        """The same without stand-ins."""
+        return self if self.exact else Grounder(self.world, exact=True)
 
     def can_hold(self, atom: GroundAtom) -> bool:
-        """Whether an atom may hold at all, as far as relaxed reachability tells."""
+        """Return whether an atom may hold at all, as far as relaxed reachability tells."""
         return atom in self.task.index or atom in self.task.static
 
     def holds(self, atom: GroundAtom, state: Bits) -> bool:
-        """Whether an atom holds in ``state``."""
+        """Return whether an atom holds in ``state``."""
         bit = self.task.index.get(atom)
         return bool(state >> bit & 1) if bit is not None else atom in self.task.static
 
     def is_a(self, name: str, types: tuple[str, ...]) -> bool:
-        """Whether an object is of one of ``types``."""
-        return self._objects.is_a(name, types)
+        """Return whether an object is of one of ``types``."""
+        return self.objects.is_a(name, types)
 
     def fits(self, name: str, types: tuple[str, ...]) -> bool:
-        """Whether an object, a part of it or what it controls is of one of ``types``: it may stand where they do."""
-        return self.is_a(name, types) or any(
-            self.is_a(other, types) for level in range(2) for other in self.relatives(name, level)
-        )
-
-    def of_types(self, types: tuple[str, ...]) -> tuple[str, ...]:
-        """The objects of any of ``types``."""
-        return self._objects.of(types)
+        """Return whether an object, a part of it or what it controls is of one of ``types``."""
+        return any(self.is_a(other, types) for other in (name, *self.near(name)))
 
     def truth(self, formula: Formula, state: Bits) -> bool:
-        """Whether a ground condition without operators of ours holds in ``state``."""
+        """Return whether a ground condition without operators of ours holds in ``state``."""
         match formula:
             case Atom(predicate, terms):
                 return self.holds(GroundAtom(predicate, terms), state)
@@ -83,7 +99,7 @@ class Grounder:
         raise TypeError(f"not ground: {formula}")
 
     def ground(self, formula: Formula, binding: Mapping[str, str], slots: Iterable[str], moments: Moments) -> Formula:
-        """``formula`` over ground atoms that may hold, joined by ``and``, ``or`` and ``not``.
+        """Return ``formula`` over ground atoms that may hold, joined by ``and``, ``or`` and ``not``.
 
         Args:
             formula: The condition.
@@ -91,74 +107,36 @@ class Grounder:
             slots: The variables for which relatives may stand in.
             moments: What ``was`` and ``first`` look at.
         """
-        return self._ground(formula, dict(binding), frozenset(slots), moments)
+        return _Grounding(self, frozenset(slots), moments).of(formula, binding)
 
-    def _ground(self, formula: Formula, binding: dict[str, str], slots: frozenset[str], moments: Moments) -> Formula:
-        match formula:
-            case Atom():
-                return self._atom(formula, binding, slots, moments)
-            case Equals(left, right):
-                return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
-            case Not(part):
-                return negation(self._ground(part, binding, slots, moments))
-            case And(parts):
-                return conjunction(self._ground(part, binding, slots, moments) for part in parts)
-            case Or(parts):
-                return self._any_way(parts, binding, slots, moments)
-            case Imply(left, right):
-                unless = negation(self._ground(left, binding, slots, moments))
-                return unless if unless == TRUE else disjunction((unless, self._ground(right, binding, slots, moments)))
-            case Forall(parameters, part):
-                every = bindings(parameters, self._objects, binding)
-                meant = (b for b in every if not any(b[p.name] in self.excepted for p in parameters))
-                return conjunction(self._ground(part, dict(b), slots, moments) for b in meant)
-            case Exists(parameters, part):
-                found = bindings(parameters, self._objects, binding)
-                return disjunction(self._ground(part, dict(b), slots, moments) for b in found)
+    def ground_live(
+        self, formula: Formula, binding: Mapping[str, str], slots: Iterable[str], moments: Moments
+    ) -> tuple[Formula, bool]:
+        """Return the same, and whether any of its atoms may hold."""
+        grounding = _Grounding(self, frozenset(slots), moments)
+        return grounding.of(formula, binding), grounding.live > 0
 
-    def _any_way(
-        self, parts: Sequence[Formula], binding: dict[str, str], slots: frozenset[str], moments: Moments
-    ) -> Formula:
-        """A disjunction: where one way is open for what was named itself, nothing stands in for it in another."""
-        before, self.exact = self.exact, True
-        try:
-            plain = [self._ground(part, binding, slots, moments) for part in parts]
-        finally:
-            self.exact = before
-        if self.exact or any(part != FALSE for part in plain):
-            return disjunction(plain)
-        return disjunction(self._ground(part, binding, slots, moments) for part in parts)
-
-    def _atom(self, formula: Atom, binding: dict[str, str], slots: frozenset[str], moments: Moments) -> Formula:
-        predicate, operator = split_predicate(formula.predicate)
-        atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
-        meant = self._standing_in(atom, [place for place, term in enumerate(formula.terms) if term in slots])
-        self.live += len(meant)
-        if operator:
-            state = moments.now if operator == WAS else moments.first
-            assert operator in (WAS, FIRST)
-            return TRUE if any(self.holds(one, state) for one in meant) else FALSE
-        if any(one in self.task.static and one not in self.task.index for one in meant):
-            return TRUE
-        return disjunction(Atom(one.predicate, one.args) for one in meant)
-
-    def _standing_in(self, atom: GroundAtom, places: list[int]) -> list[GroundAtom]:
-        """The atom, if it can hold; otherwise those of the nearest relatives that can."""
+    def standing_in(self, atom: GroundAtom, places: Sequence[int]) -> list[GroundAtom]:
+        """Return the atom, if it can hold; otherwise those of the nearest relatives that can."""
         if self.can_hold(atom):
             return [atom]
-        for level in range(4):
+        for level in range(_LEVELS):
             for place in reversed(places):
-                found = []
-                for other in self.relatives(atom.args[place], level):
-                    changed = GroundAtom(atom.predicate, (*atom.args[:place], other, *atom.args[place + 1 :]))
-                    if self.can_hold(changed) and len(set(changed.args)) == len(changed.args):
-                        found.append(changed)
+                others = (
+                    atom._replace(args=(*atom.args[:place], other, *atom.args[place + 1 :]))
+                    for other in self.relatives(atom.args[place], level)
+                )
+                found = [one for one in others if self.can_hold(one) and len(set(one.args)) == len(one.args)]
                 if found:
                     return found
         return []
 
+    def near(self, name: str) -> tuple[str, ...]:
+        """Return the parts of a thing and what it is linked to."""
+        return (*self.relatives(name, 0), *self.relatives(name, 1))
+
     def relatives(self, name: str, level: int) -> tuple[str, ...]:
-        """What may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 other parts."""
+        """Return what may stand in for a thing: 0 its parts, 1 what it is linked to, 2 its whole, 3 other parts."""
         if self.exact:
             return ()
         if name not in self._relatives:
@@ -166,26 +144,20 @@ class Grounder:
         return self._relatives[name][level]
 
     def _find_relatives(self, name: str) -> tuple[tuple[str, ...], ...]:
-        """Parts; what the thing or its parts are linked to by an edge; the whole; the whole's other parts."""
         profiles = self.world.profiles
         parts = tuple(part for _, part in profiles.parts.get(name, ()))
         own = {name, *parts}
-        linked: dict[str, None] = {}
-        for (tail, head), predicates in sorted(profiles.links.items()):
-            if tail in own and head not in own and not self._tells_nothing(predicates):
-                linked[head] = None
-        if not linked:
-            for (tail, head), predicates in sorted(profiles.links.items()):
-                if head in own and tail not in own and not self._tells_nothing(predicates):
-                    linked[tail] = None
+        edges = [pair for pair, predicates in sorted(profiles.links.items()) if not self._tells_nothing(predicates)]
+        linked = dict.fromkeys(head for tail, head in edges if tail in own and head not in own)
+        linked = linked or dict.fromkeys(tail for tail, head in edges if head in own and tail not in own)
         whole = profiles.wholes.get(name)
         siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
         return parts, tuple(linked), (whole,) if whole else (), siblings
 
     def _tells_nothing(self, predicates: Iterable[str]) -> bool:
-        """Whether only predicates that hold of everything with itself, or may change, join two things.
+        """Return whether only predicates that hold of everything with itself, or may change, join two things.
 
-        These tell nothing of what belongs together: where a fixture stands is said as where a cup stands.
+        These tell nothing of what belongs together: where a fixture is says as much as where a cup is.
         """
         return all(predicate in self.reflexive or predicate in self._changing for predicate in predicates)
 
@@ -195,88 +167,63 @@ class Grounder:
 
     @cached_property
     def reflexive(self) -> frozenset[str]:
-        """The predicates that join things with themselves, or parts with their whole: they say nothing of two."""
-        return frozenset(a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1]) | {
-            PART_OF
-        }
+        """The predicates that join things with themselves, or parts with their whole."""
+        twice = (a.predicate for a in self.task.static if len(a.args) == 2 and a.args[0] == a.args[1])
+        return frozenset((*twice, PART_OF))
 
 
-_OF_TYPE = "it is not of the type"
+@dataclass(slots=True)
+class _Grounding:
+    """The work of grounding one condition; it counts the atoms that may hold."""
 
+    grounder: Grounder
+    slots: frozenset[str]
+    moments: Moments
+    live: int = 0
 
-def why_impossible(condition: Formula, binding: Mapping[str, str], task: Task, grounder: Grounder) -> str:
-    """The first fact that can never hold, with what forbids it."""
-    reasons = [why_never(atom, task) for atom in _wanted(condition, binding) if not grounder.can_hold(atom)]
-    # a broken condition says more than that something is of another type
-    broken = [reason for reason in reasons if _OF_TYPE not in reason]
-    return next(iter((*broken, *reasons)), "no plan can bring that about")
+    def of(self, formula: Formula, binding: Mapping[str, str]) -> Formula:
+        match formula:
+            case Atom():
+                return self._atom(formula, binding)
+            case Equals(left, right):
+                return TRUE if binding.get(left, left) == binding.get(right, right) else FALSE
+            case Not(part):
+                return negation(self.of(part, binding))
+            case And(parts):
+                return conjunction(self.of(part, binding) for part in parts)
+            case Or(parts):
+                return self._any_way(parts, binding)
+            case Imply(left, right):
+                unless = negation(self.of(left, binding))
+                return unless if unless == TRUE else disjunction((unless, self.of(right, binding)))
+            case Forall(parameters, part):
+                every = bindings(parameters, self.grounder.objects, binding)
+                spared = self.moments.excepted
+                meant = (b for b in every if not any(b[p.name] in spared for p in parameters))
+                return conjunction(self.of(part, each) for each in meant)
+            case Exists(parameters, part):
+                return disjunction(self.of(part, e) for e in bindings(parameters, self.grounder.objects, binding))
 
+    def _any_way(self, parts: Sequence[Formula], binding: Mapping[str, str]) -> Formula:
+        """Return a disjunction: where one way is open for what was named, nothing stands in for it in another."""
+        exactly = _Grounding(self.grounder.exactly, self.slots, self.moments)
+        plain = [exactly.of(part, binding) for part in parts]
+        self.live += exactly.live
+        if self.grounder.exact or any(part != FALSE for part in plain):
+            return disjunction(plain)
+        return disjunction(self.of(part, binding) for part in parts)
 
-def why_never(atom: GroundAtom, task: Task) -> str:
-    """What forbids that ``atom`` ever becomes true: the broken condition of the action that comes nearest to it."""
-    problem = task.problem
-    changing = {atom.predicate for atom in task.atoms}
-    objects = universe(problem)
-    wrong_kind: str | None = None
-    for action in problem.domain.actions:
-        for effect in action.effects:
-            if not effect.positive or effect.atom.predicate != atom.predicate or effect.parameters:
-                continue
-            binding = {t: a for t, a in zip(effect.atom.terms, atom.args, strict=True) if t.startswith("?")}
-            if any(t != a for t, a in zip(effect.atom.terms, atom.args, strict=True) if not t.startswith("?")):
-                continue
-            wrong = [p for p in action.parameters if p.name in binding and not objects.is_a(binding[p.name], p.types)]
-            if wrong:
-                wanted = " or ".join(wrong[0].types)
-                wrong_kind = wrong_kind or f"{action.name} takes no {binding[wrong[0].name]}: {_OF_TYPE} {wanted}"
-                continue
-            for part in conjuncts(action.precondition):
-                names = {a.predicate for a in _atoms(part)}
-                variables = {t for a in _atoms(part) for t in a.terms if t.startswith("?")}
-                if names & changing or not variables <= set(binding) | _quantified(part):
-                    continue
-                if not holds(part, problem.init, objects, binding):
-                    return f"{action.name} needs {_said(part, binding)}"
-    return wrong_kind or f"no action makes {atom} true"
-
-
-def _said(part: Formula, binding: Mapping[str, str]) -> str:
-    text = format_formula(part)
-    for variable, name in sorted(binding.items(), key=lambda pair: -len(pair[0])):
-        text = text.replace(variable, name)
-    return " ".join(text.split())
-
-
-def _wanted(condition: Formula, binding: Mapping[str, str]) -> Iterator[GroundAtom]:
-    """The ground atoms of a condition whose variables are bound."""
-    for atom in _atoms(condition):
-        args = tuple(binding.get(term, term) for term in atom.terms)
-        if not any(a.startswith("?") for a in args):
-            yield GroundAtom(split_predicate(atom.predicate)[0], args)
-
-
-def _atoms(formula: Formula) -> Iterator[Atom]:
-    match formula:
-        case Atom():
-            yield formula
-        case Not(part) | Forall(_, part) | Exists(_, part):
-            yield from _atoms(part)
-        case And(parts) | Or(parts):
-            for part in parts:
-                yield from _atoms(part)
-        case Imply(left, right):
-            yield from _atoms(left)
-            yield from _atoms(right)
-
-
-def _quantified(formula: Formula) -> set[str]:
-    match formula:
-        case Forall(parameters, part) | Exists(parameters, part):
-            return {p.name for p in parameters} | _quantified(part)
-        case Not(part):
-            return _quantified(part)
-        case And(parts) | Or(parts):
-            return set().union(*(_quantified(part) for part in parts))
-        case Imply(left, right):
-            return _quantified(left) | _quantified(right)
-    return set()
+    def _atom(self, formula: Atom, binding: Mapping[str, str]) -> Formula:
+        predicate, operator = split_predicate(formula.predicate)
+        atom = GroundAtom(predicate, tuple(binding.get(term, term) for term in formula.terms))
+        places = [place for place, term in enumerate(formula.terms) if term in self.slots]
+        spared = self.moments.excepted
+        meant = [a for a in self.grounder.standing_in(atom, places) if a == atom or spared.isdisjoint(a.args)]
+        self.live += len(meant)
+        if operator:
+            state = self.moments.now if operator == WAS else self.moments.first
+            return TRUE if any(self.grounder.holds(one, state) for one in meant) else FALSE
+        task = self.grounder.task
+        if any(one in task.static and one not in task.index for one in meant):
+            return TRUE
+        return disjunction(Atom(one.predicate, one.args) for one in meant)

@@ -6,6 +6,7 @@ from collections.abc import Collection
 from functools import lru_cache
 from weakref import WeakKeyDictionary
 
+from tmd.goals.base import LeftOut, shared_meanings
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table
 from tmd.language.lexicon.lexicon import Lexicon
@@ -13,18 +14,36 @@ from tmd.pddl.model import Domain
 
 SOURCES = (DECLARED, LEARNED, ACTIONS)
 """All sources of goals, the surest first."""
-_DECLARED: WeakKeyDictionary[Lexicon, dict[Domain, GoalTable]] = WeakKeyDictionary()
+_DECLARED: WeakKeyDictionary[Lexicon, dict[Domain, tuple[GoalTable, tuple[LeftOut, ...]]]] = WeakKeyDictionary()
 
 
 def declared_goals(lexicon: Lexicon, domain: Domain) -> GoalTable:
-    """Return the goals that a lexicon declares for a domain; they are read once.
+    """Return the goals that a lexicon declares for a domain, its own before those of base lexicons; they are read once.
 
     Raises:
         TmdError: A row is wrong; with its place.
     """
+    return _declared(lexicon, domain)[0]
+
+
+def left_out(lexicon: Lexicon, domain: Domain) -> tuple[LeftOut, ...]:
+    """Return the rows of base lexicons that are not used in a domain, with reasons.
+
+    Raises:
+        TmdError: A row is wrong; with its place.
+    """
+    return _declared(lexicon, domain)[1]
+
+
+def _declared(lexicon: Lexicon, domain: Domain) -> tuple[GoalTable, tuple[LeftOut, ...]]:
     known = _DECLARED.setdefault(lexicon, {})
     if domain not in known:
-        known[domain] = read_table(lexicon.goals, lexicon.attributes, lexicon.groups, domain)
+        own = read_table(lexicon.goals, lexicon.attributes, lexicon.groups, domain)
+        shared = shared_meanings(lexicon, domain, own.rows, own.attributes)
+        place = len(own.rows) if lexicon.base.place is None else lexicon.base.place
+        rows = (*own.rows[:place], *shared.rows, *own.rows[place:])
+        table = GoalTable(rows, {**shared.attributes, **own.attributes}, own.groups)
+        known[domain] = table, shared.left_out
     return known[domain]
 
 

@@ -15,11 +15,14 @@ from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
 from tmd.language.syntax.antecedents import resolve
+from tmd.language.syntax.brackets import Bracketer
+from tmd.language.syntax.joins import join
+from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
-from tmd.language.syntax.reading import TextReading, parse_tokens
-from tmd.language.syntax.shape import shape
+from tmd.language.syntax.reading import TextReading
 from tmd.language.syntax.tagger import decide, tag
 from tmd.language.syntax.tokens import MARKUP, Kind, Token, drop_repeats, tokenise
+from tmd.language.syntax.tree import parse_tokens
 
 NO_VERB = "no verb that this could belong to"
 FOREIGN = "most words are not English"
@@ -63,10 +66,10 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
     tokens, dropped = rewrite(tokens, words, trace)
-    shaped, taken_back = shape(tokens, words)
-    reading = TextReading(text).read(parse_tokens(shaped))
+    bracketer = Bracketer(join(tokens, words), words)
+    reading = TextReading(text).read(parse_tokens(Linker(bracketer.run()).run()))
     clauses, constraints = resolve(reading)
-    rest = [*tokens, *markup, *repeated, *dropped, *taken_back, *reading.skipped]
+    rest = [*tokens, *markup, *repeated, *dropped, *bracketer.dropped, *reading.skipped]
     return Parsed(text, clauses, _skipped(text, (*clauses, *constraints), rest), constraints)
 
 
@@ -142,18 +145,14 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         clauses: Its clauses.
         tokens: Every token, folded or not; those with a ``note`` know why they are skipped.
     """
-    noted_spans = [t.span for t in tokens if t.kind is Kind.SKIP]
-    covered = _merge([*(c.span for c in clauses), *noted_spans])
+    covered = _merge([*(c.span for c in clauses), *(t.span for t in tokens if t.kind is Kind.SKIP)])
     pieces: list[tuple[Span, str]] = []
     place = 0
     for token in sorted(tokens, key=lambda t: t.span):
         while place < len(covered) and covered[place].end <= token.span.start:
             place += 1
         inside = place < len(covered) and covered[place].start <= token.span.start
-        noted = token.kind is Kind.SKIP or bool(token.note)
-        if inside and not noted:
-            continue
-        if not noted and (token.kind in (Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC) or _all_filler(token)):
+        if _is_idle(token, inside=inside):
             continue
         reason = token.note or NO_VERB
         if pieces and pieces[-1][1] == reason and _adjacent(text, pieces[-1][0], token.span, reason):
@@ -161,6 +160,16 @@ def _skipped(text: str, clauses: Sequence[Clause], tokens: Sequence[Token]) -> t
         else:
             pieces.append((token.span, reason))
     return tuple(Skipped(text[s.start : s.end], s, reason) for s, reason in pieces)
+
+
+def _is_idle(token: Token, *, inside: bool) -> bool:
+    """Tell whether nothing is to be said of a token: a clause covers it, or it carries nothing."""
+    if token.kind is Kind.SKIP or token.note:
+        return False
+    return inside or token.kind in _SIGNS or _all_filler(token)
+
+
+_SIGNS = frozenset({Kind.STOP, Kind.SEP, Kind.COMMA, Kind.CONJ, Kind.VCC, Kind.LINK, Kind.END})
 
 
 def _all_filler(token: Token) -> bool:

@@ -12,13 +12,12 @@ from functools import cached_property
 from pathlib import Path
 
 from tmd.diagnostics import TmdError
+from tmd.files import bundled
 from tmd.pddl.model import Domain
 from tmd.pddl.reading.reader import read_domain
 from tmd.pddl.reading.syntax import nearest
 from tmd.world.classes import Classes, no_classes
 from tmd.world.yaml_positions import YamlSource
-
-_PACKAGE = Path(__file__).resolve().parent.parent
 
 
 @dataclass(frozen=True)
@@ -89,7 +88,7 @@ def find_roots(kind: str, given: Path | None = None) -> list[Path]:
         if not given.is_dir():
             raise TmdError(f"{given}: no such directory", hint=f"--{kind} takes the directory of all {kind}")
         return [given]
-    candidates = (Path(kind), _PACKAGE / "bundled" / kind, _PACKAGE.parent / kind)
+    candidates = (Path(kind), *bundled(kind))
     found: dict[Path, Path] = {}
     for candidate in candidates:
         if candidate.is_dir():

@@ -18,11 +18,12 @@ if TYPE_CHECKING:
 
 
 @click.command("check", short_help="Find everything that is wrong with domains, problems and their files.")
-@click.argument("paths", metavar="PATH...", nargs=-1, required=True)
+@click.argument("paths", metavar="PATH...", nargs=-1)
 @click.option("--domain", metavar="FILE", help="The domain of the problems; otherwise it is looked for.")
 @click.option("--strict", is_flag=True, help="Treat warnings as errors.")
 @click.option("--notes", is_flag=True, help="Print notes as well.")
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
+@click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.option(
     "--format",
@@ -40,18 +41,26 @@ def command(
     strict: bool,
     notes: bool,
     fix: bool,
+    explain: str | None,
     as_json: bool,
     form: str,
 ) -> ExitCode:
     """Check files and folders, and tell every problem with its place and what to do.
 
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
+    With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
     from tmd.check.codes import Severity
     from tmd.check.report import check_paths
 
     if as_json and form != "text":
         raise click.UsageError("give --json or --format, not both")
+    if explain is not None:
+        if domain or strict or notes or fix or form != "text":
+            raise click.UsageError("--explain takes domains and --json only")
+        return _explain(roots, explain, paths, as_json)
+    if not paths:
+        raise click.UsageError("Missing argument 'PATH...'.")
     given = roots.pddl_file(domain) if domain else None
     chosen = [roots.path(path) for path in paths]
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
@@ -67,6 +76,18 @@ def command(
     count = report.counts
     faulty = count[Severity.ERROR] or (strict and count[Severity.WARNING])
     return ExitCode.FAULTS_FOUND if faulty else ExitCode.OK
+
+
+def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> ExitCode:
+    """Print what is known of a verb, in English and in each of the domains."""
+    from tmd.check.explain import explain, explanation_json, explanation_text
+
+    found = explain(verb, [roots.corpus(roots.folder(name)) for name in names])
+    if as_json:
+        emit_json(explanation_json(found))
+    else:
+        emit(explanation_text(found))
+    return ExitCode.OK
 
 
 def _annotate(form: str, shown: Sequence[Diagnostic]) -> None:

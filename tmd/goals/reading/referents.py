@@ -1,4 +1,4 @@
-"""What the noun phrases of a clause mean: which things of the environment, and how many of them."""
+"""The meaning of the noun phrases of a clause: which things of the environment, and how many of them."""
 
 from __future__ import annotations
 
@@ -7,28 +7,33 @@ from dataclasses import replace
 from itertools import pairwise
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseReading, Unit
+from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.grounder import Grounder, Moments
-from tmd.goals.reading.noun_phrases import EVERYTHING, INVERSE, PART_OF, Memory, Mode, Nouns, Referent, mode_of
-from tmd.goals.sources.table import (
-    GoalRow,
-    GoalTable,
-    Slot,
-    slot_types,
-    state_words,
+from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS, Context, choose
+from tmd.goals.reading.noun_phrases import Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
+from tmd.goals.words import (
+    IT,
+    NEGATED,
+    ONE,
+    SETTING,
+    ends_as,
+    is_noun,
+    is_one,
+    is_pronoun,
+    is_relation,
+    table,
+    the_word,
     words_of,
 )
 from tmd.language.clause import PERSONS, Clause, Mood, NounPhrase, Quantifier, Relation
 from tmd.language.lexicon.lexicon import Lexicon, section
-from tmd.language.lexicon.nouns import split_name
-from tmd.language.syntax.antecedents import is_one, is_pronoun
+from tmd.language.lexicon.nouns import ALIAS, split_name
+from tmd.pddl.model import OBJECT
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
-PLACES = frozenset({"in", "into", "inside", "on", "onto", "to", "next_to", "under", "at"})
-"""Relations to where something is, or shall be."""
-EXCEPTING = frozenset({"except", "besides", "apart_from"})
-"""Relations to what is left out."""
+ANY_TYPE = (OBJECT,)
 
 
 class Referents:
@@ -36,68 +41,71 @@ class Referents:
 
     Args:
         world: The environment.
-        table: What adjectives and groups mean.
+        table: The meanings of adjectives and groups.
         lexicon: The domain's words.
+        grounder: Grounds conditions.
         guess: Whether a thing may be taken for what a noun is only like in meaning.
     """
 
-    def __init__(self, world: World, table: GoalTable, lexicon: Lexicon, *, guess: bool = False) -> None:
+    def __init__(
+        self, world: World, table: GoalTable, lexicon: Lexicon, grounder: Grounder, *, guess: bool = False
+    ) -> None:
         self.world = world
         self.lexicon = lexicon
         self.domain = world.task.problem.domain
-        self.grounder = Grounder(world)
-        self.nouns = Nouns(world, table, self.grounder, guess=guess)
+        self.grounder = grounder
+        self.nouns = Nouns(world, table, grounder, guess=guess)
+
+    # ------------------------------------------------------------------ relations of a clause
 
     def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
-        """The relations in which a noun stands, each with what it is related to."""
+        """Return the relations in which a noun stands, each with what it is related to."""
         said = self._without_rooms(clause)
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
-            found.append(("to", clause.setting.split()[-1]))
-        contents = {r.source: r.target for r in clause.relations if r.relation == "of"}
+            found.append((SETTING, clause.setting.split()[-1]))
+        contents = {r.source: r.target for r in clause.relations if is_relation(r.relation, "partitive")}
         measures = words_of("measures")
-        # "coffee with two spoons of sugar" is with sugar
-        found = [(r, contents.get(t, t) if r == "with" or (t in measures and r != "of") else t) for r, t in found]
+
+        def measured(relation: str, target: str) -> bool:  # "coffee with two spoons of sugar" is with sugar
+            of = is_relation(relation, "partitive")
+            return is_relation(relation, "accompanying") or (target in measures and not of)
+
+        found = [(r, contents.get(t, t) if measured(r, t) else t) for r, t in found]
+        # "the eggs in the fridge except the one on the shelf": what is acted on is excepted from
+        excepted = [(r.relation, r.target) for r in said if is_relation(r.relation, "excepting")]
+        found = [pair for pair in found if pair not in excepted] + (excepted if name in clause.direct else [])
         return [(r, t) for r, t in found if t not in PERSONS]
 
     def _without_rooms(self, clause: Clause) -> Sequence[Relation]:
-        """All relations but that to the room, where everything is: "in the room on the shelf" is on the shelf.
+        """Return all relations but that to the room, where everything is: "in the room on the shelf" is on the shelf.
 
         Where a thing is to be put nowhere else, the room stays, and nothing is called so.
         """
-        rooms = words_of("rooms")
-        inside = {
-            r.target: r.source
-            for r in clause.relations
-            if r.relation in ("in", "inside") and r.target in rooms and not self.nouns.things(r.target, 0)
-        }
+        rooms = [r for r in clause.relations if r.target in words_of("rooms") and is_relation(r.relation, "inside")]
+        inside = {r.target: r.source for r in rooms if not self.nouns.things(r.target, 0)}
         others = [r for r in clause.relations if r.target not in inside]
         if not others and clause.verb in section("placing"):
             return clause.relations
         return [r._replace(source=inside.get(r.source, r.source) if r.source else None) for r in others]
 
     def units(self, reading: ClauseReading) -> list[Unit]:
-        """What the verb acts on, one by one, with the relations of each; measures make room for what they measure."""
+        """Return what the verb acts on, one by one, with the relations of each."""
         clause = reading.clause
         direct = [name for name in clause.direct if name not in PERSONS]
-        if not direct:
-            direct = [""] if "" in clause.antecedents else []
-        none = [name for name in direct if clause.phrase(name).quantifier is Quantifier.NONE]
-        if 0 < len(none) < len(direct):
+        direct = direct or ([""] if "" in clause.antecedents else [])
+        none = [name for name in direct if is_none(name, clause)]
+        if len(none) < len(direct):
             direct = [name for name in direct if name not in none]  # "coffee, no sugar"
         units = [Unit(name, self.relations_of(name, clause)) for name in direct]
-        for unit in units if len(none) and none != direct else ():
-            unit.relations += [("without", name) for name in none if name not in direct]
+        without = the_word("relations", "lacking")
         for unit in units:
-            # "in the bowl, no raspberry": joined to a place, and no place
-            places = {r for r, t in unit.relations if clause.phrase(t).quantifier is not Quantifier.NONE}
-            joined = (clause.phrase(t).quantifier is Quantifier.NONE and r in places for r, t in unit.relations)
-            unit.relations = [("without" if no else r, t) for (r, t), no in zip(unit.relations, joined, strict=True)]
-            measured = next((t for r, t in unit.relations if r == "of"), None)
+            unit.relations = self._lacking(unit.relations, clause)
+            unit.relations += [(without, name) for name in none if name not in direct]
+            measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
             if unit.direct in words_of("measures") and measured is not None:
-                unit.relations = [(r, t) for r, t in unit.relations if r != "of"] + self.relations_of(measured, clause)
-                unit.direct = measured
-        for unit in units:
+                others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
+                unit.direct, unit.relations = measured, others + self.relations_of(measured, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
@@ -105,25 +113,33 @@ class Referents:
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
 
+    def _lacking(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
+        """Return relations with *without* for what is joined to a place: "in the bowl, no raspberry"."""
+        none = {t for _, t in relations if is_none(t, clause)}
+        places = {r for r, t in relations if t not in none}
+        without = the_word("relations", "lacking")
+        return [(without if t in none and r in places else r, t) for r, t in relations]
+
     def _whereabouts(self, relation: str, target: str, reading: ClauseReading) -> list[tuple[str, str]]:
-        """Where something is now, for "where the plate is"; any other relation is as it was said."""
-        if relation != "where" or reading.clause.mood is Mood.KEEP:
+        """Return where something is now, for "where the plate is"; any other relation as it was said."""
+        if not is_relation(relation, "locating") or reading.clause.mood is Mood.KEEP:
             return [(relation, target)]
-        places: list[tuple[str, str]] = [
+        resting = sorted(words_of("relations", "resting"))
+        places = [
             (where, other)
             for name in self.targets(target, reading)[:1]
             for fact in self.nouns.facts_about(name)
             if self.grounder.holds(fact, reading.state) and fact.args[0] == name
             for other in fact.args[1:]
-            for where in ("in", "on")
-            if (other not in self.world.profiles.constants or other in self.nouns.places)
+            for where in resting
+            if (not self.nouns.is_constant(other) or other in self.nouns.places)
             and where in fact.args
-            and self.grounder.truth(self.nouns.related(where, name, other, reading.moments), reading.state)
+            and self.nouns.related_now((name,), where, (other,), reading.moments)
         ]
         return places[:1] or [(relation, target)]
 
     def reattached(self, reading: ClauseReading) -> Clause:
-        """The clause with the last of two places as where its thing shall be: "the cup on the table in the sink".
+        """Return the clause with the last of two places as the destination: "the cup on the table in the sink".
 
         The parser takes that for a table in the sink. It is not where the first place tells which cup is meant, and the
         table is in no sink.
@@ -135,25 +151,19 @@ class Referents:
         for number, relation in enumerate(clause.relations):
             source = relation.source or ""
             hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
-            if relation.relation not in PLACES or not hosts or source in clause.direct:
+            if not is_relation(relation.relation, "place") or not hosts or source in clause.direct:
                 continue
             target = self.targets(relation.target, reading)
-            now = self.nouns.related_now(
-                Referent(source, self.targets(source, reading)),
-                relation.relation, target, reading.state, reading.moments,
-            )  # fmt: skip
-            units = [Unit(host.source, []) for host in hosts]
-            tells = all(self.tells_which(u, h.relation, h.target, reading) for u, h in zip(units, hosts, strict=True))
-            if target and not now and tells:
+            now = self.nouns.related_now(self.targets(source, reading), relation.relation, target, reading.moments)
+            if target and not now and all(self.tells_which(h.source, h.relation, h.target, reading) for h in hosts):
                 found[number] = relation._replace(source=hosts[0].source)
                 found += [relation._replace(source=host.source) for host in hosts[1:]]
         return replace(clause, relations=tuple(found)) if found != list(clause.relations) else clause
 
-    def tells_which(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
-        """Whether a relation of what is acted on holds now of one of its candidates."""
-        if not unit.direct:
+    def tells_which(self, noun: str | None, relation: str, target: str, reading: ClauseReading) -> bool:
+        """Return whether a relation of what is acted on holds now of one of its candidates."""
+        if not noun:
             return False
-        noun = unit.direct
         if is_one(noun) and self._is_pronoun(noun):  # "the one in the sink goes on the shelf", of mugs
             noun = next(iter(reading.clause.antecedents.get(noun, ())), noun)
         referent = Referent(noun, self.nouns.things(noun, reading.state))
@@ -162,123 +172,134 @@ class Referents:
     def described(
         self, referent: Referent, relation: str, targets: Sequence[str], reading: ClauseReading
     ) -> tuple[str, ...]:
-        """The candidates that stand in a relation now, or where none does any more, that stood in it at first.
+        """Return the candidates that stand in a relation now, or where none does, those that stood in it at first.
 
         *Clear the table. What is on it goes on the shelf.* Of several things that one is meant that stood there all
         along: *The mug in the sink goes on the shelf, and the mug on the shelf in the sink.*
         """
         first = reading.memory.first
-        then = self.nouns.related_now(referent, relation, targets, first, Moments(first, first))
-        now = self.nouns.related_now(referent, relation, targets, reading.state, reading.moments)
+        then = self.nouns.related_now(referent.names, relation, targets, Moments(first, first))
+        now = self.nouns.related_now(referent.names, relation, targets, reading.moments)
         one = referent.definite and referent.mode is Mode.ANY
         return (tuple(n for n in now if n in then) if one else ()) or now or then
 
     def unplaced(self, unit: Unit, relation: str, target: str, reading: ClauseReading) -> bool:
-        """Whether a relation says a place where what is acted on is not yet."""
-        place = relation in ("in", "into", "inside", "on", "onto", "to", "next_to", "on_top_of", "over", "beside")
-        return place and bool(self.targets(target, reading)) and not self.tells_which(unit, relation, target, reading)
+        """Return whether a relation says a place where what is acted on is not yet."""
+        place = is_relation(relation, "unplaced") and bool(self.targets(target, reading))
+        return place and not self.tells_which(unit.direct, relation, target, reading)
+
+    # ------------------------------------------------------------------ pronouns
 
     def points_back(self, noun: str) -> bool:
-        """Whether a noun, or its absence, stands for something that was spoken of."""
+        """Return whether a noun, or its absence, stands for something that was spoken of."""
         return not noun or self._is_pronoun(noun) or noun in words_of("anaphors")
 
     def _is_pronoun(self, noun: str) -> bool:
-        """Whether a noun is a pronoun, and no name that the domain has for something: ``red_one: [red_block]``."""
+        """Return whether a noun is a pronoun, and no name of the domain: ``red_one: [red_block]``."""
         return is_pronoun(noun) and noun not in self.lexicon.nouns
 
+    def puts_back(self, reading: ClauseReading) -> bool:
+        """Return whether things go where they were: the milk is its carton then, and not the cup that has some."""
+        verb = reading.clause.verb
+        return any(ends_as(name, "back") for name in (verb, self.lexicon.canonical_verb(verb)))
+
     def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
-        """What a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
+        """Return what a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
         clause, memory = reading.clause, reading.memory
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [(noun, False)]
-        nouns = [(name, False) for name in clause.antecedents.get(noun, ())]
-        if self._puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
-            nouns.sort(key=lambda each: not self._was_there(each[0], noun, reading))
-        seen = {n for name, _ in nouns for n in (memory.bound[name].names if name in memory.bound else ())}
-        return [*nouns, *((name, True) for name in memory.recent if name not in seen)]
+        nouns = list(clause.antecedents.get(noun, ()))
+        if self.puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
+            nouns.sort(key=lambda name: not self._was_there(name, noun, reading))
+        seen = {n for name in nouns if name in memory.bound for n in memory.bound[name].names}
+        return [*((name, False) for name in nouns), *((name, True) for name in memory.recent if name not in seen)]
 
     def _was_there(self, antecedent: str, pronoun: str, reading: ClauseReading) -> bool:
-        """Whether what was spoken of was, before anything was done, where the pronoun shall be put."""
-        things = Referent(antecedent, self.nouns.things(antecedent, reading.state))
+        """Return whether what was spoken of was, before anything was done, where the pronoun shall be put."""
+        moments = replace(reading.moments, now=reading.memory.first)
+        things = self.nouns.things(antecedent, reading.state)
         return any(
-            self.nouns.related_now(
-                things, relation, self.targets(place, reading), reading.memory.first, reading.moments
-            )
+            is_relation(relation, "place")
+            and self.nouns.related_now(things, relation, self.targets(place, reading), moments)
             for relation, place in self.relations_of(pronoun, reading.clause)
-            if relation in PLACES
         )
 
     def referents(
-        self, noun: str, row: GoalRow, slot: Slot, relations: Iterable[tuple[str, str]], reading: ClauseReading
+        self, noun: str, row: GoalRow, slot: Slot, relations: Sequence[tuple[str, str]], reading: ClauseReading
     ) -> list[Referent]:
-        """What may stand in a slot, likeliest first: one reading for a noun, one for each antecedent of a pronoun."""
+        """Return what may stand in a slot, likeliest first: one for a noun, one for each antecedent of a pronoun."""
         types = slot_types(row.condition, slot.variable, self.domain)
         clause = reading.clause
-        phrase = clause.phrase(noun)
         if not self.points_back(noun):
-            plain = noun in EVERYTHING and phrase.quantifier is Quantifier.ALL and not (phrase.attributes or relations)
-            mixed = self._brought_together(types, reading) if plain else ()
-            first = [Referent(noun, mixed, definite=True)] if mixed else []
-            return [*first, self._named(noun, phrase, types, list(relations), reading, place=slot.is_place)]
+            phrase = clause.phrase(noun)
+            found = [self._named(noun, phrase, types, relations, reading, place=slot.is_place)]
+            plain = not (phrase.attributes or relations) and phrase.quantifier is Quantifier.ALL
+            mixed = self._brought_together(types, reading) if plain and is_noun(noun, "everything") else ()
+            return [Referent(noun, mixed, definite=True), *found] if mixed else found
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
         options = self.antecedents(noun, reading)
         if reading.antecedent is not None and noun == reading.pronoun:
             options = options[reading.antecedent : reading.antecedent + 1]
-        found = []
-        for name, is_object in options:
-            if not is_object:
-                found.append(self._antecedent(name, noun, types, reading))
-            elif self.grounder.is_a(name, types):
-                found.append(Referent(noun or "it", (name,), definite=True))
-            else:
-                inside = tuple(c for c in self.nouns.contents(name, reading.state) if self.grounder.is_a(c, types))
-                found.append(Referent(noun or "it", inside))
-        return [referent for referent in found if referent.names] or [Referent(noun or "it", ())]
+        meant = (
+            self._of_object(name, noun, types, reading) if is_object else self._antecedent(name, noun, types, reading)
+            for name, is_object in options
+        )
+        return [referent for referent in meant if referent.names] or [Referent(noun or IT, ())]
+
+    def _of_object(self, name: str, noun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        """Return a pronoun as an object that was spoken of, or what that contains."""
+        if self.grounder.is_a(name, types):
+            return Referent(noun or IT, (name,), definite=True)
+        return Referent(noun or IT, self._contained((name,), types, reading))
+
+    def _contained(self, names: Iterable[str], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
+        inside = (c for name in names for c in self.nouns.contents(name, reading.state))
+        return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        """What a pronoun means if it stands for ``antecedent``: what that turned out to be."""
+        """Return a pronoun as if it stood for ``antecedent``: what that turned out to be."""
         if is_one(pronoun):
-            said = reading.clause.phrase(pronoun)
-            relations = self.relations_of(pronoun, reading.clause)
-            spoken = reading.memory.bound.get(antecedent)
-            same = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
-            within = antecedent in reading.clause.phrases and antecedent not in reading.taken
-            if said.quantifier is Quantifier.OTHER and within:  # "from the table with the mug to the other one"
-                first, whole = self.targets(antecedent, reading), self._antecedent_of_kind(antecedent, types, reading)
-                if first and set(first) < set(whole.names):
-                    return replace(whole, noun=pronoun, names=tuple(n for n in whole.names if n not in first))
-            if pronoun == "one" and same and spoken is not None:  # "… the other plate. Put that one in the sink."
-                return self._antecedent(antecedent, "it", types, reading)
-            return replace(
-                self._named(antecedent, replace(said, name=antecedent), types, relations, reading), noun=pronoun
-            )
+            return replace(self._one_of(antecedent, pronoun, types, reading), noun=pronoun)
         bound = reading.memory.bound.get(antecedent)
-        if bound is not None and bound.containers and self._puts_back(reading):
+        many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent)
+        if bound is None:
+            phrase = NounPhrase(antecedent, definite=True, plural=many)
+            return self._named(antecedent, phrase, types, [], reading)
+        if bound.containers and self.puts_back(reading):
             things = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
             if things.names:
                 return things
-        many = pronoun in ("them", "they", "these", "those", "both", "all") or self.nouns.is_group(antecedent)
-        if bound is not None:
-            names = tuple(n for n in (*bound.names, *bound.containers) if self.grounder.is_a(n, types))
-            if not names:
-                inside = (c for n in (*bound.names, *bound.containers) for c in self.nouns.contents(n, reading.state))
-                names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
-                return Referent(antecedent, names)
-            names = self._by_now(names, types, reading)
-            mode = Mode.ALL if many and len(names) > 1 else Mode.ANY
-            return Referent(antecedent, names if mode is Mode.ALL else names[:1] or names, mode, definite=True)
-        return self._named(antecedent, NounPhrase(antecedent, definite=True, plural=many), types, [], reading)
+        known = (*bound.names, *bound.containers)
+        names = tuple(n for n in known if self.grounder.is_a(n, types))
+        if not names:
+            return Referent(antecedent, self._contained(known, types, reading))
+        names = self._by_now(names, types, reading)
+        if many and len(names) > 1:
+            return Referent(antecedent, names, Mode.ALL, definite=True)
+        return Referent(antecedent, names[:1], definite=True)
 
-    def _antecedent_of_kind(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        """All that a noun may mean, whatever else was said of it."""
-        return self._named(noun, NounPhrase(noun), types, [], reading)
+    def _one_of(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
+        """Return *the other one* and *the red one* as one of what was spoken of."""
+        said = reading.clause.phrase(pronoun)
+        relations = self.relations_of(pronoun, reading.clause)
+        plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
+        within = antecedent in reading.clause.phrases and antecedent not in reading.taken
+        if said.quantifier is Quantifier.OTHER and within:  # "from the table with the mug to the other one"
+            first = self.targets(antecedent, reading)
+            whole = self._named(antecedent, NounPhrase(antecedent), types, [], reading)
+            if first and set(first) < set(whole.names):
+                return whole.only(n for n in whole.names if n not in first)
+        if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
+            return self._antecedent(antecedent, IT, types, reading)
+        return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
 
     def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        names: dict[str, None] = {}
-        for noun in nouns:
-            names.update(dict.fromkeys(self._antecedent(noun, "them", types, reading).names))
-        return Referent(pronoun, tuple(names), Mode.ALL)
+        all_of_them = the_word("nouns", "plural")
+        names = (n for noun in nouns for n in self._antecedent(noun, all_of_them, types, reading).names)
+        return Referent(pronoun, tuple(dict.fromkeys(names)), Mode.ALL)
+
+    # ------------------------------------------------------------------ nouns
 
     def _named(
         self,
@@ -290,120 +311,94 @@ class Referents:
         *,
         place: bool = False,
     ) -> Referent:
-        """The candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
+        """Return the candidates of a noun of the wanted type, but for those that adjectives and relations leave out."""
         likely = self.nouns.things(noun, reading.state, place=place, types=types)
-        things = tuple(n for n in likely if self.grounder.fits(n, types))
-        if phrase.definite and not phrase.plural and not relations:
-            things = self._part_of(reading.memory.recent, noun) or things
-        for relation, target in relations:
-            if relation in PART_OF:
-                things = self._part_of(self.targets(target, reading), noun) or things
-            if relation == "of":
-                held = self.nouns.holders(noun, self.targets(target, reading), reading.state, reading.moments)
-                things = tuple(n for n in held if self.grounder.fits(n, types)) or things
-        if not likely and noun in words_of("parts"):
-            # "the lid", where lids are no things of their own, is that of what was spoken of
-            spoken = [n for n in reading.memory.recent if self.grounder.is_a(n, types)]
-            opened = [n for n in spoken if self.nouns.state_of(state_words("open"), n) is not None]
-            things = tuple(opened or spoken)[:1]
-        plain = phrase.quantifier is Quantifier.PLAIN and not self._puts_back(reading)
-        inside = self._by_now_in(noun, types, reading) if plain else ()
-        if inside and place:
-            return Referent(noun, inside, definite=True)
-        if inside and phrase.definite:
-            things = tuple(n for n in things if n in inside) or things  # "until the water boils": the water in the pot
-        wanted_constants = self._constants(noun, phrase, types, reading)
-        for target in (target for relation, target in relations if relation == "of"):
-            inside = self.nouns.constants(target, types, reading.state)  # "a bottle of raspberry syrup": of all bottles
-            wanted_constants = tuple(c for c in wanted_constants if c in inside) or wanted_constants
-        objects = tuple(n for n in things if n not in self.world.profiles.constants)
-        group = self.nouns.is_group(noun) and not (place and noun in self.lexicon.nouns)
-        if not objects and wanted_constants:
-            few = self.nouns.too_few(phrase, wanted_constants, reading.state)
+        context = Context(self, reading, noun, phrase, types, relations, place, likely)
+        things = choose(THINGS, context.fitting(likely), context)
+        constants = choose(SUBSTANCES, self._constants(noun, phrase, types, reading), context)
+        objects = tuple(n for n in things if not self.nouns.is_constant(n))
+        if not objects and constants:
+            few = self.nouns.too_few(phrase, constants, reading.state)
             mode, number = mode_of(phrase, group=False, thing=bool(few))
-            return Referent(noun, few or wanted_constants, mode, number, phrase.definite)
-        mode, number = mode_of(phrase, group=group, thing=True, place=place)
-        among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and things == likely
+            return Referent(noun, few or constants, mode, number, phrase.definite)
+        referent = self._counted(objects, context, certain=things == likely)
+        return self._told_apart(referent, context)
+
+    def _counted(self, objects: tuple[str, ...], context: Context, *, certain: bool) -> Referent:
+        """Return how many of the objects that a noun may mean are meant."""
+        noun, phrase, relations = context.noun, context.phrase, context.relations
+        group = self.nouns.is_group(noun) and not (context.place and noun in self.lexicon.nouns)
+        mode, number = mode_of(phrase, group=group, thing=True, place=context.place)
+        among = phrase.quantifier in (Quantifier.SOME, Quantifier.OTHER) and len(objects) == 1 and certain
         several = mode is not Mode.ANY or (among and not relations and not phrase.attributes)
         if several and not group:  # "one of the lamps", "the other lamp": where there is but one lamp, a floor lamp
-            objects, group = self._all_kinds(noun, objects, types, reading.state, all_of_it=mode is Mode.ALL)
+            every = mode in (Mode.ALL, Mode.NUMBER)
+            objects, group = self._all_kinds(noun, objects, context.types, context.reading, all_of_it=every)
         if phrase.number == 2 and mode is Mode.ALL:
             mode, number, group = Mode.NUMBER if len(objects) != 2 else mode, 2, False
         definite = phrase.definite and phrase.quantifier is not Quantifier.SOME  # "one of the lamps": any of them
-        referent = Referent(noun, objects, mode, number, definite, group, phrase.each)
-        whole = referent.names
-        referent, unknown = self.nouns.narrowed(referent, phrase, reading.state, reading.moments)
-        if (
-            whole
-            and not referent.names
-            and any(r.source == noun and r.relation == "of" for r in reading.clause.relations)
-        ):
+        return Referent(noun, objects, mode, number, definite, group, phrase.each)
+
+    def _told_apart(self, whole: Referent, context: Context) -> Referent:
+        """Return the candidates that the adjectives, the relations and the rest of the text leave."""
+        noun, phrase, reading = context.noun, context.phrase, context.reading
+        names, unknown = self.nouns.narrowed(whole.names, phrase, reading.moments)
+        clause = reading.clause
+        filled = any(r.source == noun and is_relation(r.relation, "partitive") for r in clause.relations)
+        if filled and whole.names and not names:
             # "a hot cup of coffee": the cup shall be so, with what is in it
             reading.wanted[noun] = phrase.attributes
-            referent = replace(referent, names=whole)
-        if any(word.startswith(("that_", "which_", "who_")) for word in unknown) and len(referent.names) > 1:
-            referent = replace(referent, names=())
-        reading.notes += [f"'{word.replace('_', ' ')}' says nothing here that could be checked" for word in unknown]
-        referent = self._restricted(referent, relations, reading, replace(referent, names=whole))
-        if referent.mode is Mode.ALL and noun in reading.clause.direct:  # "all of it to the table, but leave the bowl"
-            free = tuple(n for n in referent.names if n not in reading.memory.left)
-            referent = replace(referent, names=free or referent.names)
+            names = whole.names
+        if unknown and self.nouns.guess:
+            reading.notes += [f"'{words(word)}' says nothing here that could be checked" for word in unknown]
+        elif unknown:
+            names = ()
+        referent = self._restricted(whole.only(names), context.relations, reading, whole)
+        if referent.mode is Mode.ALL:  # "all of it to the table, but leave the bowl"
+            referent = referent.only(choose(NOT_LEFT, referent.names, context))
         if noun in reading.taken:
             other, one = phrase.quantifier is Quantifier.OTHER, reading.taken[noun]
-            return replace(referent, names=tuple(n for n in referent.names if (n == one) != other))
-        bound = reading.memory.bound.get(noun)
-        if bound is not None and phrase.quantifier is Quantifier.OTHER:
-            return replace(referent, names=tuple(n for n in referent.names if n not in bound.names))
-        if place and phrase.quantifier is Quantifier.OTHER:
-            left = set(self._places_now(referent, reading))  # "to the other table": not the one where it is
-            return replace(referent, names=tuple(n for n in referent.names if n not in left) or referent.names)
-        if bound is not None and phrase.definite and mode is Mode.ANY and set(bound.names) & set(referent.names):
-            return replace(referent, names=tuple(n for n in referent.names if n in bound.names))
+            return referent.only(n for n in referent.names if (n == one) != other)
+        if phrase.quantifier is Quantifier.OTHER:
+            return self._other(referent, context)
+        if phrase.definite and whole.mode is Mode.ANY:
+            return referent.only(choose(AS_BEFORE, referent.names, context))
         return referent
+
+    def _other(self, referent: Referent, context: Context) -> Referent:
+        """Return those of several things that were not spoken of; of places those where the thing is not."""
+        bound = context.reading.memory.bound.get(context.noun)
+        if bound is not None:
+            return referent.only(n for n in referent.names if n not in bound.names)
+        left = self._places_now(referent, context.reading) if context.place else ()
+        return referent.only([n for n in referent.names if n not in left] or referent.names)
 
     def _constants(
         self, noun: str, phrase: NounPhrase, types: tuple[str, ...], reading: ClauseReading
     ) -> tuple[str, ...]:
-        """The constants that a noun names; *everything* is what is in the things that were spoken of, not all there is.
+        """Return the constants that a noun names; *everything* is what is in the things that were spoken of.
 
         *Cook the noodles with an egg and serve everything in the bowl.*
         """
-        if noun in EVERYTHING:
-            inside = (c for name in reading.memory.recent for c in self.nouns.contents(name, reading.state))
-            names = tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+        if is_noun(noun, "everything"):
+            names = self._contained(reading.memory.recent, types, reading)
         else:
             names = self.nouns.constants(noun, types, reading.state)
         spoken_of = noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER
         return self._by_now(names, types, reading) if spoken_of else names
 
-    def _puts_back(self, reading: ClauseReading) -> bool:
-        """Whether things go where they were: the milk is its carton then, and not the cup that has some by now."""
-        verb = reading.clause.verb
-        return any(name.endswith("_back") for name in (verb, self.lexicon.canonical_verb(verb)))
-
     def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:
-        """Those of some places where what the clause acts on is now."""
+        """Return those of some places where what the clause acts on is now."""
         moved = [n for direct in reading.clause.direct[:1] for n in self.targets(direct, reading)]
+        resting = sorted(words_of("relations", "resting"))
         return tuple(
             place
             for place in places.names
-            if any(
-                self.grounder.truth(self.nouns.related(where, name, place, reading.moments), reading.state)
-                for where in ("on", "in")
-                for name in moved
-            )
+            if any(self.nouns.related_now(moved, where, (place,), reading.moments) for where in resting)
         )
 
-    def _by_now_in(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        """What contains the substance that was spoken of: *over the noodles* is over what they are in by now."""
-        named = set(self.nouns.substances(noun))
-        for bound in reversed(tuple(reading.memory.bound.values())):
-            if bound.containers and named & set(bound.names):
-                return tuple(n for n in bound.containers if self.grounder.is_a(n, types))
-        return ()
-
     def _brought_together(self, types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        """What holds several things that were spoken of: *water in a bowl, add the noodles, microwave everything*."""
+        """Return what holds several things that were spoken of: *add the noodles to the water, heat everything*."""
         held: dict[str, int] = {}
         for bound in reading.memory.bound.values():
             for name in bound.containers:
@@ -411,185 +406,176 @@ class Referents:
         return tuple(n for n, count in held.items() if count > 1 and self.grounder.is_a(n, types))[-1:]
 
     def _by_now(self, names: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        """What was spoken of, as that which it turned into since: the noodles, when they are cooked."""
+        """Return what was spoken of, as that which it turned into since: the noodles, when they are cooked."""
+
+        def since(later: str) -> bool:
+            fresh = (a for a in self.nouns.facts_about(later) if self.grounder.holds(a, reading.state))
+            return any(not self.grounder.holds(a, reading.memory.first) for a in fresh)
 
         def now(name: str) -> str:
-            for later in self.nouns.turns_into(name) if name in self.world.profiles.constants else ():
-                fresh = (a for a in self.nouns.facts_about(later) if self.grounder.holds(a, reading.state))
-                if self.grounder.is_a(later, types) and any(
-                    not self.grounder.holds(a, reading.memory.first) for a in fresh
-                ):
-                    return later
-            return name
+            turned = self.nouns.turns_into(name) if self.nouns.is_constant(name) else ()
+            return next((n for n in turned if self.grounder.is_a(n, types) and since(n)), name)
 
         return tuple(dict.fromkeys(map(now, names)))
 
-    def _part_of(self, wholes: Iterable[str], noun: str) -> tuple[str, ...]:
-        """*The door*, after the microwave was spoken of, is its door."""
-        profiles = self.world.profiles
-        for name in wholes:
-            for whole in dict.fromkeys((name, profiles.wholes.get(name, name))):
-                found = tuple(p for short, p in profiles.parts.get(whole, ()) if split_name(short)[-1:] == (noun,))
-                if found:
-                    return found
-        return ()
-
     def _all_kinds(
-        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], state: Bits, *, all_of_it: bool = False
+        self, noun: str, objects: tuple[str, ...], types: tuple[str, ...], reading: ClauseReading, *, all_of_it: bool
     ) -> tuple[tuple[str, ...], bool]:
-        """*All the lights*, where no class has that name, are the things of every class that the noun may mean.
+        """Return *all the lights*, where no class has that name, as all that the noun may mean, and whether it is so.
 
         *Every lamp* is the floor lamp as well, which is called so; *every cup* is no bowl, which only stands in for one
         where there is none.
         """
-        matches = self.world.mentions.of(noun, state)
-        if len(objects) == 1 and noun in self.lexicon.nouns:
-            called = all_of_it and self._is_kind(noun, objects)
-            wider = {kind for kind in self.lexicon.nouns[noun] if not called or noun in split_name(kind)}
+        wider = frozenset(self.lexicon.nouns.get(noun, ()))
+        if len(objects) == 1 and wider:
+            if all_of_it and self._is_kind(noun, objects):
+                wider = frozenset(kind for kind in wider if noun in split_name(kind))
             kinds = self.world.mentions.kinds
             names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
             return (tuple(names), True) if len(names) > 1 else (objects, False)
-        if not matches or matches[0].how != "alias":
+        matches = self.world.mentions.of(noun, reading.state)
+        if not matches or matches[0].how != ALIAS:
             return objects, False
-        names = [m.name for m in matches if m.how == "alias" and m.name not in self.world.profiles.constants]
-        return tuple(n for n in names if self.grounder.is_a(n, types)), True
+        alike = (m.name for m in matches if m.how == ALIAS and not self.nouns.is_constant(m.name))
+        return tuple(n for n in alike if self.grounder.is_a(n, types)), True
 
-    def every_kind(self, noun: str, state: Bits) -> tuple[str, ...]:
-        """All that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
-        return self._all_kinds(noun, self.nouns.things(noun, state), ("object",), state)[0]
+    def every_kind(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """Return all that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
+        things = self.nouns.things(noun, reading.state)
+        return self._all_kinds(noun, things, ANY_TYPE, reading, all_of_it=False)[0]
 
-    def _any_one(self, noun: str, reading: ClauseReading) -> bool:
-        """Whether any one will do: nothing was said that tells which."""
-        said = reading.clause.phrase(noun)
-        return not (said.definite or said.plural or said.attributes or self.relations_of(noun, reading.clause))
+    def every_kind_of(self, noun: str, clause: Clause, state: Bits) -> tuple[str, ...]:
+        """Return the same for a noun or pronoun of a clause."""
+        reading = ClauseReading(clause, Moments(state, state), Memory())
+        return tuple(dict.fromkeys(n for one in clause.meant(noun) for n in self.every_kind(one, reading)))
+
+    # ------------------------------------------------------------------ relations that tell which
 
     def _restricted(
-        self,
-        referent: Referent,
-        relations: Sequence[tuple[str, str]],
-        reading: ClauseReading,
-        whole: Referent | None = None,
+        self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading, whole: Referent
     ) -> Referent:
-        """The candidates that stand in the relations that were said, where some do; *except* takes some away.
+        """Return the candidates that stand in the relations that were said, where some do; *except* takes some away.
 
         None are left where only such do that adjectives left out of the ``whole``: "the full cup on the table", where
         the cup on the table is empty.
         """
         for relation, target in relations:
             names = self.targets(target, reading)
-            if relation in EXCEPTING and is_one(target) and self._any_one(target, reading) and referent.names:
-                number = len(referent.names) - 1  # "all but one"
-                referent = replace(referent, mode=Mode.NUMBER, number=number)
+            excepting = is_relation(relation, "excepting")
+            if excepting and is_one(target) and self._any_one(target, reading) and referent.names:
+                referent = replace(referent, mode=Mode.NUMBER, number=len(referent.names) - 1)  # "all but one"
                 continue
-            if relation in EXCEPTING:
-                left = self.excepted([(relation, target)], reading)
-                referent = replace(referent, names=tuple(n for n in referent.names if n not in left))
+            if excepting:
+                left: Iterable[str] = self.excepted([(relation, target)], reading)
+            elif relation.startswith(NEGATED) or is_none(target, reading.clause):  # "the chair that has no pillow"
+                plain = relation.removeprefix(NEGATED)
+                left = self.nouns.related_now(referent.names, plain, names, reading.moments)
+            elif is_relation(relation, "untelling") or not names:
                 continue
-            if relation.startswith("not_"):
-                now = self.nouns.related_now(
-                    referent, relation.removeprefix("not_"), names, reading.state, reading.moments
-                )
-                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
+            else:
+                now = self.described(referent, relation, names, reading)
+                # what stands on nothing has no burner under it
+                tells = relation in table("inverse") or is_relation(relation, "locating")
+                if now or tells or self.described(whole, relation, names, reading):
+                    referent = referent.only(now)
                 continue
-            if reading.clause.phrase(target).quantifier is Quantifier.NONE:  # "the chair that has no pillow"
-                now = self.nouns.related_now(referent, relation, names, reading.state, reading.moments)
-                referent = replace(referent, names=tuple(n for n in referent.names if n not in now))
-                continue
-            if relation in ("without", "for") or not names:
-                continue
-            now = self.described(referent, relation, names, reading)
-            tells = relation in INVERSE or relation == "where"  # what stands on nothing has no burner under it
-            if now or tells or (whole is not None and self.described(whole, relation, names, reading)):
-                referent = replace(referent, names=now)
+            referent = referent.only(n for n in referent.names if n not in left)
         return referent
 
+    def _any_one(self, noun: str, reading: ClauseReading) -> bool:
+        """Return whether any one will do: nothing was said that tells which."""
+        said = reading.clause.phrase(noun)
+        return not (said.definite or said.plural or said.attributes or self.relations_of(noun, reading.clause))
+
     def excepted(self, relations: Iterable[tuple[str, str]], reading: ClauseReading) -> tuple[str, ...]:
-        """What *except* takes away."""
+        """Return what *except* takes away."""
         found: dict[str, None] = {}
-        for relation, target in relations:
-            if relation in EXCEPTING:
-                names = self._where_it_was_said(target, self.targets(target, reading), reading)
-                phrase = reading.clause.phrase(target)
-                one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
-                wide = (n for noun in reading.clause.meant(target) for n in self.every_kind(noun, reading.state))
-                found.update(dict.fromkeys((*names, *(() if one else wide))))
-        return tuple(found)
+        for target in (target for relation, target in relations if is_relation(relation, "excepting")):
+            names = self._where_it_was_said(target, self.targets(target, reading), reading)
+            phrase = reading.clause.phrase(target)
+            one = is_one(target) or (phrase.definite and not phrase.plural and self._is_kind(target, names))
+            wide = self.every_kind_of(target, reading.clause, reading.state)
+            found.update(dict.fromkeys((*names, *(() if one else wide))))
+        parts = (part for name in found for part in self.grounder.relatives(name, 0))
+        return tuple(dict.fromkeys((*found, *parts)))
 
     def _where_it_was_said(self, noun: str, names: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        """Those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
+        """Return those things that are where the clause says: where no mug is on the table, *the one on it* is none."""
         for relation, place in self.relations_of(noun, reading.clause):
             where = self.targets(place, reading)
-            if relation in PLACES and where:
+            if is_relation(relation, "place") and where:
                 names = self.described(Referent(noun, names), relation, where, reading)
         return names
 
     def _is_kind(self, noun: str, names: Iterable[str]) -> bool:
-        """Whether things are of the very class that a noun names."""
+        """Return whether things are of the very class that a noun names."""
         return any(self.grounder.is_a(name, (noun,)) for name in names)
 
     def targets(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
-        """The objects or constants that a noun behind a preposition may mean."""
+        """Return the objects or constants that a noun behind a preposition may mean."""
         if noun in reading.asked:
             return ()
         reading.asked.add(noun)
         try:
-            return self._meant_by(noun, reading)
+            return self._pronoun_target(noun, reading) if self._is_pronoun(noun) else self._target(noun, reading)
         finally:
             reading.asked.discard(noun)
 
-    def _meant_by(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
-        if self._is_pronoun(noun):
-            nouns = reading.clause.antecedents.get(noun, ())[:1]
-            names = tuple(n for a in nouns for n in self._one_called(noun, a, reading) or self.targets(a, reading))
-            names = names or tuple(
-                n for a in reading.clause.direct[:1] if is_one(noun) for n in self.targets(a, reading)
-            )
-            for relation, target in self.relations_of(noun, reading.clause):
-                ends = self.targets(target, reading)
-                referent = Referent(noun, names)
-                names = self.nouns.related_now(referent, relation, ends, reading.state, reading.moments) or names
-            return names
+    def _pronoun_target(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        nouns = reading.clause.antecedents.get(noun, ())[:1]
+        names = tuple(n for a in nouns for n in self._one_called(noun, a, reading) or self.targets(a, reading))
+        if not names and is_one(noun):
+            names = tuple(n for direct in reading.clause.direct[:1] for n in self.targets(direct, reading))
+        for relation, target in self.relations_of(noun, reading.clause):
+            ends = self.targets(target, reading)
+            names = self.nouns.related_now(names, relation, ends, reading.moments) or names
+        return names
+
+    def _target(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         bound = reading.memory.bound.get(noun)
         things = self.nouns.things(noun, reading.state)
         if bound is not None and set(bound.names) & set(things):
             return tuple(n for n in things if n in bound.names)
-        constants = self.nouns.constants(noun, ("object",), reading.state)
-        names = tuple(dict.fromkeys((*things, *constants)))
+        names = tuple(dict.fromkeys((*things, *self.nouns.constants(noun, ANY_TYPE, reading.state))))
         relations = self.relations_of(noun, reading.clause) if noun not in reading.clause.direct else []
-        said = [(r, t) for r, t in relations if r == "with"]  # "from the table with the ramen on it"
-        return self._restricted(Referent(noun, names), said, reading).names or names if said else names
+        said = [(r, t) for r, t in relations if is_relation(r, "accompanying")]  # "the table with the ramen on it"
+        referent = Referent(noun, names)
+        return self._restricted(referent, said, reading, referent.only(())).names or names
 
     def _one_called(self, pronoun: str, antecedent: str, reading: ClauseReading) -> tuple[str, ...]:
-        """What *the ceiling one* means where lamps were spoken of: a ceiling lamp."""
-        modifier = pronoun.removesuffix("_one")
+        """Return what *the ceiling one* means where lamps were spoken of: a ceiling lamp."""
+        modifier = pronoun.removesuffix(f"_{ONE}")
         if modifier == pronoun:
             return ()
         whole = self.nouns.things(antecedent, reading.state)
         found = self.nouns.things(f"{modifier}_{antecedent}", reading.state)
         return found if set(found) != set(whole) else ()
 
+    # ------------------------------------------------------------------ refusals
+
     def not_there(self, clause: Clause) -> Refusal:
-        """That the thing a clause acts on is not there."""
-        reading = ClauseReading(clause, 0, Moments(0, 0), Memory())
-        return self.missing(Referent(clause.direct[0] if clause.direct else "it", ()), reading)
+        """Return that the thing a clause acts on is not there."""
+        noun = clause.direct[0] if clause.direct else IT
+        return self.missing(Referent(noun, ()), ClauseReading(clause, Moments(0, 0), Memory()))
 
     def missing(self, referent: Referent, reading: ClauseReading) -> Refusal:
-        """RefusalKind a noun means nothing here."""
-        phrase = reading.clause.phrase(referent.noun)
-        words = " ".join((*phrase.attributes, referent.noun.replace("_", " ")))
-        known = self.nouns.things(referent.noun, reading.state)
-        if known and phrase.attributes:
-            what = "nothing" if referent.noun in EVERYTHING else f"no {referent.noun.replace('_', ' ')}"
-            return Refusal(RefusalKind.NO_SUCH_THING, f"{what} that is meant here is {' and '.join(phrase.attributes)}")
-        if known and any(r in EXCEPTING for r, _ in self.relations_of(referent.noun, reading.clause)):
-            return Refusal(RefusalKind.NO_SUCH_THING, f"every '{words}' that is meant here is excepted")
+        """Return why a noun means nothing here."""
+        noun, clause = referent.noun, reading.clause
+        attributes = clause.phrase(noun).attributes
+        said = words(" ".join((*attributes, noun)))
+        known = self.nouns.things(noun, reading.state)
+        if known and attributes:
+            what = "nothing" if is_noun(noun, "everything") else f"no {words(noun)}"
+            return Refusal(RefusalKind.NO_SUCH_THING, f"{what} here is {' and '.join(map(words, attributes))}")
+        if known and any(is_relation(r, "excepting") for r, _ in self.relations_of(noun, clause)):
+            return Refusal(RefusalKind.NO_SUCH_THING, f"every '{said}' that is meant here is excepted")
         if known:
-            return Refusal(
-                RefusalKind.NOT_UNDERSTOOD,
-                f"'{words}' is nothing that '{reading.clause.verb.replace('_', ' ')}' can be said of here",
-            )
-        return Refusal(
-            RefusalKind.NO_SUCH_THING,
-            f"nothing here is called '{words}'",
-            "name a thing that is there, or allow guesses",
-        )
+            message = f"'{words(clause.verb)}' does not apply to '{said}' here"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
+        hint = "name a thing that is there, or allow guesses"
+        return Refusal(RefusalKind.NO_SUCH_THING, f"nothing here is called '{said}'", hint)
+
+
+def is_none(noun: str, clause: Clause) -> bool:
+    """Return whether a noun was said with *no*."""
+    return clause.phrase(noun).quantifier is Quantifier.NONE

@@ -13,19 +13,10 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from itertools import permutations
+from itertools import permutations, product
 
-from tmd.goals.sources.table import (
-    ACTIONS,
-    LOCATED,
-    PREPOSITIONS,
-    GoalRow,
-    GoalTable,
-    Slot,
-    family,
-    result_verbs,
-    results,
-)
+from tmd.goals.sources.table import ACTIONS, GoalRow, GoalTable, Slot
+from tmd.goals.words import PREPOSITIONS, family, results, table, the_word, words_of
 from tmd.language.lexicon.lexicon import builtin
 from tmd.language.lexicon.nouns import split_name, words_in_name
 from tmd.pddl.domain_traits import passing_predicates
@@ -45,16 +36,9 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.writer import format_formula
 
-_ACTORS = frozenset({"robot", "agent", "gripper", "hand", "arm", "actor"})
-"""Names of types, and of parents of types, whose objects act or hold rather than being acted on ..."""
-_PEOPLE = frozenset({"person", "human", "worker", "gardener", "player", "operator"})
-"""... and of those whose objects do so where most actions have one; elsewhere things are done for them."""
-_PLACES = ("in", "on", "next_to", "under", "behind", "above")
-_PUT = ("put", "bring", "throw")
-_BRING = ("take", "bring", "carry", "move", "get", "send")
-_GO = ("go", "move", "walk", "drive", "come", "return")
-_HANGING = frozenset({"hung", "hanging", "suspended"})
-_ANYWHERE = ("in", "on", "to", "next_to", "with", "of", "under", "from")
+_ROWS = table("rows")
+"""Verbs and prepositions of the rows that are read off a domain, in order."""
+_ANYWHERE = _ROWS["anywhere"]
 _MOST_SLOTS = 3
 
 
@@ -82,8 +66,10 @@ class _Words:
         self.made = {effect.atom.predicate for a in domain.actions for effect in a.effects if effect.positive}
         self.constants: dict[tuple[str, ...], list[str]] = {}
         self.passing = passing_predicates(domain)
-        peopled = [a for a in domain.actions if any(self._kinds(p) & _PEOPLE for p in a.parameters)]
-        self.actors = _ACTORS | _PEOPLE if 2 * len(peopled) > len(domain.actions) else _ACTORS
+        actors, people = words_of("names", "actors"), words_of("names", "people")
+        # people act where most actions have one; elsewhere things are done for them
+        peopled = [a for a in domain.actions if any(self._kinds(p) & people for p in a.parameters)]
+        self.actors = actors | people if 2 * len(peopled) > len(domain.actions) else actors
         self.actors |= self._movers()
 
     def _movers(self) -> frozenset[str]:
@@ -123,7 +109,7 @@ class _Words:
 
     def states(self) -> Iterator[GoalRow]:
         """``open X: (opened ?x)`` for every verb of English whose outcome a predicate or a constant has in its name."""
-        for verb in result_verbs():
+        for verb in table("results"):
             for word in results(verb):
                 wanted, positive = word.removeprefix("-"), not word.startswith("-")
                 for predicate in self.domain.predicates:
@@ -184,16 +170,17 @@ class _Words:
                 places.setdefault(preposition, []).append(atom)
         yield from self._going()
         for preposition, atoms in places.items():
-            condition = _any_of(atoms)
             slots = (Slot("?x"), Slot("?y", (preposition,)))
-            yield self._row((*_PUT, "be"), slots, condition, f"put X {preposition} Y", "a predicate of place")
+            yield self._row(_ROWS["put"], slots, _any_of(atoms), f"put X {preposition} Y", "a predicate of place")
         if places:
             whither = tuple(dict.fromkeys(atom for atoms in places.values() for atom in atoms))
-            slots = (Slot("?x"), Slot("?y", ("to",)))
-            yield self._row(_BRING, slots, _any_of(whither), "take X to Y", "predicates of place")
-            anywhere = tuple(Not(atom) for atoms in places.values() for atom in atoms)
-            slots = (Slot("?x"), Slot("?y", ("from",)))
-            yield self._row(("take",), slots, And(anywhere), "take X from Y", "predicates of place")
+            yield self._placed("bring", "whither", _any_of(whither), "take X to Y")
+            nowhere = And(tuple(Not(atom) for atoms in places.values() for atom in atoms))
+            yield self._placed("take", "whence", nowhere, "take X from Y")
+
+    def _placed(self, verbs: str, prepositions: str, condition: Formula, pattern: str) -> GoalRow:
+        slots = (Slot("?x"), Slot("?y", _ROWS[prepositions]))
+        return self._row(_ROWS[verbs], slots, condition, pattern, "predicates of place")
 
     def _places(self, predicate: Predicate) -> Iterator[tuple[str, Formula]]:
         things = self.things(predicate)
@@ -207,17 +194,19 @@ class _Words:
                     yield constant, self._atom(predicate, {**given, parameter.name: constant})
         if relations:
             return
-        parts = words_in_name(predicate.name)
-        for preposition in _PLACES:
-            if parts & set(PREPOSITIONS[preposition]) or (preposition == "on" and parts & _HANGING):
-                yield preposition, self._atom(predicate, given)
-                return
-        first, *rest = split_name(predicate.name)
-        verb = builtin().verb(first)
-        placed = not rest and verb is not None and verb[1] == "ed" and "put" in family(verb[0])  # "stowed"
-        if parts & LOCATED or placed:
-            for preposition in ("in", "on", "next_to"):
-                yield preposition, self._atom(predicate, given)
+        for preposition in self._prepositions(predicate.name):
+            yield preposition, self._atom(predicate, given)
+
+    def _prepositions(self, name: str) -> tuple[str, ...]:
+        """Return the prepositions that a predicate's name says, or all that it may say."""
+        parts = words_in_name(name)
+        hanging = bool(parts & words_of("names", "hanging"))
+        for preposition in _ROWS["located"]:
+            if parts & set(PREPOSITIONS[preposition]) or (hanging and preposition == _ROWS["hanging"][0]):
+                return (preposition,)
+        done = _participle(name)
+        placed = done is not None and not words_of("verbs", "settling").isdisjoint(family(done))  # "stowed"
+        return _ROWS["within"] if parts & words_of("located") or placed else ()
 
     def _going(self) -> Iterator[GoalRow]:
         """``go to Y`` for the place that an action takes the one to who acts."""
@@ -232,8 +221,8 @@ class _Words:
                     left = tuple(TypedName(names[p.name], p.types) for p in others)
                     found[Exists(left, there) if left else there] = None
         for condition in found:
-            where = Slot("?y", ("in", "on", "to", "next_to"))
-            yield self._row(_GO, (where,), condition, "go to Y", "a predicate of where one is")
+            where = Slot("?y", _ROWS["going"])
+            yield self._row(_ROWS["go"], (where,), condition, "go to Y", "a predicate of where one is")
 
     def contents(self) -> Iterator[GoalRow]:
         """``fill V with S`` for predicates that join a thing and a value which actions bring about: loads, say."""
@@ -246,13 +235,12 @@ class _Words:
                 continue
             condition = self._atom(predicate, {things[0].name: "?v", values[0].name: "?s"})
             why = f"{predicate.name} joins a thing and a value"
-            yield self._row(("fill", "load"), (Slot("?v"), Slot("?s", ("with", "of"))), condition, "fill V with S", why)
-            places = ("in", "on", "to")
-            yield self._row(
-                ("put", "pour", "add", "be"), (Slot("?s"), Slot("?v", places)), condition, "put S in V", why
-            )
-            yield self._row(("be",), (Slot("?v"), Slot("?s", ("with", "of"))), condition, "be V with S", why)
-            yield self._row(("set", "turn", "change"), (Slot("?v"), Slot("?s", ("to",))), condition, "set V to S", why)
+            value, vessel = Slot("?s"), Slot("?v")
+            with_value, in_vessel = Slot("?s", _ROWS["with"]), Slot("?v", _ROWS["vessel"])
+            yield self._row(_ROWS["fill"], (vessel, with_value), condition, "fill V with S", why)
+            yield self._row(_ROWS["pour"], (value, in_vessel), condition, "put S in V", why)
+            yield self._row(_ROWS["be"], (vessel, with_value), condition, "be V with S", why)
+            yield self._row(_ROWS["set"], (vessel, Slot("?s", _ROWS["value"])), condition, "set V to S", why)
 
     # ------------------------------------------------------------------ participles
 
@@ -260,20 +248,17 @@ class _Words:
         """``deliver X to Y`` for ``delivered-to``: what something is when the verb was done to it."""
         for predicate in self.domain.predicates:
             first, *rest = split_name(predicate.name)
-            verb = builtin().verb(first)
+            verb = _participle(first)
             things = self.things(predicate)
             said = predicate.name in self.made and predicate.name not in self.passing
-            if not said or verb is None or verb[1] != "ed" or first in LOCATED or not 0 < len(things) < 3:
+            if not said or verb is None or first in words_of("located") or not 0 < len(things) < 3:
                 continue
-            slots = [Slot("?x")]
-            names = {things[0].name: "?x"}
-            if len(things) == 2:
-                slots.append(Slot("?y", tuple(p for p in _ANYWHERE if p != "from")))
-                names[things[1].name] = "?y"
-            verbs = (verb[0], "_".join([verb[0], *rest])) if rest else (verb[0],)
-            condition = self._atom(predicate, names)
-            pattern = " … ".join([verbs[0], *(s.variable.removeprefix("?").upper() for s in slots)])
-            yield self._row(verbs, tuple(slots), condition, pattern, f"the predicate {predicate.name}")
+            slots = (Slot("?x"), Slot("?y", _ROWS["beside"]))[: len(things)]
+            names = {thing.name: slot.variable for thing, slot in zip(things, slots, strict=True)}
+            verbs = (verb, "_".join([verb, *rest])) if rest else (verb,)
+            pattern = " … ".join([verb, *(s.variable.removeprefix("?").upper() for s in slots)])
+            why = f"the predicate {predicate.name}"
+            yield self._row(verbs, slots, self._atom(predicate, names), pattern, why)
 
     # ------------------------------------------------------------------ actions
 
@@ -286,7 +271,7 @@ class _Words:
         firsts = [split_name(action.name)[:1] for action in self.domain.actions]
         for action in self.domain.actions:
             words = split_name(action.name)
-            if shortened and (words[-1] not in ("up", "down", "out") or firsts.count(words[:1]) > 1):
+            if shortened and (words[-1] not in words_of("names", "dropped") or firsts.count(words[:1]) > 1):
                 continue
             wanted = self._brought_about(action)
             verbs = words[:1] if shortened else tuple(dict.fromkeys(_verbs_of("_".join(words))))
@@ -298,36 +283,29 @@ class _Words:
     def _brought_about(self, action: ActionSchema) -> list[Effect]:
         """What an action is for: what it makes true, unconditionally, of its parameters; or else makes false."""
         wanted = [p.name for p in action.parameters if not self.actor(p)]
-        own = [
-            e
-            for e in action.effects
-            if not e.parameters
-            and e.condition == And()
-            and set(e.atom.terms) & set(wanted)
-            and e.atom.predicate not in self.passing
-        ]
+        settled = (e for e in action.effects if not e.parameters and e.condition == And())
+        own = [e for e in settled if set(e.atom.terms) & set(wanted) and e.atom.predicate not in self.passing]
         if not own:
             return []
-        positive = [e for e in own if e.positive]
-        negative = [e for e in own if not e.positive]
-        moved = {e.atom.predicate for e in positive} & {e.atom.predicate for e in negative}
-        acted_on = [e for e in positive if wanted[0] in e.atom.terms]
-        held = {word for verb in ("take", "hold") for word in results(verb)}
-        only = [e for e in negative if wanted[0] in e.atom.terms and self._makers(e) == 1 and len(e.atom.terms) > 1]
-        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in acted_on)
-        taking = split_name(action.name)[0] in ("take", *family("take"))
-        if acted_on and general and only and not taking:
-            # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
-            positive, negative = [], only
-        elif acted_on or moved or not any(wanted[0] in e.atom.terms for e in negative):
-            positive = acted_on or positive
-        else:
-            # the first parameter is what is acted on: to strip a bed is no way to get hold of a sheet
-            positive, negative = [], [e for e in negative if wanted[0] in e.atom.terms]
+        chosen = self._main_effects(action, own, wanted[0])
         # what only this action brings about says what it is for: to harvest is to pick, not to hold
-        chosen = positive or negative
         fewest = min((self._makers(e) for e in chosen), default=0)
-        return [e for e in chosen if e.positive is False or self._makers(e) == fewest]
+        return [e for e in chosen if not e.positive or self._makers(e) == fewest]
+
+    def _main_effects(self, action: ActionSchema, own: Sequence[Effect], first: str) -> list[Effect]:
+        """Return the effects on what is acted on, the first parameter: to strip a bed does not get hold of a sheet."""
+        made, lost = [e for e in own if e.positive], [e for e in own if not e.positive]
+        made_of, lost_of = ([e for e in part if first in e.atom.terms] for part in (made, lost))
+        held = {word for verb in words_of("verbs", "holding") for word in results(verb)}
+        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in made_of)
+        only = [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]
+        take = the_word("verbs", "taking")
+        if made_of and general and only and split_name(action.name)[0] not in (take, *family(take)):
+            return only  # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
+        moved = {e.atom.predicate for e in made} & {e.atom.predicate for e in lost}
+        if made_of or moved or not lost_of:
+            return made_of or made or lost
+        return lost_of
 
     def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
         """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""
@@ -338,7 +316,7 @@ class _Words:
         noun = "_".join(words[1:])
         why = f"the action {action.name}"
         yield self._row(("_".join(words),), (), condition, "_".join(words), why)
-        nouns = [noun] if noun else ["yourself", "battery"]
+        nouns = [noun] if noun else table("nouns")["self"]
         for name in nouns:
             row = self._row((words[0],), (), condition, f"{words[0]} {name}", why)
             yield replace(row, noun=name)
@@ -372,10 +350,9 @@ class _Words:
 
 def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:
     """The atoms that an action makes true of one place and false of another, each with the place."""
-    for made in (e.atom for e in action.effects if e.positive and e.condition == And()):
-        for left in (e.atom for e in action.effects if not e.positive and e.condition == And()):
-            if left.predicate != made.predicate:
-                continue
+    settled = [effect for effect in action.effects if effect.condition == And()]
+    for made, left in product((e.atom for e in settled if e.positive), [e.atom for e in settled if not e.positive]):
+        if left.predicate == made.predicate:
             differing = [there for there, here in zip(made.terms, left.terms, strict=True) if there != here]
             if len(differing) == 1 and differing[0].startswith("?"):
                 yield made, (differing[0],)
@@ -394,20 +371,24 @@ def _verbs_of(name: str) -> Iterator[str]:
     yield name
     words = name.split("_")
     if len(words) == 1:
-        for ending in ("into", "onto", "from", "to", "in", "on"):
-            if name.endswith(ending) and len(name) > len(ending) + 2:
-                yield name.removesuffix(ending)
+        ends = (ending for ending in table("names")["joined"] if len(name) > len(ending) + 2)
+        yield from (name.removesuffix(ending) for ending in ends if name.endswith(ending))
         return
-    prepositions = {word for members in PREPOSITIONS.values() for word in members}
-    if words[-1] in prepositions:
+    if any(words[-1] in members for members in PREPOSITIONS.values()):
         yield "_".join(words[:-1])
-    if words[-1] not in ("on", "off", "up", "down", "out"):
+    if words[-1] not in words_of("names", "particles"):
         yield words[0]
+
+
+def _participle(name: str) -> str | None:
+    """Return the verb of which a name is a past participle; ``None`` for any other name."""
+    verb = builtin().verb(name)
+    return verb[0] if verb is not None and verb[1] in words_of("outcomes", "participle") else None
 
 
 def _placelike(parameter: TypedName, types: object) -> bool:
     """Whether a parameter may be a thing or a place, although the domain has a constant of that type (the floor)."""
-    return any(t in ("object", "thing", "item", "place", "location", "physobj", "movable") for t in parameter.types)
+    return any(t in words_of("names", "bulk") for t in parameter.types)
 
 
 def describe(rows: Iterable[GoalRow]) -> str:

@@ -27,16 +27,14 @@ from tmd.goals.sources.table import (
     GoalTable,
     PutBack,
     read_row,
-    results,
-    words_of,
 )
+from tmd.goals.words import CONTRARY, is_noun, is_pronoun, is_verb, results, the_word, words_of
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
-from tmd.language.syntax.antecedents import is_pronoun
 from tmd.pddl.domain_traits import passing_predicates
 from tmd.pddl.ground_formula import FALSE
-from tmd.pddl.model import Domain, Instruction, Predicate
+from tmd.pddl.model import OBJECT, Domain, GroundAtom, Instruction, Predicate
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_formula
 from tmd.veil.demonstration import Demonstration
@@ -59,7 +57,8 @@ FEWEST_UNDONE = 5
 """The cases of which that is a share."""
 _NAMES = re.compile(r"\((\S+)")
 """What stands behind parentheses: the predicates of a condition, and its connectives."""
-_MAKING = frozenset({"make", "prepare", "cook", "brew", "mix"})
+_NEGATED = "(not"
+_QUANTIFIED = "(exists"
 
 
 @dataclass(slots=True)
@@ -151,7 +150,7 @@ class _Learner:
         self.dishes: dict[str, Counter[tuple[str, ...]]] = defaultdict(Counter)
         self.made: Counter[str] = Counter()
         self.started: dict[PutBack, _Count] = defaultdict(_Count)
-        words = {word for verb in ("open", "turn_on") for word in results(verb)}
+        words = {word for verb in words_of("verbs", "starting") for word in results(verb)}
         self.startable = {p.name for p in self.domain.predicates if words & words_in_name(p.name)}
         self._grounders: dict[str, tuple[Grounder, Nouns]] = {}
         self._known_literals: dict[tuple[str, ...], list[tuple[str, GoalRow]]] = {}
@@ -197,10 +196,9 @@ class _Learner:
         names = {variable: name for variable, (_, name) in zip(("?x", "?y"), slots, strict=False)}
         moments = Moments(states[0], states[0])
         for text, row in self._literals(tuple(names)):
-            grounder.live = 0
             said = {**names, RELATION: relation or "in"}
-            found = grounder.ground(row.condition, said, names, moments)
-            if not grounder.live or found == FALSE:
+            found, live = grounder.ground_live(row.condition, said, names, moments)
+            if not live or found == FALSE:
                 continue
             count = shape.counts[text]
             count.possible += 1
@@ -233,22 +231,18 @@ class _Learner:
         """Preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
         direct = [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
-        if len(direct) != 1:
-            return None
-        first = self._object(direct[0], clause, world, state, used)
+        first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
         if first is None:
             return None
-        slots, said = [("", first)], ""
+        substance = first in world.profiles.constants
         for relation in clause.relations:
             group = next((g for g, words in PREPOSITIONS.items() if relation.relation in words), None)
             if relation.source not in (direct[0], None) or group is None or relation.target in PERSONS:
                 continue
             second = self._object(relation.target, clause, world, state, used)
             if second is not None and second != first:
-                slots.append((group, second))
-                said = group
-                break
-        return slots, said, first in world.profiles.constants
+                return [("", first), (group, second)], group, substance
+        return [("", first)], "", substance
 
     def _object(self, noun: str, clause: Clause, world: World, state: Bits, used: set[str]) -> str | None:
         """The one object, or constant, that a noun meant: one that was used, or the only one there is."""
@@ -262,7 +256,7 @@ class _Learner:
             own = [t for t in objects if t in used or any(p in used for _, p in world.profiles.parts.get(t, ()))]
             if own:
                 return own[0]
-            constants = nouns.constants(name, ("object",), state)
+            constants = nouns.constants(name, (OBJECT,), state)
             if len(objects) == 1:
                 return objects[0]
             if constants and not objects:
@@ -278,31 +272,37 @@ class _Learner:
 
     def _make_literals(self, variables: tuple[str, ...]) -> Iterator[tuple[str, GoalRow]]:
         """Every literal that could be a goal of a clause with such slots."""
-        constants = self.domain.constants
         for predicate in self.predicates:
-            choices = []
-            for parameter in predicate.parameters:
-                fixed = [c.name for c in constants if set(c.types) & set(parameter.types) or c.types == parameter.types]
-                relations = [c for c in fixed if c in PREPOSITIONS]
-                if relations:
-                    choices.append([RELATION])
-                elif len(fixed) == 1 and len(predicate.parameters) > 1 and not set(fixed) & {"floor"}:
-                    choices.append([*fixed, *variables])
-                else:
-                    choices.append([*variables, "?v", *fixed[:6]])
-            for terms in product(*choices):
+            for terms in product(*self._choices(predicate, variables)):
                 own = [t for t in terms if t in variables]
                 if not own or len(set(own)) < len(own) or (RELATION in terms and "?y" not in terms):
                     continue
-                atom = f"({' '.join((predicate.name, *terms))})"
-                if "?v" in terms:
-                    kind = " ".join(predicate.parameters[terms.index("?v")].types[:1])
-                    yield from self._readable(f"(exists (?v - {kind}) {atom})", variables)
-                    for state in self._states() if terms.index("?v") == 0 else ():
-                        yield from self._readable(f"(exists (?v - {kind}) (and {atom} ({state} ?v)))", variables)
-                    continue
-                yield from self._readable(atom, variables)
-                yield from self._readable(f"(not {atom})", variables)
+                for text in self._texts(predicate, terms):
+                    yield from self._readable(text, variables)
+
+    def _choices(self, predicate: Predicate, variables: tuple[str, ...]) -> Iterator[list[str]]:
+        """Yield for each parameter of a predicate what may stand there."""
+        for parameter in predicate.parameters:
+            types = set(parameter.types)
+            fixed = [c.name for c in self.domain.constants if set(c.types) & types or c.types == parameter.types]
+            if any(c in PREPOSITIONS for c in fixed):
+                yield [RELATION]
+            elif len(fixed) == 1 and len(predicate.parameters) > 1 and not is_noun(fixed[0], "floor"):
+                yield [*fixed, *variables]
+            else:
+                yield [*variables, "?v", *fixed[:6]]
+
+    def _texts(self, predicate: Predicate, terms: Sequence[str]) -> Iterator[str]:
+        """Yield the literals of a predicate with such terms."""
+        atom = f"({' '.join((predicate.name, *terms))})"
+        if "?v" not in terms:
+            yield atom
+            yield f"{_NEGATED} {atom})"
+            return
+        kind = " ".join(predicate.parameters[terms.index("?v")].types[:1])
+        yield f"{_QUANTIFIED} (?v - {kind}) {atom})"
+        for state in self._states() if terms.index("?v") == 0 else ():
+            yield f"{_QUANTIFIED} (?v - {kind}) (and {atom} ({state} ?v)))"
 
     def _states(self) -> list[str]:
         """The predicates of one thing."""
@@ -319,21 +319,25 @@ class _Learner:
 
     def _dish(self, clause: Clause, world: World, states: tuple[Bits, Bits]) -> None:
         """Count what is so of some one thing at the end of a demonstration that makes a dish."""
-        nouns = [n for n in clause.direct if n not in PERSONS and not is_pronoun(n) and n not in words_of("measures")]
-        if clause.verb not in _MAKING or len(nouns) != 1 or any(m.score == 1.0 for m in self._named(nouns[0], world)):
+        nouns = [n for n in clause.direct if n not in {*PERSONS, *words_of("measures")} and not is_pronoun(n)]
+        if not is_verb(clause.verb, "making") or len(nouns) != 1:
             return
-        constants = world.profiles.constants
+        if any(m.score == 1.0 for m in self._named(nouns[0], world)):
+            return
         facts: dict[str, set[tuple[str, ...]]] = defaultdict(set)
-        wanted = {p.name for p in self.predicates}
         for atom in world.task.names(states[1] & ~states[0]):
-            if atom.predicate not in wanted or not atom.args or atom.args[0] in constants:
-                continue
-            if all(a in constants and a not in PREPOSITIONS for a in atom.args[1:]):
+            if self._is_of_a_dish(atom, world):
                 facts[atom.args[0]].add((atom.predicate, *atom.args[1:]))
         if facts:
             best = max(facts.values(), key=lambda found: (len(found), sorted(found)))
             self.made[nouns[0]] += 1
             self.dishes[nouns[0]].update(best)
+
+    def _is_of_a_dish(self, atom: GroundAtom, world: World) -> bool:
+        """Return whether a fact is about one thing, its state or its contents."""
+        constants = world.profiles.constants
+        wanted = any(p.name == atom.predicate for p in self.predicates) and atom.args and atom.args[0] not in constants
+        return bool(wanted) and all(a in constants and a not in PREPOSITIONS for a in atom.args[1:])
 
     def _named(self, noun: str, world: World) -> list[Match]:
         """The objects whose own name a noun is, where it names nothing that they contain."""
@@ -361,7 +365,7 @@ class _Learner:
             ((text, c) for text, c in shape.counts.items() if self._good(text, c)),
             key=lambda pair: (
                 -round(pair[1].gained * pair[1].support, 1),
-                "exists" in pair[0],
+                _QUANTIFIED in pair[0],
                 -_said(pair[0]),
                 pair[0],
             ),
@@ -372,19 +376,20 @@ class _Learner:
         companions = [
             text
             for text, other in good[1:]
-            if other.held >= COMPANION * count.held and not text.startswith(("(not", "(exists"))
+            if other.held >= COMPANION * count.held and not text.startswith((_NEGATED, _QUANTIFIED))
         ]
         parts = [core, *companions[:2]]
         condition = parts[0] if len(parts) == 1 else f"(and {' '.join(parts)})"
-        held = {word for word in results("take") if not word.startswith("-")}
-        if verb not in ("take", "hold", "bring") and any(word in core for word in held):
+        take = the_word("verbs", "taking")
+        held = {word for word in results(take) if not word.startswith(CONTRARY)}
+        if not is_verb(verb, "carrying") and any(word in core for word in held):
             return  # what is in the hand is the way, not the goal
         pattern = f"{verb} X" + (f" {groups[1]} Y" if len(groups) > 1 else "")
         evidence = f"holds after {count.held} of {count.possible} clauses, became true in {count.changed}"
         yield from self._row(pattern, condition, evidence, count.support)
 
     def _good(self, text: str, count: _Count) -> bool:
-        least = 0.9 if text.startswith("(not") else SUPPORT
+        least = 0.9 if text.startswith(_NEGATED) else SUPPORT
         return count.possible >= FEWEST and count.support >= least and count.gained >= CHANGED
 
     def _row(self, pattern: str, condition: str, evidence: str, probability: float) -> Iterator[GoalRow]:

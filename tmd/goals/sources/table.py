@@ -15,100 +15,47 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
+from typing import Final
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.lexicon.lexicon import Declared, data_text
-from tmd.pddl.model import And, Atom, Domain, Equals, Exists, Forall, Formula, Imply, Not, Or, hierarchy, predicates_of
-from tmd.pddl.reading.formulas import read_condition
+from tmd.goals.words import PREPOSITIONS as PREPOSITIONS
+from tmd.goals.words import family as family
+from tmd.goals.words import is_relation
+from tmd.language.lexicon.lexicon import Declared
+from tmd.pddl.model import (
+    OBJECT,
+    And,
+    Atom,
+    Domain,
+    Equals,
+    Exists,
+    Forall,
+    Formula,
+    Imply,
+    Not,
+    Or,
+    TypedName,
+    hierarchy,
+    predicates_of,
+)  # fmt: skip
+from tmd.pddl.reading.formulas import RESERVED, read_condition
 from tmd.pddl.reading.syntax import Group, Node, Word, nearest, parse
 
-
-@cache
-def _sections() -> Mapping[str, tuple[str, ...]]:
-    found: dict[str, list[str]] = {}
-    current: list[str] = []
-    for line in data_text("senses.txt").splitlines():
-        if line.startswith("["):
-            current = found.setdefault(line.strip("[]"), [])
-        elif line and not line.startswith("#"):
-            current.append(line)
-    return {name: tuple(lines) for name, lines in found.items()}
-
-
-@cache
-def _table(section: str) -> Mapping[str, tuple[str, ...]]:
-    lines = (line.partition(":") for line in _sections()[section])
-    return {name.strip(): tuple(words.split()) for name, _, words in lines}
-
-
-def words_of(section: str) -> frozenset[str]:
-    """The words of a plain section: ``measures``, ``anaphors``."""
-    return frozenset(word for line in _sections()[section] for word in line.split())
-
-
-def family(verb: str) -> tuple[str, ...]:
-    """Verbs that ask for the same as ``verb``, nearest first: its own family, then the families it stands in.
-
-    A member with a ``>`` is one way of doing it: to cook may be to fry, but to fry is not just to cook.
-    """
-    families = _table("families")
-    found = dict.fromkeys(member.removeprefix(">") for member in families.get(verb, ()))
-    for head, members in families.items():
-        if verb in members:
-            found[head] = None
-    for members in families.values():
-        if verb in members:
-            found.update(dict.fromkeys(member.removeprefix(">") for member in members[:4]))
-    found.pop(verb, None)
-    return tuple(found)
-
-
-def results(verb: str) -> tuple[str, ...]:
-    """Words for the state that ``verb`` leaves its object in; those with a minus are taken away."""
-    return _table("results").get(verb, ())
-
-
-def state_words(adjective: str) -> tuple[str, ...]:
-    """Words that say the same as ``adjective``, itself first; those with a minus say the contrary."""
-    return tuple(dict.fromkeys((adjective, *_table("states").get(adjective, ()))))
-
-
-def result_verbs() -> tuple[str, ...]:
-    """The verbs that there are words for the outcome of."""
-    return tuple(_table("results"))
-
-
-WAS, FIRST = "was", "first"
-"""The operators beyond PDDL: what held when the clause began, and before the whole text."""
+WAS: Final = "was"
+"""The operator for what held when the clause began."""
+FIRST: Final = "first"
+"""The operator for what held before the whole text."""
 MARK = "@"
-"""Between a predicate and the operator it stands under."""
+"""Between a predicate and the operator that it is under."""
 RELATION = "?rel"
 """The variable for the relation that was said."""
-DECLARED, LEARNED, ACTIONS = "declared", "learned", "actions"
-"""Where a row comes from."""
+DECLARED: Final = "declared"
+LEARNED: Final = "learned"
+ACTIONS: Final = "actions"
 _SLOT = re.compile(r"[A-Z]\Z")
 _WORD = re.compile(r"[a-z][a-z0-9_]*\Z")
-
-PREPOSITIONS: Mapping[str, tuple[str, ...]] = {
-    "in": ("in", "into", "inside", "inside_of", "within", "down"),
-    "on": ("on", "onto", "on_to", "on_top_of", "upon", "over", "atop"),
-    "next_to": ("next_to", "beside", "by", "near", "close_to", "alongside"),
-    "under": ("under", "underneath", "below", "beneath"),
-    "behind": ("behind",),
-    "above": ("above",),
-    "to": ("to", "at", "towards"),
-    "from": ("from", "out_of", "off", "off_of", "out"),
-    "of": ("of", "containing"),
-    "with": ("with", "using"),
-    "for": ("for",),
-    "through": ("through", "via"),
-    "between": ("between",),
-}
-"""Each preposition of a pattern, with the words that it stands for; the first is the most usual."""
-
-LOCATED = frozenset({"at", "located", "location", "loc", "position", "situated", "whereabouts"})
-"""Words in the names of predicates that say where something is, and not whether in, on or beside it."""
+_CONNECTIVES = RESERVED | {"=", ""}
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +68,7 @@ class Slot:
     @property
     def is_place(self) -> bool:
         """Whether it says where something is or goes."""
-        return bool({"in", "on", "next_to", "under", "to"} & set(self.prepositions))
+        return any(is_relation(p, "placing") for p in self.prepositions)
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,36 +220,43 @@ def read_pattern(entry: Declared) -> tuple[tuple[str, ...], str | None, tuple[Sl
     Raises:
         TmdError: It is not a pattern.
     """
-    words = entry.pattern.split()
-    if not words:
+    first, *words = entry.pattern.split() or [""]
+    if not first:
         raise _wrong(entry, "a goal has no verb", "write 'open X: (opened ?x)'")
-    verbs = tuple(words[0].split("|"))
+    verbs = tuple(first.split("|"))
     if not all(_WORD.match(verb) for verb in verbs):
-        raise _wrong(entry, f"'{words[0]}' is not a verb", "write verbs in lower case: open, turn_on, put|place")
-    slots: list[Slot] = []
-    waiting: tuple[str, ...] = ()
-    noun = result = None
-    for place, word in enumerate(words[1:], 1):
-        if _SLOT.match(word):
-            variable = f"?{word.lower()}"
-            if any(slot.variable == variable for slot in slots):
-                raise _wrong(entry, f"the slot {word} stands twice", "give each slot a letter of its own")
-            slots.append(Slot(variable, waiting))
-            waiting = ()
-        elif all(part in PREPOSITIONS for part in word.split("|")):
-            waiting = tuple(word.split("|"))
-        elif place == 1 and _WORD.match(word):
-            noun = word
-        elif place == len(words) - 1 and _WORD.match(word) and not waiting:
-            result = word
-        else:
-            hint = nearest(word, list(PREPOSITIONS), what="prepositions")
-            raise _wrong(entry, f"'{word}' is neither a slot nor a preposition", hint or "slots are single capitals")
-    if waiting:
-        raise _wrong(entry, f"no slot follows '{'|'.join(waiting)}'", "write a capital behind it: in Y")
+        raise _wrong(entry, f"'{first}' is not a verb", "write verbs in lower case: open, turn_on, put|place")
+    noun = words.pop(0) if words and _WORD.match(words[0]) and not _is_prepositions(words[0]) else None
+    final = bool(words) and _WORD.match(words[-1]) and not _is_prepositions(words[-1])
+    result = words.pop() if final and (len(words) < 2 or not _is_prepositions(words[-2])) else None
+    slots = _read_slots(entry, words)
     if sum(not slot.prepositions for slot in slots) + (noun is not None) > 1:
         raise _wrong(entry, "two slots follow each other", "write a preposition between them")
-    return verbs, noun, tuple(slots), result
+    return verbs, noun, slots, result
+
+
+def _is_prepositions(word: str) -> bool:
+    return all(part in PREPOSITIONS for part in word.split("|"))
+
+
+def _read_slots(entry: Declared, words: Sequence[str]) -> tuple[Slot, ...]:
+    slots: list[Slot] = []
+    waiting = ""
+    for word in words:
+        variable = f"?{word.lower()}"
+        if _is_prepositions(word):
+            waiting = word
+            continue
+        if not _SLOT.match(word):
+            hint = nearest(word, list(PREPOSITIONS), what="prepositions")
+            raise _wrong(entry, f"'{word}' is neither a slot nor a preposition", hint or "slots are single capitals")
+        if any(slot.variable == variable for slot in slots):
+            raise _wrong(entry, f"the slot {word} stands twice", "give each slot a letter of its own")
+        slots.append(Slot(variable, tuple(waiting.split("|")) if waiting else ()))
+        waiting = ""
+    if waiting:
+        raise _wrong(entry, f"no slot follows '{waiting}'", "write a capital behind it: in Y")
+    return tuple(slots)
 
 
 def _wrong(entry: Declared, message: str, hint: str | None = None) -> TmdError:
@@ -335,7 +289,7 @@ def _marked(node: Node, operator: str) -> Node:
         return node
     if node.head in (WAS, FIRST) and len(node.parts) == 2 and isinstance(node.parts[1], Group):
         return _marked(node.parts[1], node.head)
-    if node.head in ("and", "or", "not", "imply", "forall", "exists", "=", ""):
+    if node.head in _CONNECTIVES:
         return replace(node, parts=tuple(_marked(part, operator) for part in node.parts))
     if operator and isinstance(node.parts[0], Word):
         head = replace(node.parts[0], text=f"{node.parts[0].text}{MARK}{operator}")
@@ -355,73 +309,90 @@ def _check(formula: Formula, variables: frozenset[str], domain: Domain) -> None:
     Raises:
         TmdError: It does not.
     """
-    signatures = {p.name: p for p in domain.predicates}
-    constants = {c.name for c in domain.constants}
+    for part, bound in subformulas(formula, variables):
+        match part:
+            case Atom(terms=terms):
+                _check_predicate(part, domain)
+                _check_terms(terms, part.location, bound, variables, domain)
+            case Equals(left, right):
+                _check_terms((left, right), part.location, bound, variables, domain)
+            case Forall(parameters) | Exists(parameters):
+                for parameter in parameters:
+                    _check_types(parameter, domain)
+
+
+def _check_types(parameter: TypedName, domain: Domain) -> None:
     types = hierarchy(domain)
-    for part, bound in _parts(formula, variables):
-        if isinstance(part, Forall | Exists):
-            for parameter in part.parameters:
-                for kind in parameter.types:
-                    if not types.known(kind):
-                        hint = nearest(kind, sorted(types.parents), what="types")
-                        raise TmdError(f'there is no type "{kind}"', location=parameter.location, hint=hint)
-            continue
-        if isinstance(part, Atom):
-            name, _ = split_predicate(part.predicate)
-            if name not in signatures:
-                hint = nearest(name, sorted(signatures), what="predicates")
-                raise TmdError(f'there is no predicate "{name}"', location=part.location, hint=hint)
-            wanted = len(signatures[name].parameters)
-            if len(part.terms) != wanted:
-                message = f'"{name}" takes {wanted} arguments, found {len(part.terms)}'
-                raise TmdError(message, location=part.location)
-        terms = part.terms if isinstance(part, Atom) else (part.left, part.right)
-        for term in terms:
-            if term.startswith("?") and term not in bound:
-                slots = ", ".join(sorted(variables)) or "none"
-                raise TmdError(f"no slot is called {term}", location=part.location, hint=f"the slots here: {slots}")
-            if not term.startswith("?") and term not in constants:
-                hint = nearest(term, sorted(constants), what="constants")
-                raise TmdError(f'the domain has no constant "{term}"', location=part.location, hint=hint)
+    for kind in parameter.types:
+        if not types.known(kind):
+            hint = nearest(kind, sorted(types.parents), what="types")
+            raise TmdError(f'there is no type "{kind}"', location=parameter.location, hint=hint)
 
 
-def _parts(formula: Formula, bound: frozenset[str]) -> Iterator[tuple[Atom | Equals | Forall | Exists, frozenset[str]]]:
+def _check_predicate(atom: Atom, domain: Domain) -> None:
+    signatures = {p.name: p for p in domain.predicates}
+    name, _ = split_predicate(atom.predicate)
+    if name not in signatures:
+        hint = nearest(name, sorted(signatures), what="predicates")
+        raise TmdError(f'there is no predicate "{name}"', location=atom.location, hint=hint)
+    wanted = len(signatures[name].parameters)
+    if len(atom.terms) != wanted:
+        message = f'"{name}" takes {wanted} arguments, found {len(atom.terms)}'
+        raise TmdError(message, location=atom.location)
+
+
+def _check_terms(
+    terms: Sequence[str], location: Location | None, bound: frozenset[str], variables: frozenset[str], domain: Domain
+) -> None:
+    constants = sorted(c.name for c in domain.constants)
+    for term in terms:
+        if term.startswith("?") and term not in bound:
+            hint = f"the slots here: {', '.join(sorted(variables)) or 'none'}"
+            raise TmdError(f"no slot is called {term}", location=location, hint=hint)
+        if not term.startswith("?") and term not in constants:
+            hint = nearest(term, constants, what="constants") or ""
+            raise TmdError(f'the domain has no constant "{term}"', location=location, hint=hint or None)
+
+
+def subformulas(formula: Formula, bound: frozenset[str] = frozenset()) -> Iterator[tuple[Formula, frozenset[str]]]:
+    """Yield each atom, equality and quantifier of a condition, outer ones first, with the variables bound there."""
     match formula:
         case Atom() | Equals():
             yield formula, bound
         case Not(part):
-            yield from _parts(part, bound)
+            yield from subformulas(part, bound)
         case And(parts) | Or(parts):
             for inner in parts:
-                yield from _parts(inner, bound)
+                yield from subformulas(inner, bound)
         case Imply(left, right):
-            yield from _parts(left, bound)
-            yield from _parts(right, bound)
+            yield from subformulas(left, bound)
+            yield from subformulas(right, bound)
         case Forall(parameters, part) | Exists(parameters, part):
             yield formula, bound
-            yield from _parts(part, bound | {p.name for p in parameters})
+            yield from subformulas(part, bound | {p.name for p in parameters})
+
+
+def atoms_in(formula: Formula) -> Iterator[Atom]:
+    """Yield the atoms of a condition."""
+    return (part for part, _ in subformulas(formula) if isinstance(part, Atom))
 
 
 def slot_types(row_condition: Formula, variable: str, domain: Domain) -> tuple[str, ...]:
-    """The types of what may stand in a slot, read off the signature of the first predicate that takes it.
+    """Return the types of what may stand in a slot, read off the signature of the first predicate that takes it.
 
     Where there are several ways (``or``), it may be of the types of any.
     """
     if isinstance(row_condition, Or):
-        ways = [part for part in row_condition.parts if variable in _terms(part)]
-        return tuple(dict.fromkeys(t for way in ways for t in slot_types(way, variable, domain))) or ("object",)
+        ways = [part for part in row_condition.parts if any(variable in atom.terms for atom in atoms_in(part))]
+        return tuple(dict.fromkeys(t for way in ways for t in slot_types(way, variable, domain))) or (OBJECT,)
     predicate, place = slot_predicate(row_condition, variable)
     signature = next((p for p in domain.predicates if p.name == predicate), None)
-    return signature.parameters[place].types if signature is not None else ("object",)
+    return signature.parameters[place].types if signature is not None else (OBJECT,)
 
 
 def slot_predicate(row_condition: Formula, variable: str) -> tuple[str, int]:
-    """The first predicate in which the variable of a slot stands, and its place there; ``""`` where there is none."""
-    for part, _ in _parts(row_condition, frozenset()):
-        if isinstance(part, Atom) and variable in part.terms:
-            return split_predicate(part.predicate)[0], part.terms.index(variable)
+    """Return the first predicate in which a slot's variable stands, and its place there; ``""`` for none."""
+    for atom in atoms_in(row_condition):
+        if variable in atom.terms:
+            return split_predicate(atom.predicate)[0], atom.terms.index(variable)
     return "", 0
-
-
-def _terms(formula: Formula) -> set[str]:
-    return {term for part, _ in _parts(formula, frozenset()) if isinstance(part, Atom) for term in part.terms}

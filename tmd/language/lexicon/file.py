@@ -1,13 +1,14 @@
-"""Read a domain's ``lexicon.yaml``; every fault is reported with file, line and column.
+"""Read a domain's ``lexicon.yaml`` with the base lexicons that it includes.
 
-The format is described in ``docs/language.md``.
+Every fault is reported with file, line and column. The format is described in ``docs/language.md``, base lexicons in
+``docs/domains.md``.
 """
 
 from __future__ import annotations
 
 import difflib
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import NoReturn
@@ -15,11 +16,19 @@ from typing import NoReturn
 import yaml
 
 from tmd.diagnostics import Location, TmdError
-from tmd.language.lexicon.lexicon import Declared, Lexicon, section, singular
+from tmd.files import bundled, real
+from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, SharedPredicate, section, singular
 from tmd.yaml_nodes import compose
 
-KEYS = ("verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups")
+KEYS = (
+    "include", "predicates", "types", "verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups",
+)  # fmt: skip
+BASES = "base"
+"""The folder of base lexicons, beside the folders of domains."""
 _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
+_TERM = re.compile(r"\??[a-z][a-z0-9_-]*\Z")
+_WORDS = ("types", "verbs", "phrasal", "nouns", "verb_synonyms", "groups")
+"""The sections whose entries are words; for each the place is kept."""
 
 
 class _Source:
@@ -29,11 +38,15 @@ class _Source:
         self.path = path
         self.lines = text.splitlines()
 
-    def fail(self, mark: yaml.Mark | None, message: str, hint: str | None = None) -> NoReturn:
+    def fail(self, mark: yaml.Mark | None, message: str, hint: str | None = None, code: str = "") -> NoReturn:
+        place = self.place(mark)
+        source = self.lines[place.line - 1] if place.line <= len(self.lines) else None
+        raise TmdError(message, location=place, hint=hint, source=source, code=code)
+
+    def place(self, mark: yaml.Mark | None) -> Location:
+        """Return the place of a mark."""
         line, column = (mark.line, mark.column) if mark is not None else (0, 0)
-        source = self.lines[line] if line < len(self.lines) else None
-        place = Location(str(self.path), line + 1, column + 1)
-        raise TmdError(message, location=place, hint=hint, source=source)
+        return Location(str(self.path), line + 1, column + 1)
 
     def name(self, node: yaml.Node) -> str:
         """Return a scalar that is a name: lower case, words joined by underscores."""
@@ -99,7 +112,8 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
     )
 
 
-def _read(path: Path) -> Lexicon:
+def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
+    """Read a file and those that it includes; ``above`` are the base lexicons that lead to it."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -112,16 +126,133 @@ def _read(path: Path) -> Lexicon:
     parts = _parts(source, node)
     verbs = source.sequence(parts["verbs"], source.name) if "verbs" in parts else ()
     nouns = source.aliases(parts["nouns"]) if "nouns" in parts else {}
-    return Lexicon(
+    goals, place = _goals(source, parts["goals"]) if "goals" in parts else ((), None)
+    lexicon = Lexicon(
         verbs=frozenset(verbs),
         phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
         nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
         verb_synonyms=_synonyms(source, parts["verb_synonyms"]) if "verb_synonyms" in parts else {},
-        goals=_goals(source, parts["goals"]) if "goals" in parts else (),
+        goals=goals,
         attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),
         groups=source.aliases(parts["groups"]) if "groups" in parts else {},
         source=str(path),
+        base=Base(
+            predicates=_predicates(source, parts["predicates"]) if "predicates" in parts else (),
+            types=source.aliases(parts["types"]) if "types" in parts else {},
+            place=place,
+        ),
+        places=_places(source, parts),
     )
+    for base in _included(source, parts["include"], above) if "include" in parts else ():
+        lexicon = _with(lexicon, base)
+    return lexicon
+
+
+def bases_near(path: Path) -> dict[str, Path]:
+    """Return the base lexicons that the lexicon ``path`` may include, by name: those beside its domain first."""
+    folders = [path.parent if path.parent.name == BASES else path.parent.parent / BASES, Path("domains") / BASES]
+    found: dict[str, Path] = {}
+    for folder in (*folders, *(root / BASES for root in bundled("domains"))):
+        for file in sorted(folder.glob("*.yaml")):
+            found.setdefault(file.stem, file)
+    return found
+
+
+def _included(source: _Source, node: yaml.Node, above: tuple[Path, ...]) -> list[Lexicon]:
+    """Read the base lexicons that a file names."""
+    names = source.sequence(node, source.name)
+    assert isinstance(node, yaml.SequenceNode)
+    known = bases_near(source.path)
+    chain = (*above, real(source.path))
+    found = []
+    for name, child in zip(names, node.value, strict=True):
+        if name not in known:
+            near = difflib.get_close_matches(name, sorted(known), 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"there are: {', '.join(sorted(known)) or 'none'}"
+            source.fail(child.start_mark, f"there is no base lexicon '{name}'", hint, "unknown-base")
+        if real(known[name]) in chain:
+            links = [path.stem for path in chain[chain.index(real(known[name])) :]]
+            message = f"'{name}' includes itself" + (f", by {' and '.join(links[1:])}" if len(links) > 1 else "")
+            source.fail(child.start_mark, message, "remove one of the includes", "include-cycle")
+        found.append(_read(known[name], chain))
+    return found
+
+
+def _with(own: Lexicon, other: Lexicon) -> Lexicon:
+    """Add a base lexicon to a lexicon, whose own entries win."""
+    return replace(
+        own,
+        verbs=own.verbs | other.verbs,
+        phrasal={**other.phrasal, **own.phrasal},
+        nouns={**other.nouns, **own.nouns},
+        verb_synonyms=_merged(own.verb_synonyms, other.verb_synonyms),
+        groups={**other.groups, **own.groups},
+        base=Base(
+            goals=(*own.base.goals, *other.goals, *other.base.goals),
+            attributes=(*own.base.attributes, *other.attributes, *other.base.attributes),
+            predicates=(*own.base.predicates, *other.base.predicates),
+            types={**other.base.types, **own.base.types},
+            place=own.base.place,
+        ),
+        included=tuple(dict.fromkeys((*own.included, other.source, *other.included))),
+        places={**other.places, **own.places},
+    )
+
+
+def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:
+    """Join synonyms: what stands for a verb that itself stands for another one by ``own`` stands for that one."""
+    served = set(own.values())
+    found = dict(own)
+    for verb, target in other.items():
+        meant = own.get(target, target)
+        if verb not in own and verb not in served and meant != verb:
+            found[verb] = meant
+    return found
+
+
+def _places(source: _Source, parts: Mapping[str, yaml.Node]) -> dict[tuple[str, str], Location]:
+    """Return where each word of a file was declared."""
+    found = {}
+    for name in _WORDS:
+        node = parts.get(name)
+        keys = (
+            [key for key, _ in node.value]
+            if isinstance(node, yaml.MappingNode)
+            else node.value
+            if isinstance(node, yaml.SequenceNode)
+            else []
+        )
+        found.update({(name, str(key.value)): source.place(key.start_mark) for key in keys})
+    return found
+
+
+def _predicates(source: _Source, node: yaml.Node) -> tuple[SharedPredicate, ...]:
+    """Read a mapping of ``name ?x`` to a condition, or to several with ``|`` between them."""
+    if not isinstance(node, yaml.MappingNode):
+        source.fail(node.start_mark, "expected 'predicate: condition' pairs here", "write 'held ?x: (holding ?x)'")
+    found = []
+    for key, value in node.value:
+        words = key.value.strip("()").split() if isinstance(key, yaml.ScalarNode) else []
+        if not words or not _NAME.match(words[0]) or not all(_TERM.match(word) for word in words[1:]):
+            source.fail(key.start_mark, "expected a predicate with its arguments here", "write 'held ?x: (holding ?x)'")
+        text, place = source.condition(value)
+        folded = value.end_mark.line > value.start_mark.line
+        forms = tuple(
+            Declared(" ".join(words), form, place if folded else replace(place, column=place.column + offset))
+            for offset, form in _ways(text)
+        )
+        found.append(SharedPredicate(words[0], tuple(words[1:]), forms, source.place(key.start_mark)))
+    return tuple(found)
+
+
+def _ways(text: str) -> list[tuple[int, str]]:
+    """Split a text at each ``|``; every piece with its offset."""
+    found, begin = [], 0
+    for piece in text.split("|"):
+        lead = len(piece) - len(piece.lstrip())
+        found.append((begin + lead, piece.strip()))
+        begin += len(piece) + 1
+    return found
 
 
 def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
@@ -136,19 +267,27 @@ def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
     return parts
 
 
-def _goals(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:
-    """A list of ``- pattern: condition``; their order counts."""
+INCLUDED = "included"
+"""The entry of ``goals`` that says where the rows of included lexicons are tried."""
+
+
+def _goals(source: _Source, node: yaml.Node) -> tuple[tuple[Declared, ...], int | None]:
+    """Read a list of ``- pattern: condition``; their order counts. And where included rows stand among them."""
     if not isinstance(node, yaml.SequenceNode):
         source.fail(node.start_mark, "expected a list of goals here", "write '- open X: (opened ?x)'")
-    found = []
+    found: list[Declared] = []
+    place = None
     for child in node.value:
+        if isinstance(child, yaml.ScalarNode) and child.value == INCLUDED:
+            place = len(found)
+            continue
         if not isinstance(child, yaml.MappingNode) or len(child.value) != 1:
             source.fail(child.start_mark, "expected one 'pattern: condition' here", "write '- open X: (opened ?x)'")
         key, value = child.value[0]
         if not isinstance(key, yaml.ScalarNode):
             source.fail(key.start_mark, "expected a pattern here, such as 'place X in|on Y'")
         found.append(Declared(key.value, *source.condition(value)))
-    return tuple(found)
+    return tuple(found), place
 
 
 def _attributes(source: _Source, node: yaml.Node) -> tuple[Declared, ...]:

@@ -57,6 +57,42 @@ class Declared:
     location: Location | None = field(default=None, compare=False)
 
 
+@dataclass(frozen=True, slots=True)
+class SharedPredicate:
+    """A predicate that the rows of a base lexicon speak of, with the conditions that may say it in a domain.
+
+    Attributes:
+        name: Its name: ``held``.
+        terms: Its arguments: variables, or names that must be given just so.
+        forms: The conditions, tried in this order; the first one that a domain has the predicates for is used.
+        location: The place at which it was declared.
+    """
+
+    name: str
+    terms: tuple[str, ...]
+    forms: tuple[Declared, ...]
+    location: Location | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Base:
+    """Meanings that a lexicon takes from the base lexicons it includes (:mod:`tmd.goals.base`).
+
+    Attributes:
+        goals: Rows over shared predicates.
+        attributes: Adjectives over shared predicates.
+        predicates: The shared predicates, those of the lexicon itself first.
+        types: For a type that the rows name, the types that may be it in a domain; those of the lexicon itself first.
+        place: Before which of the rows of the lexicon these rows are tried; behind all where it is ``None``.
+    """
+
+    goals: tuple[Declared, ...] = ()
+    attributes: tuple[Declared, ...] = ()
+    predicates: tuple[SharedPredicate, ...] = ()
+    types: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    place: int | None = None
+
+
 @dataclass(frozen=True, eq=False)
 class Lexicon:
     """Built-in words plus those of a domain.
@@ -71,6 +107,9 @@ class Lexicon:
         attributes: What adjectives mean, as conditions of ``?x``.
         groups: Nouns that mean all things of some classes: ``{"rubbish": ("wrapper", "can")}``.
         source: The file it came from.
+        base: What verbs and adjectives mean by the base lexicons that it includes.
+        included: The files of these base lexicons, in order.
+        places: Where a word of a section was declared: ``("verb_synonyms", "get")``.
         kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
         compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
     """
@@ -83,6 +122,9 @@ class Lexicon:
     attributes: tuple[Declared, ...] = ()
     groups: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     source: str = ""
+    base: Base = field(default_factory=Base)
+    included: tuple[str, ...] = ()
+    places: Mapping[tuple[str, str], Location] = field(default_factory=dict)
     kinds: frozenset[str] = frozenset()
     compounds: frozenset[tuple[str, ...]] = frozenset()
 
@@ -105,7 +147,13 @@ class Lexicon:
     @cached_property
     def goal_verbs(self) -> frozenset[str]:
         """The verbs that have a declared meaning."""
-        return frozenset(verb for row in self.goals for verb in row.pattern.partition(" ")[0].split("|"))
+        rows = (*self.goals, *self.base.goals)
+        return frozenset(verb for row in rows for verb in row.pattern.partition(" ")[0].split("|"))
+
+    def own(self, section: str, word: str) -> bool:
+        """Whether the file itself, and no base lexicon, declares a word of a section."""
+        place = self.places.get((section, word))
+        return place is None or place.file == self.source
 
     @cached_property
     def _own_verbs(self) -> frozenset[str]:
@@ -169,6 +217,7 @@ class Lexicon:
             or self.verb(word) is not None
             or word in _english()
             or positive(word) in _closed_words()
+            or not section("drop_adjectives").isdisjoint(comparative_root(word))
             or self._is_doer(word)
             or singular(word) in _english()
         )

@@ -12,7 +12,9 @@ from dataclasses import dataclass, replace
 
 from tmd.language.clause import PERSONS, Clause, Condition
 from tmd.language.lexicon.lexicon import section
-from tmd.language.syntax.reading import ClauseDraft, Phrase, TextReading
+from tmd.language.syntax.drafts import ClauseDraft
+from tmd.language.syntax.noun_phrases import Phrase
+from tmd.language.syntax.reading import TextReading
 
 _REACH = 5
 """Clauses that a pronoun looks back."""
@@ -122,16 +124,20 @@ def _one(
     Of that, what stands behind the same preposition ("the chips in one bowl and the nuts in the other"), then what was
     told apart; before all, the place that a thing is moved from where *one* is the place that it goes to.
     """
-    alike = {r.target for r in clause.relations if r.relation in before}
-    own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
-    if before and ranked:
-        own = [p for p in own if p.name in alike or _told(p)]
-    own.sort(key=lambda p: (p.name not in alike, not (p.plural or _told(p))))
+    own = _own(pronoun, clause, draft, before, apart=bool(before and ranked))
     goes = not section("arrivals").isdisjoint(before)
     left = [r.target for r in clause.relations if goes and r.relation in section("origins")]
-    names = tuple(dict.fromkeys((*left[:1], *(p.name for p in own[:1]), *ranked)))
+    names = tuple(dict.fromkeys((*left[:1], *own[:1], *ranked)))
     plain = pronoun in section("one_words")
     return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
+
+
+def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[str], *, apart: bool) -> list[str]:
+    """Return what a clause spoke of before *one*, likeliest first; where ``apart``, only what was told apart."""
+    alike = {r.target for r in clause.relations if r.relation in before}
+    own = [p for p in draft.mentions() if p.place < _place(pronoun, draft) and not p.pronoun]
+    own = [p for p in own if not apart or p.name in alike or _told(p)]
+    return [p.name for p in sorted(own, key=lambda p: (p.name not in alike, not (p.plural or _told(p))))]
 
 
 def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
@@ -203,14 +209,22 @@ def _rank(
         group = tuple(name for name in recent[0].together if name not in own)
     if group:
         return (*group, *(name for name, _ in scored if name not in group)), len(group)
+    return tuple(name for name, _ in _fitting(pronoun, scored, recent, before)), 1
+
+
+def _fitting(
+    pronoun: str, scored: list[tuple[str, int]], recent: list[_Scene], before: Collection[str]
+) -> list[tuple[str, int]]:
+    """Return the candidates with those first, or those only, that fit the pronoun."""
+    mentions = [m for scene in recent for m in scene.mentions]
     if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
-        telling = {m.name for s in recent for m in s.mentions if m.described or m.plural}
-        alike = {m.name for s in recent for m in s.mentions if m.behind and m.behind in before}
-        scored.sort(key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
+        telling = {m.name for m in mentions if m.described or m.plural}
+        alike = {m.name for m in mentions if m.behind and m.behind in before}
+        return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
     if is_singular(pronoun):
-        plural = {m.name for s in recent for m in s.mentions if m.plural}
-        scored = [pair for pair in scored if pair[0] not in plural] or scored
-    return tuple(name for name, _ in scored), 1
+        plural = {m.name for m in mentions if m.plural}
+        return [pair for pair in scored if pair[0] not in plural] or scored
+    return scored
 
 
 def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
@@ -241,24 +255,27 @@ def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     """Return what a clause leaves behind."""
     direct = [p for p in draft.direct if p.name not in PERSONS]
     spread = _COORDINATED if len(direct) > 1 else 0
-    mentions: list[_Mention] = []
-    together: list[str] = []
+    elided = clause.antecedents.get("", ())[: clause.together.get("", 1)]
+    mentions = [_Mention(name, False, 0) for name in elided]
     for phrase in direct:
-        names = _meant(phrase, clause)
-        together.extend(names)
         many = phrase.plural or is_plural(phrase.name)
-        mentions.extend(_Mention(name, many, spread, _told(phrase)) for name in names)
-        mentions.extend(_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase)
-    for name in clause.antecedents.get("", ())[: clause.together.get("", 1)]:
-        together.append(name)
-        mentions.append(_Mention(name, False, 0))
+        mentions += [_Mention(name, many, spread, _told(phrase)) for name in _meant(phrase, clause)]
+        mentions += [_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase]
     for landmark in draft.landmarks:
-        for part in landmark.all():
-            behind = next((r.relation for r in clause.relations if r.target == part.name), "")
-            distance = _LANDMARK + _PART * (part is not landmark)
-            mentions.extend(_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause))
+        mentions += _landmark(landmark, clause)
     named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
+    together = [*(name for phrase in direct for name in _meant(phrase, clause)), *elided]
     return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
+
+
+def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:
+    """Return what a prepositional phrase mentions."""
+    found = []
+    for part in landmark.all():
+        behind = next((r.relation for r in clause.relations if r.target == part.name), "")
+        distance = _LANDMARK + _PART * (part is not landmark)
+        found += [_Mention(name, part.plural, distance, behind=behind) for name in _meant(part, clause)]
+    return found
 
 
 def _meant(phrase: Phrase, clause: Clause) -> list[str]:

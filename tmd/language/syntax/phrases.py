@@ -147,7 +147,13 @@ def _triggers(pattern: str) -> Iterator[str]:
     for element in pattern.split():
         depth += element.endswith("(") - element.startswith(")")
         match = _ELEMENT.match(element)
-        if depth or match is None or element in ("^", "^^", "$") or match["times"] in ("?", "*") or element.startswith(")"):
+        if (
+            depth
+            or match is None
+            or element in ("^", "^^", "$")
+            or match["times"] in ("?", "*")
+            or element.startswith(")")
+        ):
             continue
         parts = match["core"].split("|")
         if not any(part.isupper() for part in parts):
@@ -267,7 +273,11 @@ def _replaced(
         new.append(fresh)
     result = [*tokens[:begin], *new, *tokens[end:]]
     _restore(result)
-    result = [t for token in result for t in (tag([token], lexicon) if token.kind is Kind.WORD and not token.first else [token])]
+    result = [
+        t
+        for token in result
+        for t in (tag([token], lexicon) if token.kind is Kind.WORD and not token.first else [token])
+    ]
     for token in result:
         token.first = token.first or (token.kind, token.form)
     decide(result, lexicon)

@@ -162,7 +162,11 @@ def tokenise(text: str) -> list[Token]:
     _capitals(tokens, text)
     for token, after in pairwise(tokens):
         abbreviated = text[after.span.start : after.span.end].isupper()
-        if after.kind is Kind.WORD and after.text[0] not in "aeioux" and not (abbreviated or after.text in section("silent_h")):
+        if (
+            after.kind is Kind.WORD
+            and after.text[0] not in "aeioux"
+            and not (abbreviated or after.text in section("silent_h"))
+        ):
             # "warm it up an pour it out": no article stands before such a sound
             token.text = pairs("before_consonants").get(token.text, token.text)
     return tokens

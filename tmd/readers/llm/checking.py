@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
-from tmd.goals.grounder import why_never
+from tmd.goals.reasons import why_never
 from tmd.language.clause import Clause, Mood, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.antecedents import is_pronoun

@@ -1,0 +1,183 @@
+"""Preferences: of several things that a noun may mean, rather this one.
+
+A preference looks at the candidates and at what is known of the clause, and returns those it prefers; none where it has
+no opinion. They are asked in the order of their table, each about what the ones before it left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Protocol, TypeAlias
+
+from tmd.goals.clause_goal import ClauseReading
+from tmd.goals.grounder import Grounder
+from tmd.goals.reading.noun_phrases import Nouns
+from tmd.goals.words import is_relation, state_words, words_of
+from tmd.language.clause import NounPhrase, Quantifier
+from tmd.language.lexicon.nouns import split_name
+from tmd.veil.world import World
+
+Names: TypeAlias = tuple[str, ...]
+
+
+class Finder(Protocol):
+    """Finds what nouns mean, as :class:`tmd.goals.reading.referents.Referents` does."""
+
+    world: World
+    grounder: Grounder
+    nouns: Nouns
+
+    def targets(self, noun: str, reading: ClauseReading) -> Names:
+        """Return the objects or constants that a noun behind a preposition may mean."""
+        ...
+
+    def puts_back(self, reading: ClauseReading) -> bool:
+        """Return whether things go where they were."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Context:
+    """A noun phrase in its clause.
+
+    Attributes:
+        referents: Finds what other nouns of the clause mean.
+        reading: The clause, its state and what was spoken of.
+        noun: The noun.
+        phrase: How it was said.
+        types: The types that its slot takes.
+        relations: What it is related to.
+        place: Whether it is a place.
+        likely: All that it may mean, of whatever type.
+    """
+
+    referents: Finder
+    reading: ClauseReading
+    noun: str
+    phrase: NounPhrase
+    types: tuple[str, ...]
+    relations: Sequence[tuple[str, str]]
+    place: bool = False
+    likely: Names = ()
+
+    def targets(self, kind: str) -> Iterable[Names]:
+        """Yield what stands in relations of a kind, as objects and constants."""
+        return (self.referents.targets(t, self.reading) for r, t in self.relations if is_relation(r, kind))
+
+    def fitting(self, names: Iterable[str]) -> Names:
+        """Return the names that may stand in the slot."""
+        return tuple(n for n in names if self.referents.grounder.fits(n, self.types))
+
+    def of_type(self, names: Iterable[str]) -> Names:
+        """Return the names that are of the types of the slot themselves."""
+        return tuple(n for n in names if self.referents.grounder.is_a(n, self.types))
+
+
+@dataclass(frozen=True, slots=True)
+class Preference:
+    """A named preference.
+
+    Attributes:
+        name: Its name.
+        reason: Why these candidates are likelier.
+        example: A request that it decides.
+        kept: Returns the preferred candidates, given all and the context; none where it has no opinion.
+    """
+
+    name: str
+    reason: str
+    example: str
+    kept: Callable[[Names, Context], Names]
+
+
+def choose(table: Sequence[Preference], names: Names, context: Context) -> Names:
+    """Return the candidates that the preferences of a table leave, one after the other."""
+    for preference in table:
+        names = preference.kept(names, context) or names
+    return names
+
+
+def _part_of_recent(_: Names, c: Context) -> Names:
+    single = c.phrase.definite and not c.phrase.plural and not c.relations
+    return part_of(c.reading.memory.recent, c.noun, c) if single else ()
+
+
+def _part_of_whole(_: Names, c: Context) -> Names:
+    return next(filter(None, (part_of(names, c.noun, c) for names in c.targets("part"))), ())
+
+
+def _holding(_: Names, c: Context) -> Names:
+    held = (c.referents.nouns.holders(c.noun, names, c.reading.moments) for names in c.targets("partitive"))
+    return next(filter(None, map(c.fitting, held)), ())
+
+
+def _part_for_whole(_: Names, c: Context) -> Names:
+    if c.likely or c.noun not in words_of("parts"):
+        return ()
+    spoken = c.of_type(c.reading.memory.recent)
+    opened = tuple(n for n in spoken if c.referents.nouns.state_of(state_words("open"), n) is not None)
+    return (opened or spoken)[:1]
+
+
+def _holder_by_now(names: Names, c: Context) -> Names:
+    """Return what contains the substance that was spoken of, by now."""
+    if c.phrase.quantifier is not Quantifier.PLAIN or c.referents.puts_back(c.reading):
+        return ()
+    named = set(c.referents.nouns.substances(c.noun))
+    bound = (b for b in reversed(tuple(c.reading.memory.bound.values())) if b.containers and named & set(b.names))
+    inside = c.of_type(next((b.containers for b in bound), ()))
+    if c.place:
+        return inside
+    return tuple(n for n in names if n in inside) if c.phrase.definite else ()
+
+
+def part_of(wholes: Iterable[str], noun: str, context: Context) -> Names:
+    """Return the parts of the first of some things, or of its whole, that a noun names."""
+    profiles = context.referents.world.profiles
+    for name in wholes:
+        for whole in dict.fromkeys((name, profiles.wholes.get(name, name))):
+            found = tuple(p for short, p in profiles.parts.get(whole, ()) if split_name(short)[-1:] == (noun,))
+            if found:
+                return found
+    return ()
+
+
+THINGS = (
+    Preference("part-of-recent", "a part of what was spoken of last", "Heat the milk. Open the door.", _part_of_recent),
+    Preference(
+        "part-of-whole", "a part of what it is said to belong to", "Shut the door of the fridge.", _part_of_whole
+    ),
+    Preference("holder", "what holds what it is said to be of", "Bring the bag of crisps.", _holding),
+    Preference("part-for-whole", "what can be opened, for its lid", "Fill the jar and close the lid.", _part_for_whole),
+    Preference(
+        "holder-by-now", "what the substance is in by now", "Cook rice, pour sauce over the rice.", _holder_by_now
+    ),
+)
+"""Objects that a noun may mean, before its adjectives and relations are looked at."""
+
+
+def _within(names: Names, c: Context) -> Names:
+    nouns, state = c.referents.nouns, c.reading.state
+    for inside in (nouns.constants(t, c.types, state) for r, t in c.relations if is_relation(r, "partitive")):
+        names = tuple(n for n in names if n in inside) or names
+    return names
+
+
+SUBSTANCES = (Preference("contents", "what the named thing contains", "Add a bottle of raspberry syrup.", _within),)
+"""Constants that a noun may mean."""
+
+
+def _not_left(names: Names, c: Context) -> Names:
+    return tuple(n for n in names if n not in c.reading.memory.left) if c.noun in c.reading.clause.direct else ()
+
+
+def _as_before(names: Names, c: Context) -> Names:
+    bound = c.reading.memory.bound.get(c.noun)
+    return tuple(n for n in names if n in bound.names) if bound is not None else ()
+
+
+NOT_LEFT = (Preference("not-left", "what is not to be left alone", "Move all but leave the bowl.", _not_left),)
+"""Of all things of a kind those that are meant."""
+AS_BEFORE = (Preference("as-before", "the one that was spoken of", "Take a cup. Wash the cup.", _as_before),)
+"""Of several things the one that is meant."""

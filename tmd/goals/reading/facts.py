@@ -1,0 +1,201 @@
+"""The facts of one environment as words say them: adjectives of things, and relations between things."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import cached_property
+
+from tmd.goals.grounder import Grounder, Moments
+from tmd.goals.sources.table import RELATION, GoalTable
+from tmd.goals.words import (
+    BE,
+    CONTRARY,
+    NEGATED,
+    PREPOSITIONS,
+    is_relation,
+    relations_said,
+    state_words,
+    table,
+    words_of,
+)
+from tmd.language.lexicon.nouns import words_in_name
+from tmd.pddl.ground_formula import FALSE, TRUE, disjunction, negation
+from tmd.pddl.model import Atom, Formula, GroundAtom
+from tmd.pddl.task import Bits
+from tmd.veil.world import World
+
+_KNOWN = frozenset(word for members in PREPOSITIONS.values() for word in members)
+
+
+class Facts:
+    """The facts of one environment.
+
+    Args:
+        world: The environment.
+        table: The meanings of adjectives, and of being somewhere.
+        grounder: Grounds their conditions.
+    """
+
+    def __init__(self, world: World, table: GoalTable, grounder: Grounder) -> None:
+        self.world = world
+        self.table = table
+        self.grounder = grounder
+        self._of_object: dict[str, list[GroundAtom]] = {}
+        for atom in (*world.task.atoms, *sorted(world.task.static)):
+            for name in dict.fromkeys(atom.args):
+                self._of_object.setdefault(name, []).append(atom)
+
+    def is_constant(self, name: str) -> bool:
+        """Return whether a name is a constant of the domain: a substance, a setting or a relation."""
+        return name in self.world.profiles.constants
+
+    def facts_about(self, name: str) -> Sequence[GroundAtom]:
+        """Return the atoms that may hold and have ``name`` among their arguments."""
+        return self._of_object.get(name, ())
+
+    def turns_into(self, constant: str) -> tuple[str, ...]:
+        """Return the constants that a fact that never changes leads to from ``constant``: what ramen cooks into."""
+        pairs = (a for a in self.facts_about(constant) if a in self.world.task.static and len(a.args) == 2)
+        return tuple(atom.args[1] for atom in pairs if atom.args[0] == constant)
+
+    @cached_property
+    def _changing(self) -> frozenset[str]:
+        return frozenset(atom.predicate for atom in self.world.task.atoms)
+
+    def contents(self, thing: str, state: Bits) -> tuple[str, ...]:
+        """Return the constants beside ``thing`` in facts of two that hold now and may change."""
+        pairs = (a for a in self._pairs(thing) if a.predicate in self._changing and self.grounder.holds(a, state))
+        return tuple(dict.fromkeys(atom.args[1] for atom in pairs))
+
+    def _pairs(self, thing: str) -> Iterable[GroundAtom]:
+        pairs = (a for a in self.facts_about(thing) if len(a.args) == 2 and a.args[0] == thing)
+        return (atom for atom in pairs if self.is_constant(atom.args[1]))
+
+    def is_supply(self, thing: str) -> bool:
+        """Return whether a thing has what it contains from the start, and never anything else: a bottle of syrup."""
+        inside = {atom.args[1] for atom in self._pairs(thing)}
+        return len(inside) == 1 and set(self.contents(thing, self.world.task.init)) == inside
+
+    def attribute(self, word: str, name: str, moments: Moments) -> Formula | None:
+        """Return that ``name`` is as an adjective says; ``None`` for an adjective that nothing here explains."""
+        if word.startswith(NEGATED):
+            inner = self.attribute(word.removeprefix(NEGATED), name, moments)
+            return None if inner is None else negation(inner)
+        if word in self.table.attributes:
+            return self.grounder.ground(self.table.attributes[word], {"?x": name}, ("?x",), moments)
+        return self.state_of(state_words(word), name)
+
+    def state_of(self, words: Iterable[str], name: str) -> Formula | None:
+        """Return that ``name`` is in a state that one of ``words`` names, by a predicate or a constant.
+
+        Words with a minus say that it is not in such a state. ``None`` where no fact here has such a word.
+        """
+        listed = sorted(words, key=lambda word: word.startswith(CONTRARY))
+        for candidate in (name, *self.grounder.near(name)):
+            for word in listed:
+                found = self._named_state(word.removeprefix(CONTRARY), candidate)
+                if found is not None:
+                    return negation(found) if word.startswith(CONTRARY) else found
+        return None
+
+    def _named_state(self, word: str, name: str) -> Formula | None:
+        atoms = [a for a in self.facts_about(name) if self._says_state(a, word, name)]
+        if any(a not in self.world.task.index for a in atoms):
+            return TRUE
+        return disjunction(Atom(a.predicate, a.args) for a in atoms) if atoms else None
+
+    def _says_state(self, atom: GroundAtom, word: str, name: str) -> bool:
+        others = [a for a in atom.args if a != name]
+        if others == [word] and self.is_constant(word):
+            return True
+        return word in words_in_name(atom.predicate) and all(map(self.is_constant, others))
+
+    def related(self, relation: str, name: str, target: str, moments: Moments) -> Formula:
+        """Return that ``name`` is in a relation to ``target``: as the table says it, or as the facts themselves do."""
+        if is_relation(relation, "part") and self.world.profiles.wholes.get(name) == target:
+            return TRUE  # "the button on the microwave"
+        rows = [(row, row.direct, row.places[0]) for row in self.table.of(BE) if row.direct and len(row.places) == 1]
+        inverse = table("inverse").get(relation)
+        if inverse and not any(relations_said(relation, place.prepositions) for _, _, place in rows):
+            return self.related(inverse[0], target, name, moments)
+        for row, direct, place in rows:
+            assert direct is not None
+            ends = {direct.variable: name, place.variable: target}
+            found = disjunction(
+                self.grounder.ground(row.condition, {**ends, RELATION: one}, ends, moments)
+                for one in relations_said(relation, place.prepositions)
+            )
+            if found != FALSE:
+                return found
+        return self._related_by_facts(relation, name, target)
+
+    def _related_by_facts(self, relation: str, name: str, target: str) -> Formula:
+        """Return the facts that have both, and the relation's name as a constant or in the predicate."""
+        things = not (self.is_constant(target) or self.is_constant(name))
+        words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
+        inside = bool(words & words_of("relations", "contents"))
+        says = _Says(
+            words,
+            anywhere=bool(words & words_of("relations", "anchored")) or (inside and things),
+            things=things,
+            inside=inside,
+        )
+        # (on a b) says where a is, not where b is
+        ordered = things and not inside and not is_relation(relation, "locating")
+        for end in (target, *(other for level in range(3) for other in self.grounder.relatives(target, level))):
+            found = [
+                atom
+                for atom in self.facts_about(name)
+                if end in atom.args
+                and atom.predicate not in self.grounder.reflexive
+                and not (ordered and atom.args.index(name) > atom.args.index(end))
+                and says.so(atom, [a for a in atom.args if a not in (name, end)], atom in self.world.task.index)
+            ]
+            if found:
+                return disjunction(Atom(a.predicate, a.args) for a in found)
+        return FALSE
+
+    def related_now(
+        self, names: Iterable[str], relation: str, targets: Sequence[str], moments: Moments
+    ) -> tuple[str, ...]:
+        """Return those of ``names`` that are in a relation to one of ``targets`` when the clause begins."""
+
+        def holds(name: str, target: str) -> bool:
+            return name != target and self.grounder.truth(self.related(relation, name, target, moments), moments.now)
+
+        return tuple(name for name in names if any(holds(name, target) for target in targets))
+
+
+class _Says:
+    """The test of whether a fact that joins two things says a relation.
+
+    Args:
+        words: The relation, and its name in patterns.
+        anywhere: Any predicate of place will do.
+        things: Neither end is a constant.
+        inside: It is about contents.
+    """
+
+    def __init__(self, words: set[str], *, anywhere: bool, things: bool, inside: bool) -> None:
+        self.words = words
+        self.named = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
+        self.anywhere = anywhere
+        self.things = things
+        self.inside = inside
+
+    def so(self, atom: GroundAtom, others: Sequence[str], changes: bool) -> bool:
+        """Return whether an atom with further arguments says it."""
+        known = [a for a in others if a in PREPOSITIONS]
+        if known:
+            return self.anywhere or any(a in self.words for a in known)
+        parts = words_in_name(atom.predicate)
+        if parts & self.named:
+            return True
+        if parts & words_of("located"):
+            return self.anywhere or bool(self.words & words_of("relations", "resting"))
+        if parts & _KNOWN:
+            return self.anywhere
+        if self.inside:
+            return not self.things and not others
+        joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
+        return self.anywhere and (changes or joins)

@@ -1,0 +1,136 @@
+"""The rows of a verb that fit what was said."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from tmd.goals.clause_goal import ClauseReading, Unit
+from tmd.goals.reading.referents import Referents, is_none
+from tmd.goals.sources.table import ACTIONS, GoalRow, Slot, slot_predicate, slot_types
+from tmd.goals.words import PREPOSITIONS, ends_as, family, is_relation, is_verb, relations_said, table, words_of
+from tmd.language.clause import PERSONS, Quantifier
+
+
+class Fitting:
+    """Chooses among the rows of a verb.
+
+    Args:
+        referents: Finds what nouns mean.
+    """
+
+    def __init__(self, referents: Referents) -> None:
+        self.referents = referents
+        self.domain = referents.domain
+        self.grounder = referents.grounder
+        self.nouns = referents.nouns
+
+    def of(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> list[GoalRow]:
+        """Return the rows that fit, those first that take more of what was said, and that just as it was said."""
+        counted = reading.clause.phrase(unit.direct or "").quantifier in (Quantifier.ALL, Quantifier.NUMBER)
+        return sorted(
+            (row for row in rows if self._fits(row, unit, reading)),
+            key=lambda row: (
+                not (row.looks_back and not unit.relations),  # "put it back": where it was
+                -len(row.slots) - (row.noun is not None),
+                -self._latest(row, unit, reading),
+                counted and not self._takes_things(row, unit, reading),
+                row.source == ACTIONS and not self._takes_named(row, unit),
+            ),
+        )
+
+    def may_tell_which(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether a place that a row takes is where one of the things is now: *the bottle on the table*."""
+        clause = reading.clause
+        none = unit.direct is not None and is_none(unit.direct, clause)
+        if none or is_verb(clause.verb, "placing"):
+            return False  # they say where something shall be, or nothing
+        said = [pair for slot in row.places for pair in self.fillers(slot, unit, reading)]
+        if len(said) != 1 or len(unit.relations) != 1 or said[0][1] is None:
+            return False
+        relation, target = said[0]
+        where = any(relation in PREPOSITIONS[p] for p in words_of("relations", "standing"))
+        definite = unit.direct is not None and clause.phrase(unit.direct).definite  # "take the cup of water"
+        where = where or (definite and is_relation(relation, "partitive"))
+        return where and self.referents.tells_which(unit.direct, relation, target or "", reading)
+
+    def _takes_things(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether what the verb acts on may be an object, not only something that objects contain."""
+        if row.direct is None or unit.direct is None:
+            return False
+        types = slot_types(row.condition, row.direct.variable, self.domain)
+        return any(self.grounder.is_a(name, types) for name in self.nouns.things(unit.direct, reading.state))
+
+    def takes_all(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        """Return whether what stands behind the prepositions of a row was said, and may ever be there.
+
+        An oven holds no milk: *heat the milk in the oven* says where it is done.
+        """
+        for slot in row.places:
+            predicate, place = slot_predicate(row.condition, slot.variable)
+            for _, target in self.fillers(slot, unit, reading):
+                names = self.referents.targets(target, reading) if target else ()
+                facts = (fact for name in names for fact in self.nouns.facts_about(name))
+                if not any(fact.predicate == predicate and fact.args[place] in names for fact in facts):
+                    return False
+        return True
+
+    def _latest(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> int:
+        """Return how late what a row takes was said: *the book on the table in the box* says last where it shall go."""
+        taken = [pair for slot in row.places for pair in self.fillers(slot, unit, reading)]
+        return max((unit.relations.index(pair) for pair in taken if pair in unit.relations), default=0)
+
+    def _takes_named(self, row: GoalRow, unit: Unit) -> bool:
+        """Return whether what the verb acts on may be what the noun names, not only what holds it."""
+        if row.direct is None or not unit.direct:
+            return True
+        types = slot_types(row.condition, row.direct.variable, self.domain)
+        ranked = self.referents.world.mentions.ranked(unit.direct)
+        return not ranked or any(self.grounder.is_a(m.name, types) for m in ranked if m.how == ranked[0].how)
+
+    def _fits(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> bool:
+        if row.result is not None and row.result != reading.clause.result:
+            return False
+        if row.noun is not None and not self._same(row.noun, unit.direct, reading):
+            return False
+        if row.noun is None and (row.direct is None) != (unit.direct is None):
+            return False
+        return all(self.fillers(slot, unit, reading) for slot in row.places)
+
+    def _same(self, noun: str, said: str | None, reading: ClauseReading) -> bool:
+        """Return whether two nouns are the same, or name the same things here: *kettle*, *kettel*."""
+        if noun == said or said is None or ends_as(noun, "plural"):
+            return noun == said
+        named = self.nouns.things(noun, reading.state)
+        return bool(named) and named == self.nouns.things(said, reading.state)
+
+    def fillers(self, slot: Slot, unit: Unit, reading: ClauseReading) -> list[tuple[str, str | None]]:
+        """Return what was said in a slot: relation and noun; the noun is left out where it points back."""
+        clause = reading.clause
+        said = [
+            (relation, target)
+            for relation, target in unit.relations
+            if relations_said(relation, slot.prepositions)
+            and not (is_relation(relation, "accompanying") and is_none(target, clause))
+        ]
+        if len(said) > 1:
+            # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
+            said = [p for p in said if not self.referents.tells_which(unit.direct, *p, reading)] or said[-1:]
+        if said:
+            return [(relation, target) for relation, target in said if relation == said[0][0]]
+        elided = self._elided(slot, unit, reading)
+        return [(elided, None)] if elided else []
+
+    def _elided(self, slot: Slot, unit: Unit, reading: ClauseReading) -> str | None:
+        """Return the relation of a place that was not said: "take a cup, add sugar" is into what was spoken of last."""
+        clause = reading.clause
+        if not reading.memory.recent or any(r.target in PERSONS for r in clause.relations):
+            return None  # "bring me the milk" says where
+        particle = table("particles").get(clause.verb.rpartition("_")[2], ("",))[0]
+        if particle in slot.prepositions:
+            return particle
+        verbs = (clause.verb, self.referents.lexicon.canonical_verb(clause.verb))
+        alike = {*verbs, *(name for verb in verbs for name in family(verb))}
+        if unit.relations or alike.isdisjoint(words_of("verbs", "elliptic")):
+            return None
+        resting = [p for p in slot.prepositions if is_relation(p, "resting")]
+        return "to" if len(resting) > 1 else next(iter(resting), None)

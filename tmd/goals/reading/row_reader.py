@@ -1,0 +1,499 @@
+"""A clause as a goal by the rows of one verb: slots filled, noun phrases quantified."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from itertools import combinations, islice, product
+from typing import TypeAlias
+
+from tmd.diagnostics import Refusal, RefusalKind, TmdError
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, Unit, text_of, words
+from tmd.goals.grounder import Grounder
+from tmd.goals.reading.fitting import Fitting
+from tmd.goals.reading.noun_phrases import Mode, Referent
+from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
+from tmd.goals.reading.requirements import Requirements
+from tmd.goals.reasons import forms, why_impossible
+from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable, Slot
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said
+from tmd.language.clause import Quantifier
+from tmd.language.lexicon.lexicon import Lexicon
+from tmd.pddl.ground_formula import (
+    FALSE,
+    TRUE,
+    atoms_of,
+    conjunction,
+    disjunction,
+    goal_cubes,
+    negation,
+    only_negative,
+)  # fmt: skip
+from tmd.pddl.model import Atom, Formula, Or, conjuncts
+from tmd.planning.unsolvable import Impossible
+from tmd.veil.world import World
+
+_NEVER_OTHERWISE = Or((FALSE,))
+"""Marks what holds of a thing because the contrary never can: as good as FALSE where that thing alone is meant."""
+_DEAD = (FALSE, _NEVER_OTHERWISE)
+_MOST_CHOICES = 200
+"""Maximum number of ways of choosing two of many things."""
+Read: TypeAlias = "tuple[Formula, GoalRow] | Refusal"
+Places: TypeAlias = Sequence[tuple[Slot, str, str | None]]
+
+
+class RowReader:
+    """Reads clauses by rows in one environment.
+
+    Args:
+        world: The environment.
+        table: The meanings of adjectives and groups.
+        lexicon: The domain's words.
+        grounder: Grounds conditions.
+        guess: Whether a thing may be taken for what a noun is only like in meaning.
+    """
+
+    def __init__(
+        self, world: World, table: GoalTable, lexicon: Lexicon, grounder: Grounder, *, guess: bool = False
+    ) -> None:
+        self.world = world
+        self.grounder = grounder
+        self.referents = Referents(world, table, lexicon, grounder, guess=guess)
+        self.nouns = self.referents.nouns
+        self.requirements = Requirements(self.referents)
+        self.fitting = Fitting(self.referents)
+        self.exclusions = Impossible(world.task)
+
+    def by_rows(self, rows: Sequence[GoalRow], reading: ClauseReading) -> ClauseGoal | Refusal:
+        """Return the goal by the first rows that fit every thing the verb acts on."""
+        parted = self._one_and_other(reading)
+        shared = self._one_place(reading) if parted is None else None
+        found = self._with_one(parted or shared, rows, reading)
+        if shared is not None and (isinstance(found, Refusal) or (found and self._excluded(found[0], reading))):
+            # two pots on a burner: one each
+            found, reading.meant, reading.approach = None, {}, []
+        if found is None:
+            found = self._of_units(rows, reading)
+        return found if isinstance(found, Refusal) else self.finished(*found, reading)
+
+    def finished(self, formula: Formula, row: GoalRow | None, reading: ClauseReading) -> ClauseGoal | Refusal:
+        """Return a condition as the goal of the clause."""
+        clause = reading.clause
+        if clause.direct and all(is_none(n, clause) for n in clause.direct):
+            formula = negation(formula)
+        try:
+            cubes = goal_cubes(self.world.task, formula)
+        except TmdError as error:
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, error.message, error.hint)
+        if not cubes:
+            return Refusal(RefusalKind.CONTRADICTION, f"'{clause.text}' asks for what cannot hold at the same time")
+        notes = tuple(dict.fromkeys(reading.notes))
+        return ClauseGoal(clause, formula, cubes, row, dict(reading.meant), tuple(reading.approach), notes)
+
+    # ------------------------------------------------------------------ one thing for several
+
+    def _with_one(
+        self, noun: str | None, rows: Sequence[GoalRow], reading: ClauseReading
+    ) -> tuple[Formula, GoalRow | None] | Refusal | None:
+        """Return the goal with one thing for all that is said of a noun; ``None`` where none is left open."""
+        candidates = self.referents.targets(noun, reading) if noun is not None else ()
+        things = tuple(n for n in candidates if not self.nouns.is_constant(n)) or candidates
+        if noun is None or len(things) < 2:  # a bottle, not the beer in it
+            return None
+        ways: list[tuple[Formula, GoalRow | None]] = []
+        approaches: list[list[Formula]] = []
+        meant: dict[str, dict[str, None]] = {}
+        failure: Refusal | None = None
+        for name in things:
+            reading.taken, reading.meant, reading.approach = {noun: name}, {}, []
+            found = self._of_units(rows, reading)
+            if isinstance(found, Refusal):
+                failure = failure or found
+                continue
+            ways.append(found)
+            approaches.append(reading.approach)
+            for said, names in reading.meant.items():
+                meant.setdefault(said, {}).update(dict.fromkeys(names))
+        reading.taken, reading.meant = {}, {said: tuple(names) for said, names in meant.items()}
+        reading.approach = [disjunction(parts) for parts in zip(*approaches, strict=False)]
+        return (disjunction(formula for formula, _ in ways), ways[-1][1]) if ways else failure
+
+    def _one_place(self, reading: ClauseReading) -> str | None:
+        """Return the place where several things shall go: "milk and coffee in a mug" is one mug, whichever it is."""
+        clause = reading.clause
+        for noun, phrase in clause.phrases.items():
+            one = phrase.quantifier in (Quantifier.PLAIN, Quantifier.SOME) and not (phrase.plural or phrase.each)
+            sources = {r.source for r in clause.relations if r.target == noun and is_relation(r.relation, "place")}
+            if one and len(sources.intersection(clause.direct)) > 1 and not self.referents.points_back(noun):
+                return noun
+        return None
+
+    def _excluded(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Return whether it is proven that something can never be: two pots on one burner."""
+        try:
+            return self.exclusions.reason(reading.state, goal_cubes(self.world.task, formula)) is not None
+        except TmdError:  # too many conjunctions, which is told where the goal is finished
+            return False
+
+    def _one_and_other(self, reading: ClauseReading) -> str | None:
+        """Return the noun of which one thing is spoken of more than once: "tea in a cup and milk in the other".
+
+        Or: "coffee in a mug and some milk in it".
+        """
+        clause = reading.clause
+        for noun, phrase in clause.phrases.items():
+            meant = clause.meant(noun)[0]
+            other = is_one(noun) and phrase.quantifier is Quantifier.OTHER
+            same = is_noun(noun, "it") and any(r.target == noun for r in clause.relations)
+            first = clause.phrases.get(meant)
+            if (other or same) and first is not None and first.quantifier not in (Quantifier.ALL, Quantifier.OTHER):
+                return meant
+        return None
+
+    # ------------------------------------------------------------------ each thing that is acted on
+
+    def _of_units(self, rows: Sequence[GoalRow], reading: ClauseReading) -> tuple[Formula, GoalRow | None] | Refusal:
+        """Return what shall hold of all that the verb acts on, and the last row that says so."""
+        formulas: list[Formula] = []
+        used: GoalRow | None = None
+        for unit in self.referents.units(reading):
+            found = self._unit(rows, unit, reading)
+            if isinstance(found, Refusal):
+                found = self._measured(rows, unit, reading) or found
+            if isinstance(found, Refusal):
+                return found
+            formula, used = found
+            formula = self._as_at_first(formula, reading)
+            formulas.append(self._where_spoken_of(formula, used, unit, reading))
+        clause = reading.clause
+        either = any(clause.phrase(name).either for name in clause.direct)
+        none = all(is_none(n, clause) for n in clause.direct or ("",))
+        return disjunction(formulas) if either or none else conjunction(formulas), used
+
+    def _as_at_first(self, formula: Formula, reading: ClauseReading) -> Formula:
+        """Return of several places where a thing may be put *back* the one where it was: *back on its burner*."""
+        if not ends_as(reading.clause.verb, "back") or not isinstance(formula, Or):
+            return formula
+        then = [part for part in formula.parts if self.grounder.truth(part, reading.memory.first)]
+        return disjunction(then) if then else formula
+
+    def _where_spoken_of(self, formula: Formula, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula:
+        """Return of several things that *the* one may be the one where that is which was spoken of last.
+
+        *Put the pot on the stove. Light the burner*: the burner that the pot stands on.
+        """
+        said = reading.clause.phrase(unit.direct or "")
+        one = said.definite and not said.plural and said.quantifier is Quantifier.PLAIN
+        if not one or row.places or not isinstance(formula, Or) or not _of_alternatives(formula.parts):
+            return formula
+        named = {name for atom in atoms_of(formula) for name in atom.args}
+        for name in reading.memory.recent:
+            facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
+            joined = {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
+            near = [part for part in formula.parts if any(joined.intersection(a.args) for a in atoms_of(part))]
+            if near and name not in named:
+                return disjunction(near)
+        return formula
+
+    def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
+        """Return *two spoons of coffee* as some coffee, where nothing can be said of the spoons."""
+        inner = next((target for relation, target in unit.relations if is_relation(relation, "partitive")), None)
+        if inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
+            return None
+        clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
+        held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.moments)
+        few = measure.quantifier is Quantifier.NUMBER and 0 < len(held) < (measure.number or 1)
+        if few and all(map(self.nouns.is_supply, held)):
+            return None  # two packets, where there is one
+        if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
+            own = clause.phrase(inner)
+            counted = replace(own, quantifier=measure.quantifier, number=measure.number, plural=measure.plural)
+            reading.clause = replace(clause, phrases={**clause.phrases, inner: counted})
+        others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
+        found = self._unit(rows, Unit(inner, others + self.referents.relations_of(inner, clause)), reading)
+        reading.clause = clause
+        if isinstance(found, Refusal):
+            return None
+        if unit.direct is not None and inner in reading.meant:
+            reading.meant.setdefault(unit.direct, reading.meant[inner])
+        return found
+
+    def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
+        """Return the goal of one thing; a pronoun is what it most likely means of that which a row fits."""
+        if unit.direct is None or not self.referents.points_back(unit.direct):
+            return self._with_places(rows, unit, reading)
+        failure: Refusal | None = None
+        held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
+        first: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
+        reading.pronoun = unit.direct
+        options = self.referents.antecedents(unit.direct, reading)
+        for number, (_, is_object) in enumerate(options or [("", True)]):
+            reading.antecedent = number
+            before = dict(reading.meant)
+            found = self._with_rows(rows, unit, reading)
+            if isinstance(found, Refusal):
+                failure = failure or found
+            elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
+                if reading.awaited:
+                    return found
+                held = held or (found, reading.meant)  # so already: rather what is not
+                reading.meant = before
+            elif first is None and (held is None or not is_object or found[1].looks_back):
+                first = found, reading.meant
+                reading.meant = before
+                if not self._undoes(found[0], reading) and not is_object:
+                    continue  # "put the milk in the fridge and close it": rather what was opened meanwhile
+                break
+            elif first is not None and (is_object or self._undoes(found[0], reading)):
+                first = first if is_object else (found, reading.meant)
+                break
+        best = first or held
+        if best is not None:
+            reading.meant = best[1]
+            return best[0]
+        assert failure is not None
+        return failure
+
+    def _undoes(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Return whether what is asked for held before the text: what was done meanwhile is undone."""
+        return bool(atoms_of(formula)) and self.grounder.truth(formula, reading.memory.first)
+
+    def _with_places(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
+        """Return the goal with places that point back: what was spoken of last and a row fits.
+
+        A place may be left out (*pour the milk*) or be a pronoun (*pour the milk in it*); it is then no object of the
+        clause itself, whatever row would fit that.
+        """
+        fillers = [f for row in rows for slot in row.places for f in self.fitting.fillers(slot, unit, reading)]
+        back = [""] if any(target is None and is_relation(relation, "elided") for relation, target in fillers) else []
+        pronouns = (target for _, target in fillers if target is not None and self.referents.points_back(target))
+        back += [p for p in islice(pronouns, 1) if reading.clause.together.get(p, 1) == 1]
+        for pronoun in back:
+            reading.pronoun = pronoun
+            for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
+                reading.antecedent = number
+                found = self._with_rows(rows, unit, reading)
+                if not isinstance(found, Refusal) and (not is_object if pronoun else found[1].places):
+                    return found
+            reading.pronoun = reading.antecedent = None
+        return self._with_rows(rows, unit, reading)
+
+    # ------------------------------------------------------------------ rows
+
+    def _with_rows(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
+        """Return the goal of one thing by the row with the most slots that fits and can hold."""
+        failure: Refusal | None = None
+        fitting = self.fitting.of(rows, unit, reading)
+        impossible: set[str] = set()
+        most = 0
+        for place, row in enumerate(fitting):
+            if impossible and (row.source != ACTIONS or row.evidence in impossible) and len(row.slots) < most:
+                continue  # what cannot be done with all that was said is not done with less
+            before = dict(reading.meant), list(reading.approach), list(reading.notes)
+            found = self._by_row(row, unit, reading)
+            if not isinstance(found, Refusal):
+                shorter = [r for r in fitting[place + 1 :] if len(r.slots) < len(row.slots)]
+                return self._with_fewer(shorter, row, found, unit, reading) or (found, row)
+            failure = failure or found
+            if found.kind is RefusalKind.IMPOSSIBLE and self.fitting.takes_all(row, unit, reading):
+                impossible.add(row.evidence)
+                most = max(most, len(row.slots))
+            reading.meant, reading.approach, reading.notes = before
+        if failure is not None:
+            return failure
+        verb = reading.clause.verb
+        message = f"'{text_of(reading.clause)}' says too little or too much for '{words(verb)}'"
+        return Refusal(RefusalKind.NOT_UNDERSTOOD, message, f"say {forms(rows, verb)}")
+
+    def _with_fewer(
+        self, shorter: Sequence[GoalRow], row: GoalRow, found: Formula, unit: Unit, reading: ClauseReading
+    ) -> Read | None:
+        """Return the goal without a place that told which thing is meant, if the verb can do without it."""
+        if not shorter or not self.fitting.may_tell_which(row, unit, reading):
+            return None
+        other = self._with_rows(shorter, unit, reading)
+        if isinstance(other, Refusal):  # "everything on the floor that is empty", where nothing is
+            return other if other.kind is RefusalKind.NO_SUCH_THING else None
+        held = self.grounder.truth(found, reading.state)
+        return other if held or not self.grounder.truth(other[0], reading.state) else None
+
+    def _by_row(self, row: GoalRow, unit: Unit, reading: ClauseReading) -> Formula | Refusal:
+        """Return the goal of one thing by one row: for each combination of what stands behind the prepositions."""
+        clause = reading.clause
+        fillers = [(slot, self.fitting.fillers(slot, unit, reading)) for slot in row.places]
+        consumed = {filler for _, said in fillers for filler in said}
+        alternatives = any(target and clause.phrase(target).either for _, target in consumed)
+        leftover = [pair for pair in unit.relations if pair not in consumed]
+        every = reading.strict or row.source == ACTIONS
+        if every and any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
+            message = f"'{text_of(clause)}' says a place that nothing is known of"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
+        unknown = self._unknown_thing(leftover, reading)
+        if unknown is not None:
+            return unknown
+        formulas = []
+        for choice in product(*([(slot, *filler) for filler in said] for slot, said in fillers)):
+            found = self._combination(row, unit.direct, choice, leftover, reading)
+            if not isinstance(found, Refusal):
+                formulas.append(found)
+            elif not alternatives:
+                return found
+        if not formulas:
+            return self._cannot(reading)
+        return disjunction(formulas) if alternatives else conjunction(formulas)
+
+    def _cannot(self, reading: ClauseReading, reason: str = "") -> Refusal:
+        return Refusal(RefusalKind.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here{reason}")
+
+    def _unknown_thing(self, leftover: Sequence[tuple[str, str]], reading: ClauseReading) -> Refusal | None:
+        """Return a refusal for a thing that is not there: whatever is done without it is something else."""
+        if self.nouns.guess:
+            return None
+        clause = reading.clause
+        for relation, target in leftover:
+            named = not (self.referents.points_back(target) or target in clause.quantities or is_none(target, clause))
+            if named and is_relation(relation, "naming") and not self.referents.targets(target, reading):
+                return self.referents.missing(Referent(target, ()), reading)
+        return None
+
+    def _combination(
+        self,
+        row: GoalRow,
+        direct: str | None,
+        places: Places,
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Formula | Refusal:
+        slots: list[tuple[str, list[Referent]]] = []
+        if row.direct is not None and direct is not None:
+            acted_on = self.referents.referents(direct, row, row.direct, leftover, reading)
+            slots.append((row.direct.variable, [self._at_origin(r, places, reading) for r in acted_on]))
+        for slot, _, target in places:
+            relations = self.referents.relations_of(target, reading.clause) if target else []
+            slots.append((slot.variable, self.referents.referents(target or "", row, slot, relations, reading)))
+        failure: Refusal | None = None
+        for chosen in product(*(options for _, options in slots)):
+            missing = next((referent for referent in chosen if not referent.names), None)
+            if missing is not None:
+                failure = failure or self.referents.missing(missing, reading)
+                continue
+            pairs = [(variable, referent) for (variable, _), referent in zip(slots, chosen, strict=True)]
+            said = [r for slot, relation, _ in places for r in relations_said(relation, slot.prepositions)]
+            formula = self._formula(row, pairs, said or [""], direct, leftover, reading)
+            if formula == FALSE:
+                failure = failure or self._impossible(row, pairs, said or [""], reading)
+                continue
+            reading.meant.update((referent.noun, referent.names) for _, referent in pairs)
+            return formula
+        return failure or self._cannot(reading)
+
+    def _at_origin(self, referent: Referent, places: Places, reading: ClauseReading) -> Referent:
+        """Return of *everything off the table* what is there now."""
+        for _, relation, target in places:
+            if target is not None and is_relation(relation, "origin"):
+                ends = self.referents.targets(target, reading)
+                there = self.nouns.related_now(referent.names, relation, ends, reading.moments)
+                referent = referent.only(there or referent.names)
+        return referent
+
+    # ------------------------------------------------------------------ conditions
+
+    def _formula(
+        self,
+        row: GoalRow,
+        pairs: Sequence[tuple[str, Referent]],
+        said: Sequence[str],
+        direct: str | None,
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> Formula:
+        """Return the condition of a row with its slots quantified, and what else was said of the thing acted on."""
+        variables = [variable for variable, _ in pairs]
+        further = self.requirements.further(row, pairs, direct, leftover, reading)
+        excepted = frozenset(self.referents.excepted(leftover, reading))
+
+        def own(binding: Mapping[str, str], spared: frozenset[str]) -> tuple[Formula, bool]:
+            if len(set(binding.values())) < len(binding):
+                return FALSE, False
+            moments = replace(reading.moments, excepted=spared)
+            ways = [
+                self.grounder.ground_live(row.condition, {**binding, RELATION: one}, variables, moments) for one in said
+            ]
+            return disjunction(formula for formula, _ in ways), any(live for _, live in ways)
+
+        def whole(binding: Mapping[str, str]) -> Formula:
+            formula, live = own(binding, frozenset())
+            if excepted:
+                rest, live = own(binding, excepted)
+                formula = self._but_for(rest, formula, reading)
+            settled = formula == TRUE and row.source == ACTIONS  # no action moves a curtain from where it hangs
+            if formula == FALSE or ((settled or not live) and not row.traceless):
+                # what can never be so is not "not so already", but for one of many: all filters shall be clean
+                return FALSE if formula == FALSE else _NEVER_OTHERWISE
+            return conjunction((formula, *(extra(binding) for extra in further))) if further else formula
+
+        each = [p for p in pairs if p[1].each]
+        one = [p for p in pairs if p[1].mode is Mode.ANY and not p[1].each]
+        many = [p for p in pairs if p[1].mode is not Mode.ANY and not p[1].each]
+        formula = self._quantified([*each, *one, *many], {}, whole, reading)
+        if formula in _DEAD and one and many:
+            formula = self._quantified([*each, *many, *one], {}, whole, reading)
+        return FALSE if formula in _DEAD else formula
+
+    def _but_for(self, rest: Formula, everything: Formula, reading: ClauseReading) -> Formula:
+        """Return a condition for all things but some, which stay as they are: *clear the table except the cup*."""
+        if rest == everything:
+            return everything
+        spared = (part for part in conjuncts(everything) if part not in conjuncts(rest))
+        return conjunction((rest, *(negation(p) for p in spared if not self.grounder.truth(p, reading.state))))
+
+    def _quantified(
+        self,
+        pairs: Sequence[tuple[str, Referent]],
+        binding: Mapping[str, str],
+        leaf: Callable[[Mapping[str, str]], Formula],
+        reading: ClauseReading,
+    ) -> Formula:
+        """Return the condition over all candidates, quantifier after quantifier."""
+        if not pairs:
+            return leaf(binding)
+        (variable, referent), *rest = pairs
+        parts = {name: self._quantified(rest, {**binding, variable: name}, leaf, reading) for name in referent.names}
+        alive = [part for part in parts.values() if part not in _DEAD]
+        match referent.mode:
+            case Mode.ALL:
+                kept = alive if referent.loose or FALSE not in parts.values() else list(parts.values())
+                return conjunction(kept) if kept else FALSE
+            case Mode.NUMBER:
+                ways = islice(combinations(alive, referent.number), _MOST_CHOICES)
+                return disjunction(conjunction(way) for way in ways)
+            case Mode.NONE:
+                return conjunction(parts.values()) if len(parts) == 1 else disjunction(alive)
+        return self._any_of(alive, reading) if referent.definite else disjunction(alive)
+
+    def _any_of(self, alive: Sequence[Formula], reading: ClauseReading) -> Formula:
+        """Return *the sock* of several socks: one for which it does not hold yet; all, of what shall cease to be."""
+        left = [part for part in alive if not self.grounder.truth(part, reading.state)] if len(alive) > 1 else []
+        if left and all(map(only_negative, alive)):
+            return conjunction(left)
+        return disjunction(left or alive)
+
+    def _impossible(
+        self, row: GoalRow, pairs: Sequence[tuple[str, Referent]], said: Sequence[str], reading: ClauseReading
+    ) -> Refusal:
+        short = next((r for _, r in pairs if r.mode is Mode.NUMBER and len(r.names) < r.number), None)
+        if short is not None:
+            called = "1 thing here is" if len(short.names) == 1 else f"{len(short.names)} things here are"
+            message = f"only {called} called '{words(short.noun)}', not {short.number}"
+            return Refusal(RefusalKind.NO_SUCH_THING, message)
+        binding = {variable: referent.names[0] for variable, referent in pairs}
+        reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.grounder)
+        return self._cannot(reading, f": {reason}")
+
+
+def _of_alternatives(parts: Sequence[Formula]) -> bool:
+    """Return whether all say the same of several things: one predicate, and arguments that differ in one place."""
+    atoms = [(part.predicate, part.terms) for part in parts if isinstance(part, Atom)]
+    if len(atoms) < len(parts) or len({(predicate, len(terms)) for predicate, terms in atoms}) > 1:
+        return False
+    return sum(len(set(column)) > 1 for column in zip(*(terms for _, terms in atoms), strict=True)) == 1

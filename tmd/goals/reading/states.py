@@ -1,0 +1,135 @@
+"""States that a clause says to be so, or to become so."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from tmd.diagnostics import Refusal, RefusalKind
+from tmd.goals.clause_goal import ClauseReading, text_of, words
+from tmd.goals.reading.noun_phrases import Mode, Referent
+from tmd.goals.reading.referents import ANY_TYPE, Referents
+from tmd.goals.sources.table import GoalRow, Slot
+from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb
+from tmd.language.clause import PERSONS
+from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
+from tmd.pddl.model import Atom, Formula, GroundAtom
+from tmd.veil.world import CONTAINED
+
+_ROW = GoalRow((BE,), (Slot("?x"),), TRUE, BE)
+
+
+class States:
+    """Reads states as conditions.
+
+    Args:
+        referents: Finds what nouns mean.
+    """
+
+    def __init__(self, referents: Referents) -> None:
+        self.referents = referents
+        self.world = referents.world
+        self.grounder = referents.grounder
+        self.nouns = referents.nouns
+
+    def read(self, reading: ClauseReading) -> Formula | Refusal:
+        """Return what is to be so: *the door is open*, *get the water boiling*, *there is milk in the cup*."""
+        clause = reading.clause
+        formulas = []
+        for noun in [n for n in (clause.direct or clause.objects[:1]) if n not in PERSONS] or [""]:
+            found = self._state_of(noun, reading)
+            if isinstance(found, Refusal):
+                return found
+            formulas.append(found)
+        return conjunction(formulas)
+
+    def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refusal:
+        relations = self.referents.relations_of(noun, reading.clause)
+        excepted = [r for r in relations if is_relation(r[0], "excepting")]
+        relations = [r for r in relations if r not in excepted]
+        constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
+        if constants:
+            return self._substance_state(noun, constants, relations, reading)
+        failure: Refusal | None = None
+        found: list[tuple[Formula, Referent]] = []
+        for referent in self.referents.referents(noun, _ROW, _ROW.slots[0], excepted, reading):
+            missing = None if referent.names else self.referents.missing(referent, reading)
+            said = missing or self._thing_state(referent, relations, reading)
+            if isinstance(said, Refusal):
+                failure = failure or said
+            else:
+                found.append((said, referent))
+        if not found:
+            return failure or self.referents.missing(Referent(noun or IT, ()), reading)
+        formula, referent = self._likeliest(found, reading) if is_pronoun(noun) else found[0]
+        reading.meant[referent.noun] = referent.names
+        return formula
+
+    def _likeliest(self, found: Sequence[tuple[Formula, Referent]], reading: ClauseReading) -> tuple[Formula, Referent]:
+        """Return of what a pronoun may mean what can be so and otherwise; what is so by now, if it is left so."""
+        fitting = [each for each in found if each[0] not in (TRUE, FALSE)] or found
+        clause = reading.clause
+        if is_verb(clause.verb, "leaving"):
+            so = not (clause.result or "").startswith(NEGATED)
+            fitting = [each for each in fitting if self.grounder.truth(each[0], reading.state) == so] or fitting
+        return fitting[0]
+
+    def _substance(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """Return the constants that a noun names where it names no object."""
+        matches = self.world.mentions.of(noun, reading.state)
+        contained = bool(matches) and all(match.how == CONTAINED for match in matches)
+        named = any(not self.nouns.is_constant(n) for n in self.nouns.things(noun, reading.state))
+        return self.nouns.constants(noun, ANY_TYPE, reading.state) if contained or not named else ()
+
+    def _thing_state(
+        self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
+    ) -> Formula | Refusal:
+        result = reading.clause.result
+        alive: list[Formula] = []
+        for name in referent.names:
+            state = self.nouns.attribute(result, name, reading.moments) if result else TRUE
+            if state is not None:
+                places = (self._related(name, r, self.referents.targets(t, reading), reading) for r, t in relations)
+                alive.append(conjunction((state, *places)))
+        if not alive:
+            message = f"nothing here says whether {words(referent.noun)} is {words(str(result))}"
+            hint = "declare the adjective under 'attributes' in lexicon.yaml"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message, hint)
+        return conjunction(alive) if referent.mode is Mode.ALL else disjunction(alive)
+
+    def _related(self, thing: str, relation: str, places: Sequence[str], reading: ClauseReading) -> Formula:
+        return disjunction(self.nouns.related(relation, thing, p, reading.moments) for p in places if p != thing)
+
+    def _substance_state(
+        self, noun: str, constants: Sequence[str], relations: Sequence[tuple[str, str]], reading: ClauseReading
+    ) -> Formula | Refusal:
+        """Return that a substance is where it is contained, and as that is: *the beer on the shelf*."""
+        result = reading.clause.result
+        adjectives = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
+        targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
+        bound = reading.memory.bound.get(noun)
+        known = bound.containers if bound is not None and not targets else ()
+        ways = []
+        for thing, held in self._contained(constants, fixed=bool(targets)):
+            if known and thing not in known:
+                continue
+            placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
+            said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
+            if FALSE not in placed and None not in said:
+                ways.append(conjunction((held, *placed, *(f for f in said if f is not None))))
+        if not ways:
+            message = f"'{text_of(reading.clause)}' says nothing that could be checked here"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
+        reading.meant[noun] = tuple(constants)
+        return disjunction(ways)
+
+    def _contained(self, constants: Sequence[str], *, fixed: bool) -> Iterator[tuple[str, Formula]]:
+        """Yield the things that may contain one of some substances, each with the fact that it does."""
+        for atom in (atom for constant in constants for atom in self.nouns.facts_about(constant)):
+            things = [a for a in atom.args if not self.nouns.is_constant(a)]
+            changes = atom in self.world.task.index
+            if len(things) == 1 and (changes or (fixed and atom in self.world.task.static)):
+                yield things[0], _fact(atom) if changes else TRUE
+
+
+def _fact(atom: GroundAtom) -> Formula:
+    return Atom(atom.predicate, atom.args)

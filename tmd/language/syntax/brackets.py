@@ -1,0 +1,654 @@
+"""Bracket subordinate clauses, statements, demands and prohibitions: from their opener to the mark of their end.
+
+The grammar (``clauses.lark``) cannot look ahead; where a clause ends is decided here, from the classes of the words.
+What asks for nothing (questions, what is taken back, what need not be done) is set aside with its reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from tmd.language.clause import Span
+from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.syntax.joins import first_of
+from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.syntax.words import BREAKS, HEADS, IDLE, LINKS, NP, Words, mark
+
+K = Kind
+ALSO = "also"
+"""The form of a joint, or of a preposition behind one, that goes on with what stood earlier: "and the mug too"."""
+RELATIVE = "relative"
+"""The form of a preposition that opens what was a relative clause: "the remote that is on the sofa"."""
+ALONE = "alone"
+"""The form of a verb that shares no object with the next one."""
+DUTY = "duty"
+"""The form of the opener of a statement that says what shall be."""
+STATEMENT = "a statement, not an instruction"
+UNNEEDED = "says what need not be done"
+REMINDER = "names a thing, and not what to do with it"
+ADDRESS = "addresses somebody"
+ASIDE = "an aside in brackets"
+QUESTION = "a question, not an instruction"
+CORRECTED = "taken back by what was said next"
+_DEPTH = 3
+"""Maximum nesting depth of subordinate clauses."""
+_NEAR = 15
+"""Tokens that are looked ahead for what a wish is about."""
+
+Handler = Callable[[int], int]
+"""Reads what begins at a place; returns where reading goes on."""
+
+
+class Bracketer(Words):
+    """One pass over the joined words of a text.
+
+    Attributes:
+        out: What the grammar sees; commas and conjunctions are still undecided.
+        dropped: What speakers have taken back.
+    """
+
+    def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
+        """Take the words of a text."""
+        super().__init__(tokens)
+        self.lexicon = lexicon
+        self.out: list[Token] = []
+        self.dropped: list[Token] = []
+        self._verb: Token | None = None
+        """The verb of the clause that is open."""
+        self._subject = 0
+        """Where in ``out`` the arguments begin that may be the subject of a statement."""
+        self._open: list[Token] = []
+        """The openers of the brackets that are open."""
+        shared: dict[Kind, Handler] = {
+            K.SUB: self._condition, K.PURP: self._purpose, K.REL: self._relative, K.P: self._preposition,
+            K.ADJ: self._adjective, K.ADV: self._adverb, K.FILLER: self._drop, K.SKIP: self._drop,
+        }  # fmt: skip
+        self._outer: dict[Kind, Handler] = shared | {
+            K.STOP: self._stop, K.TO: self._infinitive, K.NEG: self._negation, K.ENSURE: self._ensure,
+            K.LET: self._let, K.SUBJECT: self._speaker, K.AUX: self._auxiliary, K.FINITE: self._auxiliary,
+            K.PARTICIPLE: self._participle, K.ING: self._ing, K.V: self._deed, K.N: self._noun,
+            K.COMMA: self._comma, K.CC: self._joint,
+        }  # fmt: skip
+        self._inner: dict[Kind, Handler] = shared | {
+            K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
+            K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_auxiliary,
+            K.DET: self._inner_determiner, K.N: self._inner_noun, K.COMMA: self._inner_joint, K.CC: self._inner_joint,
+        }  # fmt: skip
+
+    def run(self) -> list[Token]:
+        """Return the words with brackets."""
+        at = 0
+        while at < len(self.tokens):
+            if self.among(at, "corrections") and self.out:
+                at = self._corrected(at)
+            elif self._is_question(at):
+                at = self._skip(at, self.first(at, "STOP"), QUESTION)
+            else:
+                at = self._outer.get(self.kind(at), self._keep)(at)
+        return self.out
+
+    # brackets
+
+    def _bracket(self, opener: Token, kind: Kind, at: int, end: int) -> int:
+        """Emit an opener, what stands from ``at`` to ``end``, and the closing mark."""
+        if len(self._open) < _DEPTH and end > at:
+            opener.kind = kind
+            self.out.append(opener)
+            self._fill(opener, at, end)
+        return max(end, at)
+
+    def _fill(self, opener: Token, at: int, end: int) -> None:
+        self._open.append(opener)
+        place = at
+        while place < end:
+            place = self._inner.get(self.kind(place), self._keep)(place)
+        self._open.pop()
+        self.out.append(mark(K.END, self.tokens[end - 1].span.end))
+        start = next(i for i in range(len(self.out) - 1, -1, -1) if self.out[i] is opener)
+        if self._verb is None and not self._open and all(t.kind in LINKS for t in self.out[self._subject : start]):
+            self._subject = len(self.out)
+
+    def _statement(self, at: int, *, negated: bool = False) -> int:
+        """Bracket a statement whose subject has come and whose finite verb stands at ``at``."""
+        start = (self.out[self._subject] if self._subject < len(self.out) else self.tokens[at]).span.start
+        say = mark(K.SAY, start)
+        say.negated = negated
+        self.out.insert(self._subject, say)
+        end = self._statement_end(at)
+        self._fill(say, at, end)
+        return end
+
+    def _skip(self, at: int, end: int, note: str) -> int:
+        """Set words aside with the reason."""
+        token = self.tokens[at]
+        token.kind, token.note = K.SKIP, note
+        token.span = Span(token.span.start, self.tokens[max(at, end - 1)].span.end)
+        return end
+
+    def _begin(self) -> None:
+        """Begin a unit."""
+        self._verb, self._subject = None, len(self.out)
+
+    def _last(self) -> Kind:
+        return self.out[-1].kind if self.out else K.SEP
+
+    def _named(self) -> bool:
+        """Tell whether something has been named that may be a subject."""
+        return any(t.kind in HEADS for t in self.out[self._subject :])
+
+    def _hosts_result(self) -> bool:
+        """Tell whether what stands behind an object may be the state that it shall be in."""
+        return self._verb is None or self._verb.stem.partition("_")[0] in section("result_verbs")
+
+    def _keep(self, at: int) -> int:
+        self.out.append(self.tokens[at])
+        return at + 1
+
+    def _drop(self, at: int) -> int:
+        return at + 1
+
+    # where clauses end
+
+    def _statement_end(self, at: int) -> int:
+        """Return where a statement ends whose finite verb stands at ``at``."""
+        end = self.peek(at, "(IDLE|AUX|SUBJECT|NEG|TO|INF)*")
+        end += self.kind(end) is K.V
+        while self.kind(end) is not K.STOP:
+            deed = self.kind(end) is K.V and self.kind(end - 1) not in (K.TO, K.AUX, K.NEG)
+            joint = self.follows(end, "LINKS IDLE* (V|SUBJECT|SUB|NEG|ENSURE|LET) | COMMA IDLE* AUX")
+            also = self.kind(end) is K.COMMA and self._statement_follows(end)
+            if deed or joint or also or self.follows(end, "SUB|ENSURE|PURP"):
+                break
+            end += 1
+        return end
+
+    def _statement_follows(self, at: int) -> bool:
+        """Tell whether a subject with its finite verb stands behind a comma or a conjunction."""
+        return self.follows(at + 1, "(NP|OF|IDLE|CC|EXC)* (HEAD|NUM) (NP|OF|IDLE|CC|EXC)* (AUX|FINITE)")
+
+    def _clause_end(self, at: int) -> int:
+        """Return where the subordinate clause that opens at ``at`` ends."""
+        finite, end = False, at + 1
+        while not (self.follows(end, "STOP|COMMA|ENSURE|LET") or self.among(end, "then_words")):
+            deed = self.kind(end) is K.V and end > at + 1
+            free = self.kind(end - 1) not in (K.AUX, K.TO, K.NEG) and (finite or self.kind(end - 1) is not K.SUBJECT)
+            if (deed and free) or self.follows(end, "CC IDLE* (V|SUBJECT|NEG|ENSURE|LET)"):
+                break
+            if finite and self.follows(end, "SUB|PURP|SUBJECT IDLE* AUX"):
+                break
+            if self.among(end, "by_words") and self.kind(end + 1) is K.ING:
+                break
+            finite = finite or deed or self.follows(end, "FINITE|AUX|ING|PARTICIPLE|ADJ")
+            end += 1
+        return end
+
+    def _relative_end(self, at: int) -> int:
+        """End a relative clause where the main clause goes on: "the chair that stands there to the desk"."""
+        verb = said = False
+        for place in range(at + 1, self._clause_end(at)):
+            if verb and (self.kind(place) is K.CC or (said and self.follows(place, "FINITE|AUX"))):
+                return place  # "everything that is empty | goes in the bin"
+            if self.follows(place, "INF AUX") or self._goes_on(at, place, verb=verb, said=said):
+                return place
+            said = said or (verb and (self.follows(place, "HEAD|ADJ") or self.among(place, "there_words")))
+            verb = verb or self.follows(place, "FINITE|AUX|PARTICIPLE")
+        return self._clause_end(at)
+
+    def _goes_on(self, at: int, place: int, *, verb: bool, said: bool) -> bool:
+        """Tell whether a preposition belongs to the main clause again."""
+        if not self.follows(place, "P|TO|EXC"):
+            return False
+        state = self.kind(place - 1) is K.ADJ  # "the bottles that are empty | in the bag"
+        inner = self.follows(place - 2, "P PRON")  # "the cup that has water in it | in the sink"
+        owns = said and self.among(at + 1, "having") and self.kind(place + 1) is not K.PRON
+        away = said and self.among(place, "arrivals", "origins") and not self.among(place, "static")
+        return self.kind(place) is K.EXC or owns or (verb and (state or inner or away))
+
+    def _negation_end(self, at: int) -> int:
+        """Return where a prohibition ends of which the deed, or the thing, stands at ``at``."""
+        deed, end = self.kind(at) in (K.V, K.LET, K.ING), at
+        while self.kind(end) is not K.STOP:
+            contrast = self.among(end, "contrasts") or self.kind(end) is K.COMMA
+            if contrast and self.follows(end + 1, "IDLE* (V|SUBJECT|SUB|NP|P|TO|INF)"):
+                break
+            run_on = self.follows(end - 1, "(HEAD|STATE) V") and self.tokens[end].strength == 3
+            if run_on or (not deed and self.follows(end, "INF|SUB|PURP|V")):
+                break  # "the saw, not the axe, to cut it"
+            end += 1
+        return end
+
+    # subordinate clauses
+
+    def _condition(self, at: int) -> int:
+        token = self.tokens[at]
+        if self._last() is K.EXC:
+            self.out.pop()
+            token.text = first_of("excepting")  # "except if"
+        if self.kind(at + 1) is K.ING:
+            self.tokens[at + 1].kind = K.V
+        return self._bracket(token, K.SUB, at + 1, self._clause_end(at))
+
+    def _purpose(self, at: int) -> int:
+        verb = self.peek(at)
+        return self._bracket(self.tokens[at], K.PURP, at + 1, self._clause_end(verb if self.kind(verb) is K.V else at))
+
+    def _infinitive(self, at: int) -> int:
+        token = self.tokens[at]
+        if token.form != "inf":
+            token.kind = K.P
+            return self._keep(at)
+        if (awaited := self._awaited()) is not None:
+            awaited.kind = K.SUB  # "wait for the kettle to boil"
+            end = self._clause_end(at + 1)
+            self._fill(awaited, at + 1, end)
+            return end
+        if self._drop_lead() or self._last() in LINKS or self._verb is None:
+            return at + 1
+        if self._verb.stem in section("chain_verbs"):
+            token.kind = K.SEP
+            self.out.append(token)
+            self._begin()
+            return at + 1
+        return self._purpose(at)
+
+    def _awaited(self) -> Token | None:
+        """Return "for" of "wait for the kettle", where waiting is the open verb."""
+        if self._verb is None or self._verb.stem not in section("waiting"):
+            return None
+        behind = self.out[next(i for i, t in enumerate(self.out) if t is self._verb) :]
+        return next((t for t in behind if t.text in section("awaited")), None)
+
+    def _drop_lead(self) -> bool:
+        """Drop "want you", "remember", "need" right before an infinitive."""
+        back = len(self.out) - 1
+        while back >= 0 and self.out[back].kind in (K.PRON, K.ADJ, K.STATE):
+            back -= 1
+        if back < 0 or self.out[back].kind is not K.V or self.out[back].stem not in section("lead_verbs"):
+            return False
+        del self.out[back:]
+        self._verb = None
+        return True
+
+    def _relative(self, at: int) -> int:
+        copula = self.peek(at)
+        stands = self.kind(copula) is K.FINITE and self.stem_among(copula, "postures")
+        if stands or (self.kind(copula) is K.AUX and self.among(copula, "be") and not self.among(copula, "not_forms")):
+            place = self.peek(copula, "(IDLE|PARTICIPLE|ING)*")
+            place += self.among(place, "loosely")
+            if self.follows(place, "P IDLE* NP"):
+                self.tokens[place].form = RELATIVE if self._last() in HEADS else ""
+                return place  # "the cup that is on the desk" as "the cup on the desk"
+        if self._last() is K.P:
+            self.out.pop()
+        return self._bracket(self.tokens[at], K.REL, at + 1, self._relative_end(at))
+
+    def _ensure(self, at: int) -> int:
+        token, begin = self.tokens[at], at + 1
+        while self.follows(begin, "TO|INF|REL|ADV") or self.among(begin, "relatives"):
+            begin += 1
+        if self.follows(begin, "V|SUBJECT|NEG|MOD"):
+            return begin
+        finite = self.past(begin, "(NP|P|ADV|MOD|EXC|TO|INF|OF|CC)*")
+        if self.follows(finite, "AUX|FINITE|NEG"):
+            return self._bracket(token, K.ENSURE, begin, self._statement_end(finite))
+        token.kind, token.stem, token.form = K.V, token.text, "base"
+        return self._deed(at)
+
+    def _negation(self, at: int) -> int:
+        """Bracket what must not be done: "don't open it", "not the mug"."""
+        token = self.tokens[at]
+        if self.among(at, "choices"):
+            token.kind = K.CC
+            return self._keep(at)
+        if self._verb is None and self.among(at, "none_words") and self._statement_follows(at):
+            token.kind = K.DET  # "neither the lamp nor the radio should be on"
+            return self._keep(at)
+        if self._verb is None and self._named():
+            token.kind = K.AUX  # "the mug shouldn't be there"
+            return self._statement(at, negated=True)
+        deed = self.past(at + 1, "(NEG|IDLE|AUX|SUBJECT|TO|INF)*")
+        if self.stem_among(deed, "forgetting"):
+            thing = self.kind(deed + 1) in NP
+            return self._skip(at, self._clause_end(deed), REMINDER) if thing else deed + 1
+        end = self._negation_end(deed)
+        if self._unneeded(at, deed):
+            return self._skip(at, end, UNNEEDED)
+        if self.kind(deed) is K.ING:
+            self.tokens[deed].kind = K.V
+        return self._bracket(token, K.NEG, deed, end)
+
+    def _unneeded(self, at: int, deed: int) -> bool:
+        """Tell whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
+        helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
+        idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
+        return self.among(at, "needless") or helped or idle
+
+    # statements
+
+    def _speaker(self, at: int) -> int:
+        """Bracket what speakers say of themselves or notice; other subjects are dropped."""
+        verb = self.past(at + 1, "(IDLE|AUX)*")
+        if (wish := self._denied_wish(at)) is not None:
+            opener = self.tokens[self.peek(at)]
+            opener.negated = True
+            return self._bracket(opener, K.ENSURE, wish + 1, self._statement_end(wish + 1))
+        own = self._of_oneself(at, verb)
+        if own and self.stem_among(verb, "ordering"):
+            return at + 1  # "I'll have a tea"
+        if own and self._verb is not None and self._last() in LINKS:
+            self.out[-1].kind = K.SEP
+            self._begin()
+        noticed = self.stem_among(verb, "noticed", "knowing") and self.kind(at - 1) is not K.AUX
+        leads = self.follows(verb + 1, "IDLE* (TO|INF)") and not self._is(at, verb)
+        if self._verb is not None or not (own or noticed) or leads:
+            return at + 1
+        self.tokens[at].kind = K.PRON
+        return self._bracket(mark(K.SAY, self.tokens[at].span.start), K.SAY, at, self._statement_end(at))
+
+    def _is(self, at: int, verb: int) -> bool:
+        """Tell whether a form of *be* stands between a subject and what is said of it."""
+        return any(self.kind(i) is K.AUX and self.among(i, "be") for i in range(at + 1, verb))
+
+    def _of_oneself(self, at: int, verb: int) -> bool:
+        """Tell whether a speaker says something of himself: "I'm thirsty", "I spilled it", "I'll get it later"."""
+        if self.among(at, "self_forms"):
+            return True
+        past = verb < len(self.tokens) and self.tokens[verb].form == "ed" and self.kind(verb) is not K.ADJ
+        liking = self.stem_among(verb, "liking") and verb == self.peek(at)
+        denied = self.follows(at + 1, "IDLE* NEG IDLE* V")
+        return self.among(at, "speakers") and (self._is(at, verb) or past or liking or denied)
+
+    def _denied_wish(self, at: int) -> int | None:
+        """Return where "want" stands in "I don't want the lamp on"."""
+        wish = self.peek(self.peek(at))
+        denied = self.among(at, "speakers", "self_forms") and self.kind(self.peek(at)) is K.NEG
+        return wish if denied and self.stem_among(wish, "wishing") and self._wishes_state(wish) else None
+
+    def _wishes_state(self, at: int) -> bool:
+        """Tell whether a wish is for a state: "I want the fork put in the sink", "I'd like the window to be open"."""
+        to = self.first(at + 2, "INF|STOP|COMMA|V")
+        if to < at + _NEAR and self.follows(to, "INF AUX") and self.kind(at + 1) is not K.PRON:
+            return True
+        place, things = at + 1, False
+        while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (
+            self.kind(place) is not K.ADJ or self._leads(place)
+        ):
+            things = things or self.kind(place) is K.N
+            place += 1
+        return things and (self.kind(place) in (K.PARTICIPLE, K.ADJ) or self.among(place - 1, "end_states"))
+
+    def _auxiliary(self, at: int) -> int:
+        """Open a statement where a subject or "there" stands before an auxiliary; drop any other."""
+        there, after = self.among(at - 1, "there_words"), self.peek(at)
+        if self.among(after, "needless"):
+            return self._negation(after)
+        fresh = self._verb is None and all(t.kind in LINKS for t in self.out[self._subject :])
+        if fresh and not there and self.among(at, "getting") and self.follows(at + 1, "DET|NUM|ADJ|N"):
+            token = self.tokens[at]
+            token.kind, token.stem, token.form = K.V, token.text, "base"
+            return self._deed(at)
+        if self._verb is None and (there or self._named()):
+            return self._statement(at)
+        if self._verb is not None and (start := self._run_on()):
+            self.out.insert(start, mark(K.SEP, self.out[start].span.start))
+            self._verb, self._subject = None, start + 1
+            return self._statement(at)
+        return self._negation(at) if self.kind(after) is K.NEG else at + 1
+
+    def _run_on(self) -> int:
+        """Return where the subject of a statement begins that follows a noun phrase without a sign; 0 for none."""
+        place = len(self.out)
+        if self._last() is K.PRON:
+            place -= 1
+        else:
+            while place and self.out[place - 1].kind in NP - {K.PRON}:
+                place -= 1
+                if self.out[place].kind in (K.DET, K.NUM):
+                    break
+        return place if 0 < place < len(self.out) and self.out[place - 1].kind in HEADS else 0
+
+    # what asks for nothing
+
+    def _is_question(self, at: int) -> bool:
+        """Tell whether a question begins that asks for nothing: "Is the lamp on?"."""
+        starts = (not at or self.kind(at - 1) in IDLE | {K.STOP, K.CC}) and self._last() in BREAKS
+        if not (starts and self.among(at, "questions")) or self.kind(at + 1) is K.ING:
+            return False
+        end = self.first(at, "STOP")
+        return end < len(self.tokens) and "?" in self.tokens[end].text
+
+    def _corrected(self, at: int) -> int:
+        """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
+        begin = self.past(at + 1, "(LINKS|IDLE)*")
+        place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
+        start = len(self.out)
+        while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
+            start -= 1
+        until = {K.P, K.TO} if place else NP if thing else {K.SEP}
+        while start and self.out[start - 1].kind not in until:
+            start -= 1
+        while start and thing and self.out[start - 1].kind in NP:
+            start -= 1
+        start = max(start - place, 0)
+        back = [self.tokens[at], *self.out[start:]]
+        for token in back:
+            token.note = CORRECTED
+        self.dropped += back
+        del self.out[start:]
+        if self._verb is not None and self._verb.note:
+            self._begin()
+        return begin
+
+    # words of the main clause
+
+    def _stop(self, at: int) -> int:
+        token = self.tokens[at]
+        if token.text == ":" and self._verb is None and self._named() and self.kind(at + 1) is K.V:
+            return at + 1  # "the radio: put it in the crate"
+        token.kind = K.SEP
+        self.out.append(token)
+        self._begin()
+        return at + 1
+
+    def _deed(self, at: int) -> int:
+        token = self.tokens[at]
+        if token.stem in section("wishing") and self._wishes_state(at):
+            return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
+        self.out.append(token)
+        self._verb = token
+        if self.kind(at + 1) is K.ADV:
+            token.form = ALONE
+        return at + 1
+
+    def _comma(self, at: int) -> int:
+        inner = range(at + 1, min(self.first(at + 1, "V|STOP"), at + 2 * _NEAR) if self.tokens[at].text == "(" else at)
+        end = next((i for i in inner if self.tokens[i].text == ")"), None)
+        return self._joint(at) if end is None else self._skip(at, end + 1, ASIDE)
+
+    def _joint(self, at: int) -> int:
+        """Begin a unit where a statement follows: "pour the water out, the pot goes on the shelf"."""
+        if (also := self._also(at)) != at:
+            return also
+        listed = any(t.kind is K.COMMA for t in self.out[self._subject :])
+        apart = self.follows(at, "COMMA CC") and self._named() and not listed
+        return self._stop(at) if (self._verb is not None or apart) and self._statement_follows(at) else self._keep(at)
+
+    def _also(self, at: int) -> int:
+        """Mark "and so does the mug", "and the mug too"; return where reading goes on, ``at`` for any other joint."""
+        begin = at + 1 + (self.kind(at + 1) is K.CC)
+        does = self.follows(begin, "(ADV|PURP) AUX NP")
+        end = self.past(begin, "NP*")
+        too = end > begin and self.among(end, "also_words") and self.follows(end + 1, "BREAK")
+        if not (does or too):
+            return at
+        self.tokens[at].form = ALSO
+        self.out.append(self.tokens[at])
+        return begin + 2 * does
+
+    def _noun(self, at: int) -> int:
+        """Keep a noun, but for a name that is called: "Dave, take"."""
+        called = self._last() is K.SEP and self.kind(at - 1) not in NP
+        if called and self.follows(at + 1, "COMMA IDLE* (V|SUBJECT|AUX|NEG|ENSURE|LET)"):
+            self.tokens[at].note = ADDRESS
+            return at + 2
+        return self._keep(at)
+
+    def _adjective(self, at: int) -> int:
+        token, last = self.tokens[at], self._last()
+        if not self._leads(at):
+            if not (self._open or last in HEADS | {K.STATE, K.CC, K.V, K.P}):
+                return at + 1
+            done = self._open and token.form == "ed" and last in (K.AUX, K.CC) and not self.among(at, "end_states")
+            token.kind = K.PARTICIPLE if done else K.STATE
+        return self._keep(at)
+
+    def _leads(self, at: int) -> bool:
+        """Tell whether a noun that an adjective belongs to follows."""
+        joint = "" if self._last() is K.AUX else "| LINKS (?=ADJ)"
+        return self.follows(at + 1, f"(ADJ|IDLE|PARTICIPLE (?=N) {joint})* (N|NUM|ONE)")
+
+    def _adverb(self, at: int) -> int:
+        if not (self.among(at, "end_states") and self._is_state(at)):
+            return at + 1
+        self.tokens[at].kind = K.STATE
+        return self._keep(at)
+
+    def _is_state(self, at: int) -> bool:
+        """Tell whether a particle or adverb says in what state something is or shall be."""
+        ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
+        if self._open:
+            return ends and self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE}
+        return ends and self._hosts_result() and self._last() in HEADS | {K.STATE, K.CC}
+
+    def _participle(self, at: int) -> int:
+        if not (self._last() in HEADS and self._hosts_result() and self.follows(at + 1, "IDLE* (BREAK|SUB|MOD)")):
+            return at + 1
+        self.tokens[at].kind = K.STATE
+        return self._keep(at)
+
+    def _ing(self, at: int) -> int:
+        token = self.tokens[at]
+        if self._last() in HEADS:
+            if self.kind(at + 1) is K.P:
+                self.tokens[at + 1].form = RELATIVE  # "the letter lying on the chair"
+            return self._participle(at)
+        token.kind = K.V
+        lead = self.out.pop() if self.out and self.out[-1] is self._verb else None
+        if lead is not None and lead.stem in section("stopping"):
+            self._verb = None
+            return self._bracket(lead, K.NEG, at, self._clause_end(at))
+        return self._deed(at)
+
+    def _let(self, at: int) -> int:
+        """Emit "let X do" as LET, the noun phrase and the verb; any other "let" is a verb."""
+        token, end = self.tokens[at], self.past(at + 1, "(NP|IDLE|OF)*")
+        verb = end + (self.kind(end) is K.TO)
+        if self.kind(verb) is not K.V or self.tokens[verb].form != "base" or self.among(at, "leaving"):
+            token.kind, token.form, token.strength = K.V, "base", 3
+            return self._deed(at)
+        if self.among(end - 1, "persons"):
+            return verb
+        self.out += [token, *(t for t in self.tokens[at + 1 : end] if t.kind not in IDLE)]
+        self._deed(verb)
+        self.tokens[verb].form = ALONE
+        return verb + 1
+
+    def _preposition(self, at: int) -> int:
+        token = self.tokens[at]
+        if self.among(at + 1, "reciprocals"):
+            return at + 1
+        self._name_target(at)
+        if self.among(at, "with_words") and (end := self._absolute_end(at)):
+            return self._bracket(token, K.SUB, at + 1, end)
+        if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
+            return self._manner(at)
+        state = self.among(at, "end_states") and self.kind(at + 1) not in NP | {K.ING, K.V, K.OF}
+        if state and self._is_state(at):
+            token.kind = K.STATE
+        elif self.among(at, "of_words") and self._last() in HEADS:
+            token.kind = K.OF
+        return self._keep(at)
+
+    def _name_target(self, at: int) -> None:
+        """Give a preposition a noun phrase: "in there", "with neither milk nor sugar", "without using the axe"."""
+        if at + 1 >= len(self.tokens):
+            return
+        after = self.tokens[at + 1]
+        if self.among(at + 1, "there_words") and self.kind(at + 2) is not K.AUX and self._last() is not K.V:
+            after.kind, after.text = K.PRON, first_of("singular_pronouns")
+        elif after.kind is K.NEG:
+            after.kind, after.text = K.DET, first_of("none_words")
+            for word in self.tokens[at + 2 : at + 6]:
+                word.kind = K.N if word.kind is K.V and self.lexicon.is_noun(word.text) else word.kind
+        elif self.among(at + 1, "using_words") and self.among(at, "without_words"):
+            after.kind, after.stem = K.ING, (self.lexicon.verb(after.text) or (after.text,))[0]
+
+    def _manner(self, at: int) -> int:
+        """Bracket "without spilling it"; "by pressing it" is a clause, which may be what was started or tried."""
+        self.tokens[at + 1].kind = K.V
+        if self.among(at, "without_words"):
+            return self._bracket(self.tokens[at], K.WITHOUT, at + 1, self._clause_end(at + 1))
+        if self._verb is not None and self.out[-1] is self._verb and self._verb.stem in section("lead_verbs"):
+            self.out.pop()
+        return at + 1
+
+    def _absolute_end(self, at: int) -> int:
+        """Return where "with the door shut" ends, which says how something shall be besides; 0 for other phrases."""
+        place = at + 1
+        while self.kind(place) in NP and (self.kind(place) is not K.ADJ or self._leads(place)):
+            if self.among(place, "end_states") and self.kind(place - 1) is K.N:
+                break
+            place += 1
+        state = self.among(place, "end_states") or self.kind(place) is K.ADJ
+        return place + 1 if state and self.kind(place - 1) in HEADS and self.follows(place + 1, "BREAK") else 0
+
+    # words inside of brackets
+
+    def _inner_to(self, at: int) -> int:
+        token, opener = self.tokens[at], self._open[-1]
+        if token.form != "inf":
+            token.kind = K.P
+            return self._keep(at)
+        if opener.kind is K.NEG and self._last() in HEADS:
+            return self._bracket(token, K.PURP, at + 1, self._clause_end(at + 1))
+        if self._last() is K.AUX and self.kind(at + 1) is K.AUX and self.out[-1].text in section("be"):
+            opener.form = DUTY  # "no lamp is to be on"
+        return at + 1
+
+    def _inner_negation(self, at: int) -> int:
+        self._open[-1].negated = True
+        return at + 1
+
+    def _inner_determiner(self, at: int) -> int:
+        if self.among(at, "none_words") and self._open[-1].kind is K.SUB:
+            self._open[-1].negated = True
+        return self._keep(at)
+
+    def _inner_subject(self, at: int) -> int:
+        self.tokens[at].kind = K.PRON
+        return self._keep(at)
+
+    def _inner_joint(self, at: int) -> int:
+        also = self._also(at)
+        return also if also != at else self._keep(at)
+
+    def _inner_let(self, at: int) -> int:
+        self.tokens[at].kind = K.V
+        return self._keep(at)
+
+    def _inner_noun(self, at: int) -> int:
+        """Keep a noun, but for what is a state behind a form of *be*: "it is shut", "should be put", "is golden"."""
+        token, last = self.tokens[at], self._last()
+        state = self.among(at, "end_states")
+        if last is K.AUX and self.among(at, "same_past") and not state:
+            token.kind, token.stem = K.PARTICIPLE, token.text
+        elif self.follows(at + 1, "IDLE* (BREAK|SUB|MOD|P|V)"):
+            hosted = state and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC)
+            if hosted or (last is K.AUX and not self.lexicon.is_noun(token.text)):
+                token.kind = K.STATE
+        return self._keep(at)
+
+    def _inner_auxiliary(self, at: int) -> int:
+        if self.among(at, "not_forms"):
+            self._open[-1].negated = True
+        return self._keep(at)

@@ -1,0 +1,328 @@
+"""Clauses before pronouns are resolved, and the attachment of their arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from lark import Tree
+
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
+from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.syntax.brackets import ALSO, RELATIVE
+from tmd.language.syntax.joins import first_of
+from tmd.language.syntax.links import CHOICE
+from tmd.language.syntax.noun_phrases import Phrase, also_of, phrases_of
+from tmd.language.syntax.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, trees
+
+EXCEPT, OF, TO, WITH, WHERE = "except", "of", "to", "with", "where"
+"""Relations that are not always written."""
+_MULTIPLE = "; "
+
+
+@dataclass(slots=True)
+class ClauseDraft:
+    """A clause before pronouns are resolved.
+
+    Attributes:
+        verb: The verb token.
+        direct: What the verb acts on.
+        landmarks: What stands behind prepositions.
+        relations: The relation matrix.
+        folds: Durations and settings.
+        spans: Everything that belongs to it.
+        conditions: What its conditions and purposes say.
+        fronted: A condition stands in front of the verb.
+        further: Noun phrases that stand in relative clauses.
+        result: The state that something shall be in.
+        mood: What is asked of it, if it says so itself.
+        written: Conditions and purposes as written, by kind.
+        elliptic: Its verb was read off a state: "TV on".
+        host: The clause that it is said with, whose objects its pronouns may mean.
+    """
+
+    verb: Token
+    direct: list[Phrase] = field(default_factory=list)
+    landmarks: list[Phrase] = field(default_factory=list)
+    relations: list[Relation] = field(default_factory=list)
+    folds: list[Token] = field(default_factory=list)
+    spans: list[Span] = field(default_factory=list)
+    conditions: list[Condition] = field(default_factory=list)
+    fronted: bool = False
+    further: dict[str, NounPhrase] = field(default_factory=dict)
+    result: str | None = None
+    mood: Mood | None = None
+    relative: bool = False
+    written: list[tuple[str, str]] = field(default_factory=list)
+    elliptic: bool = False
+    host: ClauseDraft | None = None
+
+    def mentions(self) -> list[Phrase]:
+        """Return every phrase in order of mention, each name once."""
+        ordered = sorted((p for top in self.direct + self.landmarks for p in top.all()), key=lambda p: p.place)
+        return list({p.name: p for p in reversed(ordered)}.values())[::-1]
+
+    def clause(self, text: str) -> Clause:
+        """Return the clause without antecedents."""
+        span = Span(min(s.start for s in self.spans), max(s.end for s in self.spans))
+        mentions = self.mentions()
+        return Clause(
+            verb=self.verb.stem,
+            objects=tuple(dict.fromkeys([*(p.name for p in mentions), *self.further])),
+            relations=tuple(dict.fromkeys(self.relations)),
+            span=span,
+            text=text[span.start : span.end],
+            quantities={p.name: p.quantity for p in mentions if p.quantity},
+            direct=tuple(dict.fromkeys(p.name for p in self.direct)),
+            phrases=self.further | {p.name: p.said() for p in mentions},
+            conditions=tuple(self.conditions),
+            mood=self.mood or self._mood(),
+            result=self.result,
+            otherwise=self.verb.otherwise,
+            implied=self.verb.form == IMPLIED,
+            alternative=self.verb.form == CHOICE,
+            setting=self._folded(text, "setting"),
+            heading=self.verb.heading,
+            condition=self._written("condition"),
+            duration=self._folded(text, "duration"),
+            purpose=self._written("purpose"),
+        )
+
+    def places(self) -> list[Relation]:
+        """Return the relations that say where something shall be."""
+        return [r for r in self.relations if r.relation in section("static") | section("arrivals")]
+
+    def take_places(self, other: ClauseDraft) -> None:
+        """Put what it acts on where another clause puts its things."""
+        self.landmarks += other.landmarks
+        places = {r.relation: r.target for r in other.relations if r.source in {p.name for p in other.direct}}
+        self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
+
+    def none(self) -> bool:
+        """Tell whether it speaks of none: *no cup*."""
+        return any(p.said().quantifier is Quantifier.NONE for p in self.direct)
+
+    def _mood(self) -> Mood:
+        """Return the mood of *leave the cup where it is* and *keep the door shut*, which say what must stay so."""
+        leaves_it, keeps = self.verb.stem in section("leaving"), self.verb.stem in section("keeping")
+        if not (self.direct and (leaves_it or keeps)):
+            return Mood.DO
+        placed = [r for r in self.relations if r.relation not in section("unplaced")]
+        stays = self.relative or any(p.whole for p in self.direct) or self._there(placed)
+        alone = self.result in section("alone_words")  # "leave the cup on the desk alone"
+        return Mood.KEEP if not placed or alone or (leaves_it and stays) else Mood.DO
+
+    def _there(self, placed: list[Relation]) -> bool:
+        """Tell whether something is named, and its place is where it is: "leave the key in there"."""
+        return all(r.target in section("pronouns") for r in placed) and not any(p.pronoun for p in self.direct)
+
+    def _folded(self, text: str, form: str) -> str | None:
+        spans = [t.span for t in self.folds if t.form == form]
+        return _MULTIPLE.join(" ".join(text[s.start : s.end].split()) for s in spans) or None
+
+    def _written(self, form: str) -> str | None:
+        return _MULTIPLE.join(words for kind, words in self.written if kind == form) or None
+
+
+class Attachment:
+    """Attaches the arguments of one clause from left to right.
+
+    Args:
+        draft: The clause.
+    """
+
+    def __init__(self, draft: ClauseDraft) -> None:
+        self.draft = draft
+        self.host: list[Phrase] = []
+        """The nouns the next preposition of place stands beside."""
+        self._behind = ""
+        """The preposition they stand behind, if any."""
+        self._earlier: tuple[list[Phrase], str] = ([], "")
+        """Host and preposition before the last prepositional phrase."""
+        self._instrument = False
+        """A "with" has been read."""
+        self._paired = False
+        """The host is the second thing of a gapped pair and takes any preposition."""
+        self._pending: list[tuple[str, list[Phrase]]] = []
+        """Relations whose source is the direct object, which may still come."""
+
+    def add(self, nodes: Sequence[Node]) -> None:
+        """Attach nodes from left to right."""
+        for position, node in enumerate(nodes):
+            rest = nodes[position + 1 :]
+            if not self._gapped(node, rest):
+                self._argument(node, sum(is_a(n, "place") for n in rest))
+
+    def apart(self, nodes: Sequence[Node]) -> None:
+        """Attach nodes that are said of what the verb acts on: what stands before the verb, or behind a copula."""
+        self.host = []
+        self.add(nodes)
+
+    def finish(self) -> None:
+        """Relate what stands behind prepositions to the direct objects."""
+        self._flush(self.draft.direct)
+
+    def _argument(self, node: Node, later: int) -> None:
+        if not isinstance(node, Tree):
+            return
+        groups = trees(node.children, "group")
+        if node.data == "group":
+            self._group(phrases_of(node))
+        elif node.data == "place" and groups:
+            self._place(next(leaves(node)), groups[0], later)
+        elif node.data == "exception" and groups:
+            self._exception(phrases_of(groups[0]))
+        elif node.data == "state":
+            self.draft.result = [t.text for t in leaves(node) if t.kind is Kind.STATE][-1]
+
+    def _group(self, phrases: list[Phrase]) -> None:
+        """Add what the verb acts on; the first of two groups of a giving verb is the receiver."""
+        draft = self.draft
+        person = bool(draft.direct) and draft.direct[0].name in PERSONS
+        giving = person or draft.verb.stem in section("dative_verbs")
+        if len(draft.direct) == 1 and not self._behind and giving and not draft.relations:
+            receiver = draft.direct.pop()
+            draft.landmarks.append(receiver)
+            draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
+        draft.direct.extend(phrases)
+        self.host, self._behind = phrases, ""
+        self._of(phrases)
+
+    def _of(self, phrases: Sequence[Phrase]) -> None:
+        for phrase in phrases:
+            self.draft.relations.extend(Relation(OF, phrase.name, part.name) for part in phrase.of)
+            self._of(phrase.of)
+
+    def _exception(self, phrases: list[Phrase]) -> None:
+        """Take something out of what was said of all."""
+        wholes = [p for p in self.draft.direct if p.said().quantifier is Quantifier.ALL]
+        self._earlier = self.host, self._behind
+        self._relate(EXCEPT, wholes or self.host or self.draft.direct, phrases)
+        self.host, self._behind = phrases if _tells(phrases) else [], EXCEPT
+
+    def _place(self, preposition: Token, group: Tree[Leaf], later: int) -> None:
+        """Add a prepositional phrase; ``later`` counts those still to come."""
+        if preposition.form == ALSO:
+            self.host, self._behind = self._earlier
+        name, targets = self._named(preposition, group)
+        self._earlier = self.host, self._behind
+        inner = self._behind in section("with_words") and len(targets) == 1 and targets[0].pronoun
+        if inner and name in section("contents_places"):
+            return  # "a mug with milk in it"
+        paired, self._paired = self._paired, False
+        self._relate(name, self.host if paired or self._hosted(name, targets) else [], targets)
+        self._paired = paired and name in section("origins")  # where it goes is still to come
+        if not self._paired:
+            self._next_host(preposition, name, targets, later)
+
+    def _named(self, preposition: Token, group: Tree[Leaf]) -> tuple[str, list[Phrase]]:
+        """Return the relation and its targets; what goes with the object ("and the lid too") becomes one."""
+        name, also = pairs("relation_names").get(preposition.text, preposition.text), also_of(group)
+        targets = [self._told_apart(p) for p in phrases_of(group) if p.name not in {q.name for q in also}]
+        self.draft.direct += also
+        self.host = [*self.host, *also] if self.host else []
+        if name in section("with_words") and targets and targets[0].said().quantifier is Quantifier.NONE:
+            name = first_of("without_words")  # "with neither milk nor sugar"
+            for target in targets:
+                target.lead = tuple(w for w in target.lead if w not in section("none_words"))
+        return name, targets
+
+    def _next_host(self, preposition: Token, name: str, targets: list[Phrase], later: int) -> None:
+        placing = self.draft.verb.stem in section("placing")
+        if preposition.form == RELATIVE:
+            self.host = targets if later > 1 or not placing else self.host
+            return
+        self._instrument = self._instrument or name in section("with_words")
+        if self._tells_one() and placing:
+            self.host = []  # "except the one on the chair | on the shelf"
+        elif (name not in section("never_hosts") or _tells(targets)) and targets[0].name not in PERSONS:
+            self.host = targets
+        self._behind = name
+
+    def _told_apart(self, phrase: Phrase) -> Phrase:
+        """Name "the other table" *one* where a table was spoken of in this clause."""
+        again = any(p.name == phrase.name for p in self.draft.mentions())
+        if again and not section("other_words").isdisjoint(phrase.lead):
+            return replace(phrase, name=first_of("one_words"), pronoun=True)
+        return phrase
+
+    def _relate(self, name: str, sources: Sequence[Phrase], targets: list[Phrase]) -> None:
+        """Relate targets to their sources; without sources, to what the verb will turn out to act on."""
+        self.draft.landmarks.extend(targets)
+        self._of(targets)
+        if sources:
+            self.draft.relations.extend(Relation(name, s.name, t.name) for s in sources for t in targets)
+        else:
+            self._pending.append((name, targets))
+
+    def _gapped(self, node: Node, rest: Sequence[Node]) -> bool:
+        """Read "the cups on the table and the books on the shelf": the second pair stands by itself."""
+        if not (is_a(node, "place") and rest and is_a(rest[0], "place") and self.draft.direct):
+            return False
+        phrases = _targets(node)
+        if len(phrases) < 2 or not self._pairs(node, rest, phrases):
+            return False
+        sources = list(self.host if self._paired else self.draft.direct)
+        self._relate(next(leaves(node)).text, sources, phrases[:1])
+        self.draft.direct += phrases[1:]
+        self._of(phrases[1:])
+        self._flush(sources)
+        self.host, self._behind, self._paired = phrases[1:], "", True
+        return True
+
+    def _pairs(self, node: Node, rest: Sequence[Node], phrases: list[Phrase]) -> bool:
+        """Tell whether the last nouns behind a preposition are things that the next one places."""
+        name, opening = next(leaves(node)).text, next(leaves(rest[0])).text
+        origin = opening in section("origins") and len(rest) > 1 and is_a(rest[1], "place")
+        goes = next(leaves(rest[1] if origin else rest[0])).text in section("static") | section("arrivals")
+        placing = self.draft.verb.stem in section("placing") | section("belonging")
+        bare = phrases[0].determined and not phrases[-1].determined and not self.draft.direct[0].determined
+        opposite = any(w in section("other_words") for p in _targets(rest[0]) for w in p.lead)
+        told = phrases[-1].determined or phrases[-1].name in section("one_words")
+        return (told or bare or opposite) and (name == opening or (placing and goes))
+
+    def _hosted(self, name: str, targets: list[Phrase]) -> bool:
+        """Tell whether a preposition stands beside the noun before it rather than the direct object."""
+        stem = self.draft.verb.stem
+        if not self.host:
+            return False
+        if name in section("with_words"):
+            return self._with_hosted(stem, targets)
+        if self._tells_one() and name in section("telling_places"):
+            return True  # "except the one on the shelf": what stands behind it says which one
+        if name in section("by_words") and not any(t.determined or t.pronoun for t in targets):
+            return False
+        going = self._behind in section("origins") and stem in section("placing") | section("fetching")
+        return name in section("static") and not going
+
+    def _with_hosted(self, stem: str, targets: list[Phrase]) -> bool:
+        if self._tells_one():
+            return True
+        if any(_is_tool(t.name) for t in targets):
+            held = section("moving") | section("placing") | section("dative_verbs")
+            return self._instrument or (stem in held and not self._behind)
+        return self._instrument or stem.partition("_")[0] not in section("with_verbs")
+
+    def _tells_one(self) -> bool:
+        """Tell whether what comes now says which *one* is meant."""
+        return bool(self._behind) and bool(self.host) and all(p.name in section("one_words") for p in self.host)
+
+    def _flush(self, direct: list[Phrase]) -> None:
+        sources: list[str | None] = [p.name for p in direct] or [None]
+        for name, targets in self._pending:
+            self.draft.relations.extend(Relation(name, s, t.name) for t in targets for s in sources)
+        self._pending.clear()
+
+
+def _targets(node: Node) -> list[Phrase]:
+    return [p for g in trees(node.children, "group") for p in phrases_of(g)] if isinstance(node, Tree) else []
+
+
+def _tells(phrases: list[Phrase]) -> bool:
+    """Tell whether a phrase is *the one*, of which more is to be said."""
+    return bool(phrases) and phrases[0].name in section("one_words") and bool(phrases[0].lead)
+
+
+def _is_tool(name: str) -> bool:
+    return name in section("tools") or name.rpartition("_")[2] in section("tools")

@@ -1,0 +1,284 @@
+"""Join words that belong together: numbers, partitives, settings, particles of verbs.
+
+Each pass looks at the decided words of a text from left to right and changes their classes; it is linear in the length
+of the text, up to a bounded look ahead.
+"""
+
+from __future__ import annotations
+
+from tmd.language.clause import Span
+from tmd.language.lexicon.lexicon import Lexicon, pairs, section, sections, singular
+from tmd.language.syntax.tokens import Kind, Token, fold
+from tmd.language.syntax.words import HEADS, IDLE, NP, Words
+
+K = Kind
+SETTING = "setting"
+_AHEAD = 30
+"""Tokens between a verb and its particle, at most."""
+_NEAR = 7
+"""Tokens between a word for all there is and an exception, at most."""
+
+
+def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
+    """Return the words with everything joined that one word of the grammar stands for."""
+    tokens = _copulas(tokens)
+    _finite(Words(tokens))
+    _partitives(Words(tokens))
+    tokens = _numbered(Words(tokens))
+    _settings(Words(tokens))
+    _exceptions(Words(tokens))
+    _Particles(tokens, lexicon).run()
+    _sentences(tokens)
+    return tokens
+
+
+def first_of(name: str) -> str:
+    """Return the first word of a section of ``words.txt``, which stands for the others."""
+    return sections()[name][0]
+
+
+def _copulas(tokens: list[Token]) -> list[Token]:
+    """Read "the bin's open", "its in the drawer" with "is": no owner stands before such words."""
+    words, result = Words(tokens), []
+    for at, token in enumerate(tokens):
+        result.append(token)
+        its = token.kind is K.DET and words.among(at, "its_words")
+        its = its and words.follows(at + 1, "ADV* (P|ADJ)") and not words.follows(at + 1, "(ADJ|ADV|NUM)* N")
+        state = words.follows(at + 1, "ADV* (P | (ADJ|ING|PARTICIPLE) BREAK)") or words.among(at + 1, "end_states")
+        if its:
+            token.kind, token.text = K.PRON, first_of("singular_pronouns")
+        if its or (token.kind is K.N and token.form == "possessive" and state):
+            result.append(Token(K.AUX, first_of("be"), Span(token.span.end, token.span.end)))
+    return result
+
+
+def _finite(words: Words) -> None:
+    """Mark "goes" and "stands" behind a subject as finite verbs: "both books go on the shelf"."""
+    subject = verb = False
+    for at, token in enumerate(words.tokens):
+        if token.kind in (K.STOP, K.COMMA, K.CC, K.SUB, K.ENSURE):
+            subject, verb = subject and token.kind is K.CC and not verb, False
+            continue
+        if subject and not verb and (stem := _placing(words, at)):
+            token.kind, token.stem, verb = K.FINITE, stem, True
+        subject = subject or token.kind in (K.N, K.PRON, K.NUM)
+        verb = verb or token.kind in (K.V, K.LET)
+
+
+def _placing(words: Words, at: int) -> str:
+    """Return the stem of a verb that says where its subject is or shall be; empty for other words."""
+    place = words.follows(at + 1, "P|TO|STATE") or words.among(at + 1, "back_words", "where_words")
+    if words.among(at, "belonging") and place:
+        return first_of("belonging")
+    stays = words.follows(at + 1, "BREAK") or words.among(at + 1, "there_words")
+    return pairs("standing").get(words.tokens[at].text, "") if place or stays else ""
+
+
+def _partitives(words: Words) -> None:
+    """Read "all of the cups" as "the cups"; mark the other "of"."""
+    for at, of in enumerate(words.tokens[1:]):
+        token = words.tokens[at]
+        if of.kind is not K.P or of.text not in section("of_words"):
+            continue
+        listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET)
+        if listed or (token.kind is K.NUM and words.kind(at - 1) is not K.N):
+            of.kind, token.kind = K.FILLER, K.DET
+            if words.follows(at + 2, "DET NUM"):
+                words.tokens[at + 3].kind = K.FILLER  # "one of the two lamps": how many there are picks none of them
+        elif token.kind in HEADS:
+            of.kind = K.OF
+
+
+def _numbered(words: Words) -> list[Token]:
+    """Join "burner 2" to one noun; a numeral without a noun is a noun itself; "ones" carries what tells which."""
+    result: list[Token] = []
+    for at, token in enumerate(words.tokens):
+        before = result[-1] if result and result[-1].kind is K.N else None
+        if token.kind in (K.NUM, K.PRON) and words.among(at, "one_words") and before is not None:
+            token.kind = K.N  # "the red one"
+        elif words.among(at, "other_words") and not words.follows(at + 1, "(IDLE|ADJ)* (N|NUM|HEAD)"):
+            token.kind = K.PRON if token.kind in (K.DET, K.ADJ) else token.kind  # "and another in the crate"
+        elif token.kind is K.NUM and not _counts(words, at):
+            if before is not None:
+                joined = fold([before, token], K.N)
+                joined.parts = before.parts
+                result[-1] = joined
+                continue
+            token.kind = K.PRON if singular(token.text) == token.text else K.N
+        result.append(token)
+    return result
+
+
+def _counts(words: Words, at: int) -> bool:
+    """Tell whether a number counts a noun that follows: "two clean cups", "half a cup"."""
+    fraction = words.among(at, "fractions") and words.follows(at + 1, "DET")
+    return fraction or words.follows(at + 1, "(IDLE|ADJ)* (N|NUM)")
+
+
+def _settings(words: Words) -> None:
+    """Fold "on high", "to full", "the sound low": a setting without a noun says how."""
+    tokens = words.tokens
+    for at, token in enumerate(tokens[:-1]):
+        if token.kind in (K.N, K.NUM) and words.among(at + 1, "settings") and words.follows(at + 2, "IDLE* BREAK"):
+            tokens[at + 1].kind, tokens[at + 1].form = K.MOD, SETTING
+        place = at + 1 + (tokens[at + 1].kind is K.DET)
+        joined = token.kind in (K.P, K.TO) and words.among(at, "setting_places") and words.among(place, "settings")
+        scale = words.among(place + 1, "scales")
+        if not joined or (
+            not scale and (words.kind(place + 1) in (K.N, K.PARTICIPLE) or words.among(place + 1, "of_words"))
+        ):
+            continue
+        setting = tokens[place]
+        others = [token, *tokens[place + 1 : place + 1 + scale]]
+        setting.kind, setting.form = K.MOD, SETTING
+        for other in others:
+            other.kind = K.FILLER
+            setting.parts.append(other.span)
+
+
+def _exceptions(words: Words) -> None:
+    """Mark what opens an exception: "except", and "but" or "save" behind a word for all there is."""
+    whole = -_AHEAD
+    for at, token in enumerate(words.tokens):
+        if words.among(at, "whole_words", "all_words"):
+            whole = at
+        elif token.kind in (K.STOP, K.COMMA, K.V):
+            whole = -_AHEAD
+        but = words.among(at, "exceptive") and at - whole <= _NEAR and words.follows(at + 1, "IDLE* NP")
+        if but or (token.kind is K.P and words.among(at, "exceptions")):
+            token.kind = K.EXC
+
+
+def _sentences(tokens: list[Token]) -> None:
+    """Number the sentences that verbs stand in; mark headings, and verbs behind "otherwise"."""
+    number, otherwise = 0, False
+    last: Token | None = None
+    for at, token in enumerate(tokens):
+        if token.kind is K.STOP and token.text[:1] in ".!?":
+            number, last = number + 1, None
+        if token.kind is K.STOP and token.text == ":" and last is not None:
+            last.heading = any(t.kind is K.V for t in tokens[at + 1 :])
+        otherwise = otherwise or token.text in section("otherwise_words")
+        if token.kind is K.V:
+            token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token
+
+
+class _Particles(Words):
+    """Joins each verb with its particle, beside it or behind its object."""
+
+    def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
+        super().__init__(tokens)
+        self.lexicon = lexicon
+
+    def run(self) -> None:
+        for at, verb in enumerate(self.tokens):
+            deed = verb.kind is K.ING and self.kind(at - 1) not in HEADS
+            if (verb.kind in (K.V, K.LET) or deed) and verb.stem:
+                if not self._several_words(at):
+                    self._particle(at)
+            elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and not self.stem_among(at, "belonging"):
+                match = self.kind(at + 1) in (K.P, K.ADV) and self._match(verb.stem, at + 1)
+                if match is not None and match is not False and not self.follows(at + 2, "IDLE* NP"):
+                    self._absorb(verb, [self.tokens[at + 1]], f"{verb.stem}_{self.tokens[at + 1].text}")
+
+    def _match(self, stem: str, at: int) -> bool | None:
+        return self.lexicon.particle(stem, self.tokens[at].text) if at < len(self.tokens) else None
+
+    def _several_words(self, at: int) -> bool:
+        """Join "get rid of", "look for", and "bring it to the boil"."""
+        verb = self.tokens[at]
+        for length in (2, 1):
+            run = self.tokens[at + 1 : at + 1 + length]
+            if len(run) == length and (name := "_".join([verb.stem, *(t.text for t in run)])) in section("verb_of"):
+                self._absorb(verb, run, name)
+                return True
+        if verb.stem not in section("splitting"):
+            return False
+        for end in range(at + 1, min(at + _AHEAD // 2, self.first(at + 1, "STOP"))):
+            start = end - 1 - (self.kind(end - 1) is K.DET)
+            for run in (self.tokens[end : end + 1], self.tokens[start : end + 1]):
+                name = "_".join([verb.stem, *(t.text for t in run if t.kind is not K.DET)])
+                if start > at and name in section("split_verbs"):
+                    self._absorb(verb, run, name)
+                    return True
+        return False
+
+    @staticmethod
+    def _absorb(verb: Token, others: list[Token], stem: str) -> None:
+        verb.stem = stem
+        for token in others:
+            token.kind = K.FILLER
+            verb.parts.append(token.span)
+
+    def _particle(self, at: int) -> bool:
+        verb, behind = self.tokens[at], False
+        keeps = self.stem_among(at, "leaving", "keeping")
+        for place in range(at + 1, min(at + _AHEAD, self.first(at + 1, "V|LET|NEG|ENSURE|STOP|SUB|REL|EXC"))):
+            token = self.tokens[place]
+            if token.kind not in (K.P, K.ADV):
+                continue
+            if not behind and self._parted(verb, token):
+                return True
+            if keeps and place > at + 1 and self.among(place, "end_states"):
+                return False  # "leave the radio on": as it is, and no particle
+            if place == at + 1 and self.among(place, "opening") and self.follows(place + 1, "IDLE* NP"):
+                self._absorb(verb, [token], pairs("state_verbs")[token.text])  # "crack open the soda"
+                return True
+            if self._joins(at, place, behind=behind):
+                self._absorb(verb, [token], f"{verb.stem}_{token.text}")
+                return True
+            behind = behind or token.kind is K.P
+        return False
+
+    def _joins(self, at: int, place: int, *, behind: bool) -> bool:
+        """Tell whether the word at a place is the particle of the verb."""
+        match = self._match(self.tokens[at].stem, place)
+        if match is None:
+            return not behind and self._moves_object(at, place) and self._before_noun(at, place, strict=False)
+        pure = self.among(place, "pure_particles")
+        return (not behind or pure or match) and self._before_noun(at, place, strict=match)
+
+    @staticmethod
+    def _parted(verb: Token, token: Token) -> bool:
+        """Give "up" of "hook it up to the set" to the verb."""
+        if token.text not in section("parted"):
+            return False
+        first, _, rest = token.text.partition("_")
+        start, end = token.span
+        verb.stem, token.text = f"{verb.stem}_{first}", rest
+        verb.parts.append(Span(start, start + len(first)))
+        token.span = Span(end - len(rest), end)
+        return True
+
+    def _moves_object(self, at: int, place: int) -> bool:
+        """Tell whether "up" or "out" goes with a verb of no list: "fluff up the pillows", "fluff them up"."""
+        beside = place == at + 1
+        if self.stem_among(at, "intransitive", "chain_verbs", "lead_verbs"):
+            return False
+        if not self.among(place, "free_particles" if beside else "final_particles"):
+            return False
+        between = all(t.kind in NP | IDLE for t in self.tokens[at + 1 : place])
+        return self.follows(place + 1, "IDLE* NP" if beside else "IDLE* BREAK") and between
+
+    def _before_noun(self, at: int, place: int, *, strict: bool) -> bool:
+        """Tell a particle from a preposition where a noun phrase follows: "put on some music", "put on the table"."""
+        if not self.follows(place + 1, "IDLE* NP"):
+            return True
+        text, adjacent = self.tokens[place].text, all(t.kind in IDLE for t in self.tokens[at + 1 : place])
+        if self.among(place, "pure_particles"):
+            return adjacent or text not in pairs("relation_names")
+        return adjacent and (strict or self._object_of_particle(at, place))
+
+    def _object_of_particle(self, at: int, place: int) -> bool:
+        text, head, fresh = self.tokens[place].text, "", False
+        for token in self.tokens[place + 1 : self.past(place + 1, "(NP|OF)*")]:
+            if token.kind is K.OF and singular(head) not in section("measures"):
+                break
+            fresh = fresh or token.text in section("fresh_words")
+            head = token.text if token.kind in HEADS else head
+        contained = singular(head) in section("containers")
+        if not self.among(place, "object_particles"):
+            return self.among(place, "adjacent_particles")
+        if self.stem_among(at, "put_verbs"):
+            return head in section(f"put_{text}_objects") or (fresh and not contained)
+        return not contained

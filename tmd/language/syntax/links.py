@@ -1,0 +1,163 @@
+"""Give each comma and conjunction its class: between nouns or states, verbs, parts of a clause, or units."""
+
+from __future__ import annotations
+
+from tmd.language.lexicon.lexicon import section
+from tmd.language.syntax.brackets import ALONE, ALSO
+from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.syntax.words import HEADS, LINKS, NP, OPENERS, VERBAL, Words
+
+K = Kind
+CHOICE = "choice"
+"""The form of what "or" joins to what stands before it."""
+_FOLLOWERS = {K.CONJ: NP | {K.STATE}, K.VCC: VERBAL, K.LINK: NP | VERBAL | OPENERS | {K.STATE, K.P, K.MOD, K.EXC}}
+"""What may stand behind a joint."""
+
+
+class Linker(Words):
+    """One pass over bracketed words; returns the terminals of the clause grammar."""
+
+    def __init__(self, tokens: list[Token]) -> None:
+        """Take bracketed words."""
+        super().__init__(tokens)
+        self.out: list[Token] = []
+        self._open: list[bool] = []
+        """For each open bracket, whether its predicate has come."""
+        self._fronted = True
+        """No verb has come since the last separator."""
+
+    def run(self) -> list[Token]:
+        """Return the terminals of the clause grammar."""
+        at = 0
+        while at < len(self.tokens):
+            token = self.tokens[at]
+            if token.kind in LINKS:
+                at = self._decide(at)
+                continue
+            if token.kind in OPENERS:
+                self._open.append(False)
+            elif token.kind is K.END and self._open:
+                self._open.pop()
+            elif self._open and token.kind in VERBAL:
+                self._open[-1] = True
+            elif token.kind in (K.V, K.SEP):
+                self._fronted = token.kind is K.SEP
+            self.out.append(token)
+            at += 1
+        return self._without_dangling()
+
+    def _decide(self, at: int) -> int:
+        end = self.past(at, "LINKS*")
+        links, after = self.tokens[at:end], self.kind(end) if end < len(self.tokens) else K.SEP
+        link, before = links[0], self.out[-1].kind if self.out else K.SEP
+        if any(self.among(place, "choices") for place in range(at, end)):
+            link.form = CHOICE
+            if after is K.V:
+                self.tokens[end].form = CHOICE
+        if any(t.form == ALSO for t in links):
+            link.form = ALSO
+        joined = any(t.kind is K.CC for t in links)
+        kind = self._inner(before, after, end) if self._open else self._outer(before, after, end, joined=joined)
+        if kind is not None:
+            link.kind = kind
+            self.out.append(link)
+            self._fronted = self._fronted or kind is K.SEP
+        return end
+
+    def _inner(self, before: Kind, after: Kind, end: int) -> Kind | None:
+        """Classify a link inside of a subordinate clause."""
+        if after in (K.END, K.SEP) or before in OPENERS:
+            return None
+        if before in VERBAL and after in VERBAL:
+            return K.VCC
+        if before is K.STATE and after is K.STATE:
+            return K.CONJ
+        predicate = self._open[-1]
+        if before in HEADS and after in NP:
+            if not predicate:
+                return None if self._place_in_front() else K.CONJ  # "apart from the red cup, all the cups"
+            if not self.follows(end, "(NP|OF|P)* (VERBAL|STATE)"):
+                return K.CONJ
+        elif after is K.P:
+            self.tokens[end].form = ALSO
+            return None
+        self._open[-1] = False
+        return K.LINK
+
+    def _outer(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
+        """Classify a link between the parts of a unit."""
+        if after in (K.V, K.LET):
+            return self._before_verb(before, after, joined=joined)
+        if not self._fronted and after is K.SUB and self._condition_of_next(end):
+            self._fronted = True
+            return K.SEP
+        if after in (K.SAY, K.ENSURE) or (after is K.P and self.follows(end + 1, "(NP|OF)* COMMA V")):
+            return K.SEP
+        if after is K.P and joined:
+            self.tokens[end].form = ALSO
+        return self._between_things(before, after, end)
+
+    def _between_things(self, before: Kind, after: Kind, end: int) -> Kind | None:
+        """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
+        if before is K.STATE:
+            return K.CONJ if after is K.STATE else K.SEP if after in NP else None
+        if before not in HEADS or after not in NP:
+            return None
+        apart = self.follows(end, "NP+ STATE BREAK") or (self._fronted and self._verbless(end))
+        return K.SEP if apart else K.CONJ
+
+    def _before_verb(self, before: Kind, after: Kind, *, joined: bool) -> Kind | None:
+        if self._fronted:
+            return K.SEP if joined and self._named() else None
+        shares = before is K.V and self.out[-1].form != ALONE and self.out[-1].stem not in section("intransitive")
+        return K.VCC if shares and after is K.V else K.SEP
+
+    def _unit(self) -> list[Token]:
+        """Return what has come of the open unit or bracket."""
+        start = len(self.out)
+        while start and self.out[start - 1].kind not in OPENERS | {K.SEP, K.END}:
+            start -= 1
+        return self.out[start:]
+
+    def _place_in_front(self) -> bool:
+        """Tell whether only a prepositional phrase has come."""
+        unit = self._unit()
+        return bool(unit) and unit[0].kind in (K.P, K.EXC)
+
+    def _named(self) -> bool:
+        """Tell whether the open unit names something: "a glass of milk, and shut the fridge"."""
+        behind = False
+        for token in self._unit():
+            if token.kind in HEADS and not behind:
+                return True
+            behind = token.kind in (K.P, K.EXC) or (behind and token.kind in NP | {K.OF, K.CONJ})
+        return False
+
+    def _condition_of_next(self, at: int) -> bool:
+        """Tell whether a condition belongs to the verb behind it: "take the cup and, if it is dirty, wash it"."""
+        depth = 0
+        for place in range(at, len(self.tokens)):
+            depth += (self.kind(place) in OPENERS) - (self.kind(place) is K.END)
+            if not depth:
+                return self.follows(place + 1, "LINKS* (V|LET)")
+        return False
+
+    def _verbless(self, at: int) -> bool:
+        """Tell whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
+        said = [t for t in self._unit() if t.kind in (K.P, K.STATE)]
+        together = bool(said) and said[-1].text in section("with_words")  # "a tea with milk and sugar in a mug"
+        return bool(said) and not together and self.follows(at, "(NP|OF|MOD|EXC|ADV)* (P|STATE)")
+
+    def _without_dangling(self) -> list[Token]:
+        """Drop joints, determiners, numerals, adjectives and "of" without what must stand behind them."""
+        backwards: list[Token] = []
+        for at in range(len(self.out) - 1, -1, -1):
+            token, following = self.out[at], backwards[-1].kind if backwards else K.STOP
+            if following not in _FOLLOWERS.get(token.kind, {following}):
+                continue
+            if token.kind in (K.DET, K.NUM, K.ADJ, K.OF) and following not in NP:
+                if at and self.out[at - 1].kind is K.V:
+                    self.out[at - 1].form = ALONE
+                continue
+            backwards.append(token)
+        return backwards[::-1]

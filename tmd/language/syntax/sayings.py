@@ -1,0 +1,214 @@
+"""What clauses with a subject say: states, events and possessions, as clauses with *be* or with their verb.
+
+*The water boils* says what *boil the water* brings about; *the cup is dirty* is (be, [cup]) with the result ``dirty``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from lark import Tree
+
+from tmd.language.clause import BE, Mood, Quantifier, Relation, Span
+from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.syntax.drafts import WITH, ClauseDraft
+from tmd.language.syntax.joins import SETTING, first_of
+from tmd.language.syntax.noun_phrases import Phrase, about_things, phrases_of
+from tmd.language.syntax.tokens import IMPLIED, Kind, Token
+from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
+
+EXISTS = "exists"
+"""The form of *be* in "there is"."""
+HAVE, PUT, SET, BRING = "have", "put", "set", "bring"
+"""Verbs of requests without one: what a thing shall be had, put, set or brought to."""
+Attach = Callable[[ClauseDraft, Sequence[Node], Sequence[Node]], None]
+"""Attaches arguments, and what a predicate says of them, to a clause."""
+
+
+@dataclass(slots=True)
+class Saying:
+    """One part of a subordinate clause or statement.
+
+    Attributes:
+        part: Its tree.
+        subject: What stands before its predicate.
+        rest: What stands behind its verbs.
+        verbs: Its verbs, without auxiliaries.
+        helpers: Its auxiliaries.
+    """
+
+    part: Tree[Leaf]
+    subject: list[Node]
+    rest: list[Node]
+    verbs: list[Token]
+    helpers: list[Token]
+
+    @classmethod
+    def of(cls, part: Tree[Leaf]) -> Saying:
+        """Take a part of the grammar to pieces."""
+        predicate = [n for p in trees(part.children, "predicate") for n in p.children]
+        words = [n.source for n in predicate if isinstance(n, Leaf)]
+        rest = [n for n in predicate if not isinstance(n, Leaf) or n.source.kind is Kind.MOD]
+        verbs = [t for t in words if t.kind in (Kind.FINITE, Kind.PARTICIPLE, Kind.ING, Kind.V) and t.stem]
+        helpers = [t for t in words if t.kind is Kind.AUX]
+        return cls(part, [n for n in part.children if not is_a(n, "predicate")], rest, verbs, helpers)
+
+    @property
+    def complement(self) -> bool:
+        """Whether something follows its verb."""
+        return any(isinstance(n, Tree) for n in self.rest)
+
+    def asks(self) -> bool:
+        """Tell whether it says what shall be: a duty, "belongs", "would like"."""
+        words = [*self.verbs, *self.helpers]
+        modal = any(t.text in section("modals") for t in words)
+        wished = modal and any(t.stem in section("wishing") or t.text in section("wishful") for t in words)
+        settled = section("belonging") | section("staying")
+        placed = any(t.kind in (Kind.FINITE, Kind.V) and t.stem in settled for t in self.verbs)
+        return wished or placed or any(t.text in section("duties") for t in words)
+
+    def clauses(self, attach: Attach) -> list[ClauseDraft]:
+        """Return what it says."""
+        last = self.verbs[-1].stem if self.verbs else ""
+        if last in section("noticed") and trees(self.rest, "group"):
+            self.subject = []  # what you see is there
+            return [self._state(attach)]
+        if last in section("becoming") | section("staying") and trees(self.rest, "state"):
+            return [self._state(attach)]
+        verbs = [v for v in self.verbs if v.text not in section("loosely")]
+        done = [v for v in verbs if v.kind is Kind.PARTICIPLE]
+        if done and verbs[-1] is done[-1] and self._passive():
+            return [self._done(verb, attach) for verb in done]
+        if verbs:
+            return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
+        owned = self._helped("having") and trees(self.rest, "group")
+        return [self._owned(attach) if owned else self._state(attach)]
+
+    def _helped(self, name: str) -> bool:
+        """Tell whether its last auxiliary is in a section of ``words.txt``."""
+        return bool(self.helpers) and self.helpers[-1].text in section(name)
+
+    def _passive(self) -> bool:
+        """Tell whether a participle says in what state its subject is, not what it has done."""
+        return self._helped("be") or (not self._helped("having") and about_things(self.subject))
+
+    def draft(self, stem: str) -> ClauseDraft:
+        """Return an empty clause that stands where it stands."""
+        places = spans([self.part]) or [Span(0, 0)]
+        return ClauseDraft(Token(Kind.V, stem, places[0], stem=stem, form="base"), spans=places)
+
+    def _state(self, attach: Attach) -> ClauseDraft:
+        draft = self.draft(BE)
+        named = about_things(self.subject)
+        if not named and not about_things(self.rest) and trees([*self.subject, *self.rest], "state", "place"):
+            start = min(t.span.start for t in leaves(self.part))
+            draft.direct.append(Phrase(first_of("singular_pronouns"), start, False, True))
+        elif not named and about_things(self.rest):
+            draft.verb.form = EXISTS
+            self.subject = [n for n in self.subject if not is_a(n, "group")]
+        attach(draft, self.subject, self.rest)
+        settings = [t.text for t in draft.folds if t.form == SETTING]
+        if draft.result is None and settings and not draft.landmarks:
+            draft.result = settings[-1]  # "until it is two thirds full"
+        return draft
+
+    def _done(self, verb: Token, attach: Attach) -> ClauseDraft:
+        """*The kettle is filled with water*: a state that a participle names."""
+        draft = self.draft(BE)
+        attach(draft, self.subject, self.rest)
+        draft.result, draft.verb.lead = verb.text, [verb.stem]
+        return draft
+
+    def _event(self, verb: Token, attach: Attach) -> ClauseDraft:
+        """*The water boils* is what *boil the water* brings about; of *when you take it* only the verb counts."""
+        draft = self.draft(verb.stem)
+        draft.spans += verb.parts
+        named = about_things(self.subject)
+        about = self.subject if named else [n for n in self.subject if not is_a(n, "group")]
+        attach(draft, [] if named and trees(self.rest, "group") else about, self.rest)
+        return draft
+
+    def _owned(self, attach: Attach) -> ClauseDraft:
+        """*The cup has milk in it*: a state with a relation."""
+        draft = self.draft(BE)
+        if not about_things(self.subject):
+            attach(draft, self.rest, ())
+            return draft
+        attach(draft, self.subject, ())
+        contents = [p for n in trees(self.rest, "group") for p in phrases_of(n)]
+        draft.landmarks += contents
+        owner = draft.direct[-1].name if draft.direct else None
+        draft.relations += [Relation(WITH, owner, p.name) for p in contents]
+        return draft
+
+
+def demand(draft: ClauseDraft, *, denied: bool) -> None:
+    """Turn a clause that says what shall be into one that brings it about."""
+    verb, none = draft.verb, draft.none()
+    verb.stem = pairs("demand_verbs").get(verb.stem, verb.stem)
+    if verb.stem in section("wishing") or draft.result in section("welcome"):
+        verb.stem, verb.form, draft.result = HAVE, IMPLIED, None
+    elif verb.stem in section("staying"):
+        verb.stem, draft.mood = (BE, None) if none or denied else (first_of("leaving"), Mood.KEEP)
+    elif verb.stem == BE:
+        _demand_state(draft, denied=denied, none=none)
+    elif verb.stem in section("going"):
+        verb.stem = BE if none else PUT
+    elif denied:
+        draft.mood = Mood.AVOID
+
+
+def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
+    verb, exists = draft.verb, draft.verb.form == EXISTS
+    if verb.lead:
+        verb.stem, draft.result = verb.lead[0], None  # "should be washed"
+        draft.mood = Mood.AVOID if denied or none else None
+    elif denied and not none:
+        for phrase in draft.direct:
+            phrase.lead = (first_of("none_words"), *phrase.lead)
+    elif none or exists:
+        return
+    elif draft.result in pairs("state_verbs"):
+        verb.stem, draft.result = pairs("state_verbs")[draft.result or ""], None
+    elif draft.places() and not draft.result:
+        verb.stem = PUT
+    elif any(t.form == SETTING for t in draft.folds):
+        verb.stem = SET
+
+
+def name_verb(draft: ClauseDraft) -> None:
+    """Give a verb to what is only named with a state, a setting or a place: "TV on", "sound low", "cup to the sink"."""
+    verb = draft.verb
+    if draft.result in pairs("state_verbs"):
+        verb.stem, draft.result, verb.form = pairs("state_verbs")[draft.result or ""], None, "base"
+        draft.elliptic = True
+    elif any(r.relation in section("bringing") for r in draft.relations):
+        verb.stem = BRING
+    elif draft.result is not None:
+        verb.stem = BE
+    elif any(t.form == SETTING for t in draft.folds):
+        verb.stem = SET
+
+
+def described(draft: ClauseDraft, ahead: Sequence[Phrase], node: Tree[Leaf]) -> Phrase:
+    """Return the noun that a relative clause is about: the last, or the one of which the last says where it is.
+
+    It is that one where only it agrees with the verb ("the cups on the table that are clean"), and where all of them
+    are meant ("everything on the floor that is empty") unless the place is where they are to be put, and no other is.
+    """
+    last = max(ahead, key=lambda phrase: phrase.place)
+    static = [r for r in draft.relations if r.relation in section("static")]
+    placed = {r.source for r in static if r.target == last.name}
+    head = next((phrase for phrase in reversed(ahead) if phrase.name in placed), None)
+    if head is None or last.plural:
+        return last
+    plural = any(t.text in section("plural_forms") for t in leaves(node) if t.kind is Kind.AUX)
+    return head if (head.plural if plural else _is_whole(head, last, draft, static)) else last
+
+
+def _is_whole(head: Phrase, last: Phrase, draft: ClauseDraft, static: Sequence[Relation]) -> bool:
+    """Tell whether all of a kind are meant, and their place is not where they are to be put."""
+    elsewhere = any(r.source in (head.name, last.name) and r.target != last.name for r in static)
+    placing = draft.verb.stem in section("placing") and not elsewhere
+    return head.said().quantifier is Quantifier.ALL and not head.plural and not placing

@@ -1,0 +1,149 @@
+"""The steps of a request: its clauses, and what their conditions ask for, in the order of doing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from tmd.goals.text_constraints import is_of_the_end
+from tmd.goals.words import BE, NEGATED, is_condition, is_pronoun, is_relation, is_verb, the_word, words_of
+from tmd.language.clause import Clause, Condition, Mood, Parsed, Relation
+from tmd.readers.interface import Step
+
+USE: str = the_word("verbs", "using")
+_ENDS = frozenset(".!?;")
+
+
+@dataclass(frozen=True, slots=True)
+class RuleStep(Step):
+    """A step as the rules read it.
+
+    Attributes:
+        clause: The clause with its grammar.
+        guards: The conditions that guard the step.
+        otherwise: Whether it is done where the guards of the step before it did not hold.
+        optional: Whether it may be left out where it is not understood: *when they are done*.
+        awaited: Whether it is waited for, not asked for: *until it boils*.
+    """
+
+    clause: Clause
+    guards: tuple[Condition, ...] = ()
+    otherwise: bool = False
+    optional: bool = False
+    awaited: bool = False
+
+
+def steps_of(parsed: Parsed, *, use: bool) -> tuple[RuleStep, ...]:
+    """Return the steps of a request in the order of doing.
+
+    Args:
+        parsed: The request.
+        use: Whether to *use* a thing only says what the clause beside it is done with.
+    """
+    clauses = _with_instruments(parsed) if use else parsed.clauses
+    steps = _in_order(clauses)
+    for clause in filter(is_of_the_end, parsed.constraints):
+        before = [n for n, other in enumerate(parsed.clauses) if other.span.start < clause.span.start]
+        steps = _with_end(steps, clause, before[-1] if before else 0)
+    return tuple(replace(step, continued=_goes_on(step, parsed.clauses)) for step in steps)
+
+
+def _with_instruments(parsed: Parsed) -> tuple[Clause, ...]:
+    """Return the clauses, with the object of a *use* as the instrument of the clause beside it.
+
+    That is the next clause of the sentence (*use the pot to boil water*), or else the one before it (*heat the milk,
+    use the microwave*).
+    """
+    clauses = list(parsed.clauses)
+    for number, clause in enumerate(parsed.clauses):
+        alone = clause.verb == USE and clause.mood is Mood.DO and len(clause.direct) == 1 and not clause.relations
+        beside = (n for n in (number + 1, number - 1) if alone and 0 <= n < len(clauses))
+        fitting = (n for n in beside if _same_sentence(parsed, clause, clauses[n]) and _takes_tool(clauses[n]))
+        other = next(fitting, None)
+        if other is not None:
+            clauses[other] = _using(clauses[other], clause)
+    return tuple(clauses)
+
+
+def _takes_tool(clause: Clause) -> bool:
+    told = any(is_relation(r.relation, "instrument") for r in clause.relations)
+    return clause.mood is Mood.DO and clause.verb != USE and bool(clause.direct) and not told
+
+
+def _same_sentence(parsed: Parsed, one: Clause, other: Clause) -> bool:
+    first, second = sorted((one, other), key=lambda clause: clause.span)
+    return _ENDS.isdisjoint(parsed.text[first.span.end : second.span.start])
+
+
+def _using(done: Clause, use: Clause) -> Clause:
+    """Return a clause with the object of a *use* as its instrument."""
+    tool = use.direct[0]
+    if tool in done.objects:
+        return done
+    relation = the_word("relations", "instrument")
+    relations = (*done.relations, *(Relation(relation, direct, tool) for direct in done.direct))
+    meant = {noun: tuple(n for n in names if n != tool) or names for noun, names in done.antecedents.items()}
+    phrases = {**done.phrases, tool: use.phrase(tool)}
+    return replace(done, objects=(*done.objects, tool), relations=relations, phrases=phrases, antecedents=meant)
+
+
+def _with_end(steps: Sequence[RuleStep], clause: Clause, number: int) -> tuple[RuleStep, ...]:
+    """Return the steps, and after those of a clause how things must not be left: *… and don't leave it open*."""
+    place = max((at for at, step in enumerate(steps, 1) if step.number == number), default=len(steps))
+    other = replace(clause, mood=Mood.DO, result=f"{NEGATED}{clause.result}")
+    return (*steps[:place], RuleStep(other, number, main=False, direct=other.direct), *steps[place:])
+
+
+def _goes_on(step: RuleStep, clauses: Sequence[Clause]) -> bool:
+    """Return whether the next clause goes on with what a step acts on: *pick up the boxes and put them in the bag*."""
+    following = clauses[step.number + 1] if step.number + 1 < len(clauses) else None
+    if following is None or following.mood is not Mood.DO:
+        return False
+    direct = set(step.direct)
+    return any(direct & set(names) for names in following.antecedents.values())
+
+
+def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
+    """Return the steps of a text in the order of doing."""
+    heading = next((clause for clause in clauses if clause.heading), None)
+    if heading is not None and not heading.implied:
+        clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
+    ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
+    return tuple(step for number, clause in ordered for step in _steps(clause, number))
+
+
+def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> RuleStep:
+    """Return a step with the guards of the clause that it belongs to."""
+    guards = tuple(condition for condition in owner.conditions if is_condition(condition.word, "guard"))
+    return RuleStep(clause, number, main=main, direct=clause.direct, guards=guards, otherwise=owner.otherwise)
+
+
+def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
+    if clause.mood is Mood.KEEP:
+        step = _step(clause, number, clause)
+        if clause.result and clause.result not in words_of("outcomes", "alone"):
+            verb = clause.verb if all(map(is_pronoun, clause.direct)) else BE
+            yield replace(step, clause=replace(clause, verb=verb, mood=Mood.DO))
+        elif step.guards:
+            yield step  # "if it is there, leave it, otherwise …"
+        return
+    for _, inner in _said(clause, "earlier"):
+        # "once it boils" is about what boils by then, if that is what is meant
+        awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
+        yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
+    yield replace(_step(clause, number, clause), optional=clause.heading)
+    if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
+        # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
+        waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
+        yield replace(_step(waiting, number, clause, main=False), optional=True)
+    for word, inner in _said(clause, "later"):
+        # "before you leave" says when, and is nothing to be done where nobody knows how
+        optional = not is_condition(word, "tolerant") or is_verb(inner.verb, "parting")
+        awaited, jointly = is_condition(word, "awaited"), is_condition(word, "joint")
+        yield replace(_step(inner, number, clause, main=False), optional=optional, awaited=awaited, jointly=jointly)
+
+
+def _said(clause: Clause, kind: str) -> Iterator[tuple[str, Clause]]:
+    """Yield the clauses of the conditions of a kind, each with the word that opens its condition."""
+    said = (c for c in clause.conditions if is_condition(c.word, kind) and not c.negated)
+    return ((condition.word, inner) for condition in said for inner in condition.clauses)
