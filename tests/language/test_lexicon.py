@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from experiments.language import rebuild
 from tmd.diagnostics import TmdError
-from tmd.language.data import rebuild
 from tmd.language.lexicon.file import read_lexicon
 from tmd.language.lexicon.lexicon import builtin, data_text, section, singular
 

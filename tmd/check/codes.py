@@ -59,6 +59,7 @@ _ERRORS = {
     "missing-role": "a skill that is not told what it needs",
     "stale-domain": "a domain.pddl that is not what its sources compile to",
     "bad-goal": "a goal of a verb that is not of the form of one",
+    "bad-row": "a phrase row that is not of the form of one",
     "bad-demonstration": "a line that is not a demonstration",
     "unknown-environment": "an environment that is not there",
     "not-executable": "a demonstration that cannot be executed",
@@ -107,6 +108,7 @@ _WARNINGS = {
     "unknown-target": "a noun that leads to nothing in the domain",
     "unread-noun": "a name of a class that is not read as a noun where it is said",
     "impossible-goal": "a goal of a verb, or an adjective, that nothing in any environment can fulfil",
+    "idle-phrase": "a phrase row that does not fire on its own example",
     "domain-not-found": "the domain of a problem is not there to check it against",
 }
 _NOTES = {

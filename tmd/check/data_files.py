@@ -338,6 +338,7 @@ class DataFiles:
             check_goal_verbs,
             check_goals,
             check_lexicon,
+            check_phrases,
             declared_verbs,
             segments_of,
             texts_of,
@@ -356,13 +357,16 @@ class DataFiles:
             *check_lexicon(file, lexicon, meant, actions, _names(folder), texts),
             *check_goals(file, lexicon, folder.domain, self._problems_of(folder), lambda: self._nameable(folder)),
             *check_goal_verbs(file, lexicon, meant, actions, segments),
+            *check_phrases(file, lexicon),
         ):
             self.checker.report(fault, file)
 
     def _base_lexicon(self, file: Path) -> None:
+        from tmd.check.lexicon import check_phrases
         from tmd.goals.base import faults_of
 
-        for fault in faults_of(read_lexicon(file)):
+        lexicon = read_lexicon(file)
+        for fault in (*faults_of(lexicon), *check_phrases(file, lexicon)):
             self.checker.report(fault, file)
 
     def _corpora(self, folder: Path) -> list[Path]:

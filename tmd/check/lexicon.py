@@ -13,6 +13,7 @@ from tmd.check.lint.reachable import Possible, Scope, possible, types_of
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import FIRST, PREPOSITIONS, RELATION, WAS, family, read_pattern, read_table
 from tmd.goals.tables import declared_goals
+from tmd.language import parse as parse_text
 from tmd.language.lexicon.lexicon import Declared, Lexicon, section, verb_candidates
 from tmd.pddl.model import OBJECT, And, Atom, Domain, Exists, Forall, Formula, Or, Problem
 from tmd.pddl.reading.checking import check_condition
@@ -97,6 +98,19 @@ def texts_of(path: Path) -> list[str]:
         if isinstance(said, dict) and isinstance(said.get("text"), str):
             texts.append(said["text"])
     return texts
+
+
+def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
+    """Yield a warning for each phrase row of a lexicon that does not fire on its own example, or on its paraphrase."""
+    lines = read_text(path).splitlines() if lexicon.phrases else []
+    for row in lexicon.phrases:
+        for key in ("example", "paraphrase"):
+            place, trace = row.entry.places[key], list[str]()
+            parse_text(row.entry[key], lexicon, trace)
+            if row.id not in trace and place.file == str(path):
+                message = f"the phrase '{row.id}' can never fire on its own {key}"
+                hint = "mend 'read' or the sentence; an earlier row may have taken its words"
+                yield TmdError(message, location=place, hint=hint, source=lines[place.line - 1], code="idle-phrase")
 
 
 class _Served:

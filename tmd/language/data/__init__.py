@@ -1,1 +1,1 @@
-"""Word lists and WordNet subsets, and the script that rebuilds them."""
+"""All English of the parser: words, rows of classes and of phrases, and subsets of WordNet."""

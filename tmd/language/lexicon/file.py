@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 import yaml
 
@@ -20,8 +20,12 @@ from tmd.files import bundled, real
 from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, SharedPredicate, section, singular
 from tmd.yaml_nodes import compose
 
+if TYPE_CHECKING:
+    from tmd.language.syntax.phrases import PhraseRow
+
 KEYS = (
     "include", "predicates", "types", "verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups",
+    "phrases",
 )  # fmt: skip
 BASES = "base"
 """The folder of base lexicons, beside the folders of domains."""
@@ -142,6 +146,7 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
             place=place,
         ),
         places=_places(source, parts),
+        phrases=_phrases(source, parts["phrases"]) if "phrases" in parts else (),
     )
     for base in _included(source, parts["include"], above) if "include" in parts else ():
         lexicon = _with(lexicon, base)
@@ -196,7 +201,14 @@ def _with(own: Lexicon, other: Lexicon) -> Lexicon:
         ),
         included=tuple(dict.fromkeys((*own.included, other.source, *other.included))),
         places={**other.places, **own.places},
+        phrases=(*own.phrases, *other.phrases),
     )
+
+
+def _phrases(source: _Source, node: yaml.Node) -> tuple[PhraseRow, ...]:
+    from tmd.language.syntax.phrases import read_phrases  # most lexicons have none, and need no tagger
+
+    return read_phrases(node, str(source.path))
 
 
 def _merged(own: Mapping[str, str], other: Mapping[str, str]) -> dict[str, str]:

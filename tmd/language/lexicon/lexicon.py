@@ -11,8 +11,12 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from importlib.resources import files
+from typing import TYPE_CHECKING
 
 from tmd.diagnostics import Location
+
+if TYPE_CHECKING:
+    from tmd.language.syntax.phrases import PhraseRow
 
 _TYPO_LENGTH = 4
 """Shorter words are never corrected."""
@@ -112,6 +116,7 @@ class Lexicon:
         places: Where a word of a section was declared: ``("verb_synonyms", "get")``.
         kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
         compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
+        phrases: Turns of phrase of the domain.
     """
 
     verbs: frozenset[str] = frozenset()
@@ -127,6 +132,7 @@ class Lexicon:
     places: Mapping[tuple[str, str], Location] = field(default_factory=dict)
     kinds: frozenset[str] = frozenset()
     compounds: frozenset[tuple[str, ...]] = frozenset()
+    phrases: tuple[PhraseRow, ...] = ()
 
     def canonical_verb(self, verb: str) -> str:
         """Return the verb whose templates serve ``verb``: itself unless the domain names a synonym."""
@@ -352,16 +358,6 @@ def section(name: str) -> frozenset[str]:
 def pairs(name: str) -> Mapping[str, str]:
     """Return a section whose entries are "this=that"."""
     return dict(entry.split("=") for entry in sections()[name])
-
-
-@cache
-def phrases(name: str) -> Mapping[str, tuple[tuple[str, ...], ...]]:
-    """Return a section of several-word entries by first word, longest first."""
-    table: dict[str, list[tuple[str, ...]]] = {}
-    for entry in sections()[name]:
-        words = tuple(entry.split("_"))
-        table.setdefault(words[0], []).append(words)
-    return {first: tuple(sorted(entries, key=lambda e: (-len(e), e))) for first, entries in table.items()}
 
 
 def slips() -> Mapping[str, str]:

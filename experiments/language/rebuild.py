@@ -1,7 +1,8 @@
-"""Rebuild the WordNet subsets of this folder from WordNet 3.0's own ``dict`` files.
+"""Rebuild the WordNet subsets of ``tmd/language/data`` from WordNet 3.0's own ``dict`` files.
 
-Run ``python tmd/language/data/rebuild.py [DICT] [OUT]``; DICT is ``/usr/share/wordnet`` on Debian (package
-``wordnet-base``), OUT this folder. The output is the same bytes for the same input. What is written:
+Run ``python -m experiments.language.rebuild [DICT] [OUT]``; DICT is ``/usr/share/wordnet`` on Debian (package
+``wordnet-base``), OUT ``tmd/language/data``, where the licence of WordNet stands beside them. The output is the same bytes
+for the same input. What is written:
 
 * ``wordnet_verbs.txt``: single-word verbs, each with how much it is also a noun (``nv`` for all that do not
   occur in WordNet's tagged texts) and its irregular forms; and the tagged verbs with a particle.
@@ -121,6 +122,6 @@ def rebuild(dict_dir: Path, out: Path) -> None:
 
 
 if __name__ == "__main__":
-    here = Path(__file__).resolve().parent
+    data = Path(__file__).resolve().parents[2] / "tmd" / "language" / "data"
     arguments = [Path(a) for a in sys.argv[1:]]
-    rebuild(arguments[0] if arguments else Path("/usr/share/wordnet"), arguments[1] if arguments[1:] else here)
+    rebuild(arguments[0] if arguments else Path("/usr/share/wordnet"), arguments[1] if arguments[1:] else data)
