@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tmd.diagnostics import TmdError
-from tmd.language import Clause, Relation, by_segment, clause_json, parse, print_clause, read_clause, segments
+from tmd.language import Clause, Relation, clause_json, parse, print_clause, read_clause
 
 _NAME = st.from_regex(r"[a-z][a-z0-9_]{0,8}", fullmatch=True)
 _RELATION = st.builds(Relation, _NAME, st.none() | _NAME, _NAME)
@@ -97,18 +97,3 @@ def test_a_negated_condition_says_so() -> None:
 
 def test_what_is_as_it_mostly_is_is_left_out() -> None:
     assert clause_json(Clause("wait")) == {"verb": "wait", "objects": [], "relations": [], "text": ""}
-
-
-def test_clauses_are_dealt_to_segments_by_offset() -> None:
-    text = "Turn | on the tv and take | the cup | . Wait"
-    groups = by_segment(text, parse(text).clauses)
-    assert [text[s.start : s.end] for s in segments(text)] == ["Turn ", " on the tv and take ", " the cup ", " . Wait"]
-    assert [[c.verb for c in group] for group in groups] == [["turn_on"], ["take"], [], ["wait"]]
-
-
-@given(st.text(alphabet="take cup|. on the", max_size=60))
-def test_every_clause_is_in_one_segment(text: str) -> None:
-    clauses = parse(text).clauses
-    groups = by_segment(text, clauses)
-    assert len(groups) == text.count("|") + 1
-    assert sorted(c.span for g in groups for c in g) == sorted(c.span for c in clauses)

@@ -13,11 +13,9 @@ from tmd.language.clause import (
     Relation,
     Skipped,
     Span,
-    by_segment,
     clause_json,
     print_clause,
     read_clause,
-    segments,
 )
 from tmd.language.lexicon.lexicon import Lexicon
 
@@ -31,12 +29,10 @@ __all__ = [
     "Relation",
     "Skipped",
     "Span",
-    "by_segment",
     "clause_json",
     "parse",
     "print_clause",
     "read_clause",
-    "segments",
 ]
 
 

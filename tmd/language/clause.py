@@ -6,12 +6,13 @@ Their notation is the paper's, ``(take, [cup, water], with: cup -> water)``, and
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from typing import Any, NamedTuple
 
 from tmd.diagnostics import Location, TmdError
+from tmd.language.lexicon.lexicon import section
 
 
 class Span(NamedTuple):
@@ -24,10 +25,8 @@ class Span(NamedTuple):
 NOWHERE = Span(0, 0)
 """The span of a clause that comes from no text."""
 
-
-PERSONS = frozenset({"me", "us", "him", "her", "you", "yourself", "everyone", "everybody", "someone"})
+PERSONS = section("persons")
 """Words for people: objects of a clause ("bring me the cup"), but no things to be found in an environment."""
-
 
 BE = "be"
 """The verb of a clause that says in what state something is."""
@@ -225,49 +224,32 @@ _RELATION = re.compile(r"\s*([\w-]+)\s*:\s*([\w'-]*)\s*->\s*([\w'-]+)\s*$")
 
 def clause_json(clause: Clause) -> dict[str, Any]:
     """Return a clause as JSON: what is empty of the optional parts, or as it mostly is, is left out."""
-    result: dict[str, Any] = {
-        "verb": clause.verb,
-        "objects": list(clause.objects),
-        "relations": [list(r) for r in clause.relations],
-        "text": clause.text,
-    }
-    if clause.antecedents:
-        result["antecedents"] = {name: list(names) for name, names in clause.antecedents.items()}
-        result["together"] = dict(clause.together)
-    if clause.quantities:
-        result["quantities"] = dict(clause.quantities)
-    said = {name: getattr(clause, name) for name in ("condition", "duration", "purpose", "setting", "result")}
-    result |= {name: value for name, value in said.items() if value is not None}
-    if clause.direct:
-        result["direct"] = list(clause.direct)
-    phrases = {name: _phrase_json(phrase) for name, phrase in clause.phrases.items()}
-    if any(phrases.values()):
-        result["phrases"] = {name: said for name, said in phrases.items() if said}
-    if clause.conditions:
-        result["conditions"] = [_condition_json(condition) for condition in clause.conditions]
-    if clause.mood is not Mood.DO:
-        result["mood"] = clause.mood.value
-    return result | {name: True for name in ("otherwise", "implied", "alternative", "heading") if getattr(clause, name)}
+    always = {"verb": clause.verb, "objects": list(clause.objects), "relations": [list(r) for r in clause.relations]}
+    said = _plain(clause)
+    if not clause.antecedents:
+        said.pop("together", None)
+    phrases = {name: phrase for name, phrase in said.pop("phrases", {}).items() if phrase}
+    return always | {"text": clause.text} | said | ({"phrases": phrases} if phrases else {})
 
 
-def _phrase_json(phrase: NounPhrase) -> dict[str, Any]:
-    """How a noun was said, but for its name and what is as it mostly is."""
-    result: dict[str, Any] = {}
-    if phrase.quantifier is not Quantifier.PLAIN:
-        result["quantifier"] = phrase.quantifier.value
-    if phrase.number is not None:
-        result["number"] = phrase.number
-    result |= {name: True for name in ("definite", "plural", "each") if getattr(phrase, name)}
-    lists = {"attributes": phrase.attributes, "either": phrase.either}
-    return result | {name: list(words) for name, words in lists.items() if words}
+_UNSAID = ("span", "name")
+"""Fields that are not written."""
 
 
-def _condition_json(condition: Condition) -> dict[str, Any]:
-    """A condition; the clauses of what it says have no text of their own."""
-    clauses = [clause_json(clause) for clause in condition.clauses]
-    result: dict[str, Any] = {"word": condition.word, "text": condition.text}
-    result["clauses"] = [{name: value for name, value in clause.items() if name != "text"} for clause in clauses]
-    return result | ({"negated": True} if condition.negated else {})
+def _plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
+    """Return a value as JSON; of a record, the fields that are not as they mostly are."""
+    if isinstance(value, Condition):
+        clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
+        return {"word": value.word, "text": value.text, "clauses": clauses} | (
+            {"negated": True} if value.negated else {}
+        )
+    if isinstance(value, Clause | NounPhrase):
+        given = {f.name: (f, getattr(value, f.name)) for f in fields(value) if f.name not in _UNSAID}
+        usual = {n: f.default if f.default is not MISSING else {} for n, (f, _) in given.items()}
+        return {n: _plain(v) for n, (_, v) in given.items() if v != usual[n]}
+    if isinstance(value, tuple):
+        return [_plain(part) for part in value]
+    return {k: _plain(v) for k, v in value.items()} if isinstance(value, Mapping) else value
 
 
 def print_clause(clause: Clause) -> str:
@@ -298,32 +280,3 @@ def read_clause(text: str, file: str = "<clause>", line: int = 1) -> Clause:
 def _error(message: str, text: str, file: str, line: int, column: int) -> TmdError:
     hint = "write (verb, [object, object], relation: object -> object)"
     return TmdError(message, location=Location(file, line, column), hint=hint, source=text)
-
-
-_MARK = "|"
-
-
-def segments(text: str) -> tuple[Span, ...]:
-    """Return the spans between the marks, in order; empty ones too."""
-    spans, start = [], 0
-    for place in (i for i, sign in enumerate(text) if sign == _MARK):
-        spans.append(Span(start, place))
-        start = place + 1
-    return (*spans, Span(start, len(text)))
-
-
-def by_segment(text: str, clauses: Sequence[Clause]) -> tuple[tuple[Clause, ...], ...]:
-    """Return for each segment of a text the clauses that begin in it.
-
-    Args:
-        text: The text with its marks.
-        clauses: The clauses of that very text, in order.
-    """
-    spans = segments(text)
-    dealt: list[list[Clause]] = [[] for _ in spans]
-    place = 0
-    for clause in sorted(clauses, key=lambda c: c.span.start):
-        while place + 1 < len(spans) and clause.span.start > spans[place].end:
-            place += 1
-        dealt[place].append(clause)
-    return tuple(tuple(group) for group in dealt)

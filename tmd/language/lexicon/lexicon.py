@@ -9,7 +9,7 @@ import difflib
 import gzip
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
@@ -181,6 +181,7 @@ class Lexicon:
         table.update((name, True) for name in self.phrasal)
         return table
 
+    @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def verb(self, word: str) -> tuple[str, str, int] | None:
         """Return (stem, form, strength) if a word can be a verb.
 
@@ -210,6 +211,7 @@ class Lexicon:
         """Tell whether verb and particle belong together; ``True`` even before a noun, ``None`` not at all."""
         return self._phrasal.get(f"{stem}_{particle}")
 
+    @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def is_noun(self, word: str) -> bool:
         """Tell whether the own lists or the domain know a noun, in any number."""
         return word in self._own_nouns or singular(word) in self._own_nouns
@@ -232,6 +234,7 @@ class Lexicon:
         """Tell whether a word is made of a known one with -er."""
         return word.endswith("er") and word[:-2] in self._own_nouns | self._own_verbs
 
+    @lru_cache(maxsize=1 << 14)  # noqa: B019 - there are few lexicons, and they stay
     def correct(self, word: str) -> str | None:
         """Return the known word a typo stands for, or ``None``.
 
@@ -260,41 +263,12 @@ class Lexicon:
     @cached_property
     def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
         table: dict[str, list[str]] = {}
-        words = (
-            self._own_nouns
-            | section("misspelt")
-            | section("verbs")
-            | section("noun_verbs")
-            | self.verbs
-            | _typo_closed()
-        )
+        listed = (section(name) for name in sections()["correctable"])
+        words = self._own_nouns.union(self.verbs, *listed)
         for word in sorted(words):
             if "_" not in word and len(word) >= _TYPO_LENGTH:
                 table.setdefault(word[0], []).append(word)
         return {initial: tuple(group) for initial, group in table.items()}
-
-
-_CLOSED = (
-    "drop_adjectives",
-    "keep_adjectives",
-    "determiners",
-    "quantifiers",
-    "pronouns",
-    "prepositions",
-    "particles",
-    "units_time",
-    "units",
-    "numbers",
-    "adverbs",
-    "conditions",
-    "relatives",
-    "be",
-    "modals",
-    "negations",
-    "names",
-    "subjects",
-    "let_verbs",
-)
 
 
 def _swaps(word: str) -> list[str]:
@@ -315,12 +289,7 @@ def _is_swap(word: str, other: str) -> bool:
 
 @cache
 def _closed_words() -> frozenset[str]:
-    return frozenset({"and", "or", "but", "then", "to", "not", "plus"}.union(*(section(n) for n in _CLOSED)))
-
-
-@cache
-def _typo_closed() -> frozenset[str]:
-    return section("prepositions") | section("drop_adjectives")
+    return frozenset().union(*(section(name) for name in sections()["closed"]))
 
 
 @cache
@@ -365,18 +334,10 @@ def slips() -> Mapping[str, str]:
     return pairs("slips")
 
 
-_IRREGULAR = {
-    "knives": "knife", "shelves": "shelf", "loaves": "loaf", "leaves": "leaf", "halves": "half", "dishes": "dish",
-    "glasses": "glass", "children": "child", "people": "people", "men": "man", "women": "woman", "feet": "foot",
-    "teeth": "tooth", "mice": "mouse", "geese": "goose", "movies": "movie", "cookies": "cookie", "pies": "pie",
-    "ties": "tie", "brownies": "brownie", "smoothies": "smoothie", "veggies": "veggie", "potatoes": "potato",
-    "tomatoes": "tomato", "mangoes": "mango", "heroes": "hero", "axes": "axe", "shoes": "shoe", "canoes": "canoe",
-    "buses": "bus", "lenses": "lens", "batteries": "battery", "hoodies": "hoodie", "calories": "calorie",
-    "quiches": "quiche", "canvases": "canvas", "dominoes": "domino",
-}  # fmt: skip
 _VOWELS = "aeiou"
 
 
+@lru_cache(maxsize=1 << 14)
 def singular(noun: str) -> str:
     """Return the singular of the last part of a noun: ``raspberry_syrups`` gives ``raspberry_syrup``."""
     front, joint, head = noun.rpartition("_")
@@ -384,8 +345,8 @@ def singular(noun: str) -> str:
 
 
 def _singular(word: str) -> str:
-    if word in _IRREGULAR:
-        return _IRREGULAR[word]
+    if word in pairs("irregular_plurals"):
+        return pairs("irregular_plurals")[word]
     if word.endswith(("shelves", "knives", "wives", "scarves", "loaves", "wolves", "thieves")):
         return word[:-4] + "ife" if word.endswith("ives") else word[:-3] + "f"
     if word in section("invariant") or len(word) < 3 or not word.endswith("s") or word.endswith(("ss", "us", "is")):
