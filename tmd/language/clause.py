@@ -30,6 +30,17 @@ PERSONS = section("persons")
 
 BE = "be"
 """The verb of a clause that says in what state something is."""
+HAVE = "have"
+PUT = "put"
+SET = "set"
+BRING = "bring"
+"""Verbs of requests without one: what a thing shall be had, put, set or brought to."""
+EXCEPT = "except"
+OF = "of"
+TO = "to"
+WITH = "with"
+WHERE = "where"
+"""Relations that are not always written."""
 
 
 class Relation(NamedTuple):
@@ -225,7 +236,7 @@ _RELATION = re.compile(r"\s*([\w-]+)\s*:\s*([\w'-]*)\s*->\s*([\w'-]+)\s*$")
 def clause_json(clause: Clause) -> dict[str, Any]:
     """Return a clause as JSON: what is empty of the optional parts, or as it mostly is, is left out."""
     always = {"verb": clause.verb, "objects": list(clause.objects), "relations": [list(r) for r in clause.relations]}
-    said = _plain(clause)
+    said: dict[str, Any] = _plain(clause)
     if not clause.antecedents:
         said.pop("together", None)
     phrases = {name: phrase for name, phrase in said.pop("phrases", {}).items() if phrase}

@@ -13,7 +13,7 @@ from functools import cache
 
 from tmd.diagnostics import TmdError
 from tmd.language.clause import Clause, Parsed, Skipped, Span
-from tmd.language.lexicon.lexicon import Lexicon, builtin, section, slips
+from tmd.language.lexicon.lexicon import Lexicon, builtin, section, sections, slips
 from tmd.language.syntax.antecedents import resolve
 from tmd.language.syntax.brackets import Bracketer
 from tmd.language.syntax.joins import join
@@ -36,11 +36,6 @@ _FEWEST_WORDS = 3
 """... if it has as many different words."""
 _ADVERB = 5
 """Longer words that end in *ly* are adverbs."""
-_FILLERS = (
-    "adverbs", "multiword_adverbs", "determiners", "quantifiers", "subjects", "names", "interjections", "be", "modals",
-    "ensure", "conditions", "let_verbs", "lead_verbs", "relatives", "prepositions", "pronouns", "particles",
-)  # fmt: skip
-_JOINTS = frozenset(["and", "or", "but", "plus", "then", "to", "&", "+"])
 
 
 def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = None) -> Parsed:
@@ -109,9 +104,13 @@ def is_filler(word: str) -> bool:
 def _is_filler(word: str) -> bool:
     word = slips().get(word, word)
     word = word.removesuffix("'s") if word not in section("be") else word
-    if word in _JOINTS or (word.endswith("ly") and len(word) > _ADVERB) or word.endswith(("'ll", "'d", "'ve")):
+    if (
+        word in section("joints")
+        or (word.endswith("ly") and len(word) > _ADVERB)
+        or word.endswith(sections()["contracted"])
+    ):
         return True
-    return any(word in section(name) for name in _FILLERS) or word in _inside_phrases()
+    return any(word in section(name) for name in sections()["fillers"]) or word in _inside_phrases()
 
 
 @cache

@@ -297,7 +297,7 @@ def _goals(source: _Source, node: yaml.Node) -> tuple[tuple[Declared, ...], int 
             source.fail(child.start_mark, "expected one 'pattern: condition' here", "write '- open X: (opened ?x)'")
         key, value = child.value[0]
         if not isinstance(key, yaml.ScalarNode):
-            source.fail(key.start_mark, "expected a pattern here, such as 'place X in|on Y'")
+            source.fail(key.start_mark, "expected a pattern here, such as 'place X in Y'")
         found.append(Declared(key.value, *source.condition(value)))
     return tuple(found), place
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from functools import cache, lru_cache
 from typing import NamedTuple
 
-from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, singular
+from tmd.language.lexicon.lexicon import Lexicon, builtin, data_text, sections, singular
 
 NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 """What :attr:`Match.how` can say, strongest first."""
@@ -22,8 +22,6 @@ NAME, ALIAS, WORDNET = "name", "alias", "wordnet"
 SIMILAR = 0.85
 """Least Wu-Palmer similarity that counts (the value of the original system)."""
 
-_ORDINALS = ["first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"]
-_NUMBERS = ["one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten"]
 _CAMEL = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 _LOOSEST = 0.5
 """Score of a name match by head alone, all modifiers unmatched."""
@@ -126,10 +124,10 @@ def _parse(noun: str) -> _Noun:
     number, ordinal = None, False
     if words and words[-1].isdecimal():
         number = int(words.pop())
-    elif len(words) > 1 and words[-1] in _NUMBERS:
-        number = _NUMBERS.index(words.pop()) + 1
-    elif len(words) > 1 and words[0] in _ORDINALS:
-        number, ordinal = _ORDINALS.index(words.pop(0)) + 1, True
+    elif len(words) > 1 and words[-1] in (numbers := sections()["number_order"]):
+        number = numbers.index(words.pop())
+    elif len(words) > 1 and words[0] in (ordinals := sections()["ordinal_order"]):
+        number, ordinal = ordinals.index(words.pop(0)), True
     words = [singular(w) for w in words] or [noun]
     return _Noun(words[-1], tuple(words[:-1]), number, ordinal)
 

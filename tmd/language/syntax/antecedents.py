@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.language.clause import PERSONS, Clause, Condition
+from tmd.language.clause import PERSONS, TO, Clause, Condition
 from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -74,7 +74,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
-        scenes += [_alone(c) for condition in conditions if condition.word != "to" for c in condition.clauses]
+        scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
         hosts = [_scene(draft.host, draft.host.clause(reading.text))] if draft.host is not None else []
         clause = _resolved(clause, draft, [*scenes, *hosts])
         clauses.append(clause)

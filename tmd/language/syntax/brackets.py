@@ -29,6 +29,7 @@ REMINDER = "names a thing, and not what to do with it"
 ADDRESS = "addresses somebody"
 ASIDE = "an aside in brackets"
 QUESTION = "a question, not an instruction"
+REASON = "says what the rest is for"
 CORRECTED = "taken back by what was said next"
 _DEPTH = 3
 """Maximum nesting depth of subordinate clauses."""
@@ -429,15 +430,19 @@ class Bracketer(Words):
             start -= 1
         while start and thing and self.out[start - 1].kind in NP:
             start -= 1
-        start = max(start - place, 0)
-        back = [self.tokens[at], *self.out[start:]]
-        for token in back:
-            token.note = CORRECTED
-        self.dropped += back
+        self.tokens[at].note = CORRECTED
+        self.dropped.append(self.tokens[at])
+        self._take_back(max(start - place, 0), CORRECTED)
+        return begin
+
+    def _take_back(self, start: int, note: str) -> None:
+        """Set aside what has been emitted from a place on."""
+        for token in self.out[start:]:
+            token.note = note
+        self.dropped += self.out[start:]
         del self.out[start:]
         if self._verb is not None and self._verb.note:
             self._begin()
-        return begin
 
     # words of the main clause
 
@@ -454,6 +459,8 @@ class Bracketer(Words):
         token = self.tokens[at]
         if token.stem in section("wishing") and self._wishes_state(at):
             return self._bracket(token, K.ENSURE, at + 1, self._statement_end(at + 1))
+        if self.among(at - 1, "reasoning") and self._verb is not None and self._verb.stem in section("wishing"):
+            self._take_back(self._subject, REASON)  # "we need light, so open the blind"
         self.out.append(token)
         self._verb = token
         if self.kind(at + 1) is K.ADV:

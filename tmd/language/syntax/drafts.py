@@ -7,7 +7,19 @@ from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, NounPhrase, Quantifier, Relation, Span
+from tmd.language.clause import (
+    EXCEPT,
+    OF,
+    PERSONS,
+    TO,
+    Clause,
+    Condition,
+    Mood,
+    NounPhrase,
+    Quantifier,
+    Relation,
+    Span,
+)
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
 from tmd.language.syntax.joins import first_of
@@ -16,8 +28,6 @@ from tmd.language.syntax.noun_phrases import Phrase, also_of, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, trees
 
-EXCEPT, OF, TO, WITH, WHERE = "except", "of", "to", "with", "where"
-"""Relations that are not always written."""
 _MULTIPLE = "; "
 
 

@@ -7,18 +7,20 @@ from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
-from tmd.language.clause import BE, Condition, Mood, Relation, Span
+from tmd.language.clause import BE, HAVE, TO, WHERE, WITH, Condition, Mood, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import DUTY, STATEMENT
-from tmd.language.syntax.drafts import TO, WHERE, WITH, Attachment, ClauseDraft
+from tmd.language.syntax.drafts import Attachment, ClauseDraft
 from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, phrases_of
-from tmd.language.syntax.sayings import HAVE, Saying, demand, described, name_verb
+from tmd.language.syntax.sayings import Saying, demand, described, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 _ASIDES = ("demand", "statement")
 _DENIALS = ("denial", "manner")
+_LATER = "later"
+"""The order of what is said behind "before"."""
 _NOT = "not_"
 """Before an attribute or a relation: it must not hold."""
 
@@ -84,7 +86,13 @@ class TextReading:
         """Put what is named first in the place of the pronoun that takes it up: "the drawers, open them"."""
         topic = [n for n in front if is_a(n, "group", "place")]
         place = next((i for i, n in enumerate(arguments) if is_a(n, "group")), None)
-        if not topic or not is_a(topic[0], "group") or place is None:
+        if not topic or not is_a(topic[0], "group"):
+            return front
+        if place is None and draft.verb.stem not in section("intransitive"):
+            arguments[:0] = topic  # "second drawer, open"
+            draft.spans.extend(spans(topic))
+            return [n for n in front if n not in topic]
+        if place is None:
             return front
         phrases = phrases_of(trees(arguments[place : place + 1], "group")[0])
         if len(phrases) != 1 or not phrases[0].pronoun or phrases[0].lead:
@@ -137,7 +145,7 @@ class TextReading:
                 self._relative(draft, node)
             elif node.data in _DENIALS:
                 self._forbid(draft, node)
-            elif not (node.data == "condition" and self._ordered(draft, node)):
+            elif node.data == "purpose" or not (self._ordered(draft, node) or _only_when(node)):
                 draft.conditions.append(self._condition(node))
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
                 draft.written.append((str(node.data), draft.conditions[-1].text))
@@ -154,7 +162,7 @@ class TextReading:
         if opener not in pairs("order_words") or not verbs or not all(v is not None and v.form == "ing" for v in verbs):
             return False
         events = [d for part in parts for d in self._said(part)]
-        at = next(i for i, d in enumerate(self.drafts) if d is draft) + (pairs("order_words")[opener] == "later")
+        at = next(i for i, d in enumerate(self.drafts) if d is draft) + (pairs("order_words")[opener] == _LATER)
         for event in events:
             event.host, event.verb.sentence = draft, draft.verb.sentence
         self.drafts[at:at] = events
@@ -169,7 +177,8 @@ class TextReading:
             if purpose and not draft.direct and draft.verb.stem in section("happening"):
                 draft.direct.append(Phrase(first_of("singular_pronouns"), draft.verb.span.start, False, True))
         clauses = tuple(replace(draft.clause(self.text), text=text) for draft in drafts)
-        return Condition(TO if purpose else opener.text, clauses, opener.negated, text)
+        aimed = purpose and opener.text not in section("reasons")  # "so that it dries" only says what for
+        return Condition(TO if aimed else opener.text, clauses, opener.negated, text)
 
     def _relative(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
         """Add what a relative clause says to the noun that it is about."""
@@ -315,6 +324,18 @@ class TextReading:
 
 def _is_fold(node: Node) -> bool:
     return isinstance(node, Leaf) and node.source.kind is Kind.MOD
+
+
+def _only_when(node: Tree[Leaf]) -> bool:
+    """Tell whether a condition says of somebody that he goes or is done, which no state of things shows."""
+    sayings = [Saying.of(part) for part in trees(node.children, "part")]
+    return bool(sayings) and all(
+        saying.verbs
+        and saying.verbs[-1].stem in section("intransitive")
+        and trees(saying.subject, "group")
+        and not (about_things(saying.subject) or saying.complement)
+        for saying in sayings
+    )
 
 
 def _repeat(draft: ClauseDraft, before: ClauseDraft) -> None:

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 from lark import Tree
 
-from tmd.language.clause import BE, Mood, Quantifier, Relation, Span
+from tmd.language.clause import BE, BRING, HAVE, PUT, SET, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
-from tmd.language.syntax.drafts import WITH, ClauseDraft
+from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.joins import SETTING, first_of
 from tmd.language.syntax.noun_phrases import Phrase, about_things, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
@@ -20,8 +20,6 @@ from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
 EXISTS = "exists"
 """The form of *be* in "there is"."""
-HAVE, PUT, SET, BRING = "have", "put", "set", "bring"
-"""Verbs of requests without one: what a thing shall be had, put, set or brought to."""
 Attach = Callable[[ClauseDraft, Sequence[Node], Sequence[Node]], None]
 """Attaches arguments, and what a predicate says of them, to a clause."""
 

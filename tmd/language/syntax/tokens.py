@@ -155,7 +155,8 @@ def tokenise(text: str) -> list[Token]:
             # "let's", "do n't": cut by a program
             tokens[-1] = replace(last, text=last.text + clitic, span=Span(last.span.start, token.span.end))
             continue
-        if token.text in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its"):
+        timed = token.text in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its")
+        if timed or (token.text in section("its_places") and tokens):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
         tokens += _cut(token, pairs("copulas"))
     _enumeration(tokens, text)
