@@ -41,7 +41,7 @@ def test_json() -> None:
     assert second["objects"] == ["them", "sink"]
     assert second["relations"] == [["in", "them", "sink"]]
     assert second["antecedents"] == {"them": ["cup"]}
-    assert second["condition"] == "If it is hot"
+    assert second["condition"].lower() == "if it is hot"
     assert second["duration"] == "for 3 minutes"
     assert second["purpose"] == "to soak"
     assert json.loads(json.dumps(second)) == second
