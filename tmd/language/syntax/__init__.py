@@ -1,8 +1,7 @@
 """The passes from text to clauses, which :mod:`tmd.language.parser` calls in order. Begin with that.
 
-Words and their classes from lists: :mod:`~tmd.language.syntax.tokens`; from their neighbours:
-:mod:`~tmd.language.syntax.part_of_speech`. Before that, turns of phrase are put plainly:
-:mod:`~tmd.language.syntax.sentences` with :mod:`~tmd.language.syntax.idioms`. Clauses:
-:mod:`~tmd.language.syntax.requests`, :mod:`~tmd.language.syntax.subordinate` (conditions and what hangs on a clause),
-:mod:`~tmd.language.syntax.chunking`, :mod:`~tmd.language.syntax.attachment`, :mod:`~tmd.language.syntax.antecedents`.
+Words and their classes: :mod:`~tmd.language.syntax.tokens`, :mod:`~tmd.language.syntax.tagger` with
+:mod:`~tmd.language.syntax.rows`. Turns of phrase: :mod:`~tmd.language.syntax.phrases`. Terminals of the grammar:
+:mod:`~tmd.language.syntax.joins`, :mod:`~tmd.language.syntax.brackets`, :mod:`~tmd.language.syntax.links`. Clauses:
+:mod:`~tmd.language.syntax.reading`, :mod:`~tmd.language.syntax.antecedents`.
 """
