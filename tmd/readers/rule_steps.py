@@ -12,6 +12,8 @@ from tmd.readers.interface import Step
 
 USE: str = the_word("verbs", "using")
 _ENDS = frozenset(".!?;")
+_FEWEST = 2
+"""A first clause that at least so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +26,7 @@ class RuleStep(Step):
         otherwise: Whether it is done where the guards of the step before it did not hold.
         optional: Whether it may be left out where it is not understood: *when they are done*.
         awaited: Whether it is waited for, not asked for: *until it boils*.
+        loose: Whether it may be left out for whatever reason: a heading, or what something is done for.
     """
 
     clause: Clause
@@ -31,6 +34,7 @@ class RuleStep(Step):
     otherwise: bool = False
     optional: bool = False
     awaited: bool = False
+    loose: bool = False
 
 
 def steps_of(parsed: Parsed, *, use: bool) -> tuple[RuleStep, ...]:
@@ -109,7 +113,11 @@ def _in_order(clauses: Sequence[Clause]) -> tuple[RuleStep, ...]:
     if heading is not None and not heading.implied:
         clauses = [replace(c, verb=heading.verb) if c.implied and c is not heading else c for c in clauses]
     ordered = sorted(enumerate(clauses), key=lambda pair: pair[1].heading)
-    return tuple(step for number, clause in ordered for step in _steps(clause, number))
+    return tuple(
+        step
+        for number, clause in ordered
+        for step in _steps(clause, number, summarises=not number and len(clauses) > _FEWEST)
+    )
 
 
 def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> RuleStep:
@@ -118,7 +126,8 @@ def _step(clause: Clause, number: int, owner: Clause, *, main: bool = True) -> R
     return RuleStep(clause, number, main=main, direct=clause.direct, guards=guards, otherwise=owner.otherwise)
 
 
-def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
+def _steps(clause: Clause, number: int, *, summarises: bool) -> Iterator[RuleStep]:
+    """Yield the steps of a clause; ``summarises`` where enough follows that it may only be a heading."""
     if clause.mood is Mood.KEEP:
         step = _step(clause, number, clause)
         if clause.result and clause.result not in words_of("outcomes", "alone"):
@@ -131,7 +140,8 @@ def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
         # "once it boils" is about what boils by then, if that is what is meant
         awaited = inner.verb == BE or any(map(is_pronoun, inner.direct))
         yield replace(_step(inner, number, clause, main=False), optional=True, awaited=awaited)
-    yield replace(_step(clause, number, clause), optional=clause.heading)
+    loose = clause.heading or (summarises and is_verb(clause.verb, "summary"))
+    yield replace(_step(clause, number, clause), optional=loose, loose=loose and not clause.heading)
     if clause.duration and not is_verb(clause.verb.partition("_")[0], "waiting"):
         # "put the noodles in for three minutes" asks for what time brings about, where a domain says what that is
         waiting = Clause(the_word("verbs", "waiting"), span=clause.span, text=clause.text)
@@ -140,7 +150,9 @@ def _steps(clause: Clause, number: int) -> Iterator[RuleStep]:
         # "before you leave" says when, and is nothing to be done where nobody knows how
         optional = not is_condition(word, "tolerant") or is_verb(inner.verb, "parting")
         awaited, jointly = is_condition(word, "awaited"), is_condition(word, "joint")
-        yield replace(_step(inner, number, clause, main=False), optional=optional, awaited=awaited, jointly=jointly)
+        loose = is_condition(word, "reason")
+        step = _step(inner, number, clause, main=False)
+        yield replace(step, optional=optional, awaited=awaited, jointly=jointly, loose=loose)
 
 
 def _said(clause: Clause, kind: str) -> Iterator[tuple[str, Clause]]:

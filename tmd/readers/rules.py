@@ -278,6 +278,8 @@ class RuleDialogue(ClauseDialogue):
 
 def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
     """Return whether an optional step may be left out for a reason."""
+    if step.loose:
+        return True
     unread = {RefusalKind.UNKNOWN_VERB, RefusalKind.NOT_UNDERSTOOD, RefusalKind.CONTRADICTION}
     if is_verb(step.clause.verb, "parting"):
         unread.add(RefusalKind.NO_SUCH_THING)  # "before you leave the room"
