@@ -128,10 +128,18 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
     if node is None:
         return Lexicon(source=str(path))
     parts = _parts(source, node)
+    lexicon = _declared(source, parts)
+    for base in _included(source, parts["include"], above) if "include" in parts else ():
+        lexicon = _with(lexicon, base)
+    return lexicon
+
+
+def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
+    """Return what a file says itself."""
     verbs = source.sequence(parts["verbs"], source.name) if "verbs" in parts else ()
     nouns = source.aliases(parts["nouns"]) if "nouns" in parts else {}
     goals, place = _goals(source, parts["goals"]) if "goals" in parts else ((), None)
-    lexicon = Lexicon(
+    return Lexicon(
         verbs=frozenset(verbs),
         phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
         nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
@@ -139,7 +147,7 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
         goals=goals,
         attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),
         groups=source.aliases(parts["groups"]) if "groups" in parts else {},
-        source=str(path),
+        source=str(source.path),
         base=Base(
             predicates=_predicates(source, parts["predicates"]) if "predicates" in parts else (),
             types=source.aliases(parts["types"]) if "types" in parts else {},
@@ -148,9 +156,6 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
         places=_places(source, parts),
         phrases=_phrases(source, parts["phrases"]) if "phrases" in parts else (),
     )
-    for base in _included(source, parts["include"], above) if "include" in parts else ():
-        lexicon = _with(lexicon, base)
-    return lexicon
 
 
 def bases_near(path: Path) -> dict[str, Path]:
