@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading, words
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, lost_amount, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.row_reader import RowReader
@@ -56,6 +56,10 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited)
         clause = reading.clause = self.referents.reattached(reading)
+        lost = None if self.guess else lost_amount(clause)
+        if lost is not None:
+            message = f"nothing here can tell '{lost}' of something"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "leave it out, or allow guesses")
         placed = [r for r in clause.relations if r.source in clause.direct]
         somewhere = any(not is_relation(r.relation, "composing") for r in placed)
         if clause.implied and is_verb(clause.verb, "having") and somewhere:

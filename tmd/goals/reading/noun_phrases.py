@@ -207,7 +207,8 @@ class Nouns(Facts):
         modifiers = [
             w for w in split_name(noun)[:-1] if not (is_idle(w) or w in words_of("ordinals") or w in words_of("rooms"))
         ]
-        if not modifiers or noun in self.lexicon.nouns or noun in self.mentions.classes:
+        declared = noun in self.lexicon.nouns and any(m.how == ALIAS for m in self.mentions.ranked(noun))
+        if not modifiers or declared or noun in self.mentions.classes:
             return []
         held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
         kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
