@@ -143,17 +143,16 @@ class Facts:
         # (on a b) says where a is, not where b is
         ordered = things and not inside and not is_relation(relation, "locating")
         for end in (target, *(other for level in range(3) for other in self.grounder.relatives(target, level))):
-            found = [
-                atom
-                for atom in self.facts_about(name)
-                if end in atom.args
-                and atom.predicate not in self.grounder.reflexive
-                and not (ordered and atom.args.index(name) > atom.args.index(end))
-                and says.so(atom, [a for a in atom.args if a not in (name, end)], atom in self.world.task.index)
-            ]
+            joining = (a for a in self._joining(name, end) if not ordered or a.args.index(name) <= a.args.index(end))
+            found = [atom for atom in joining if says.so(atom, {name, end}, atom in self.world.task.index)]
             if found:
                 return disjunction(Atom(a.predicate, a.args) for a in found)
         return FALSE
+
+    def _joining(self, name: str, end: str) -> Iterable[GroundAtom]:
+        """Return the facts that join two things and say something of these two."""
+        facts = (atom for atom in self.facts_about(name) if end in atom.args)
+        return (atom for atom in facts if atom.predicate not in self.grounder.reflexive)
 
     def related_now(
         self, names: Iterable[str], relation: str, targets: Sequence[str], moments: Moments
@@ -183,8 +182,9 @@ class _Says:
         self.things = things
         self.inside = inside
 
-    def so(self, atom: GroundAtom, others: Sequence[str], changes: bool) -> bool:
-        """Return whether an atom with further arguments says it."""
+    def so(self, atom: GroundAtom, ends: set[str], changes: bool) -> bool:
+        """Return whether an atom says it of two things."""
+        others = [argument for argument in atom.args if argument not in ends]
         known = [a for a in others if a in PREPOSITIONS]
         if known:
             return self.anywhere or any(a in self.words for a in known)

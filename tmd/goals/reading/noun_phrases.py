@@ -278,11 +278,15 @@ class Nouns(Facts):
         named = [m.name for m in fitting if m.how == NAME and m.score == fitting[0].score]
         known = named or self._aliases(fitting)
         if known:
-            later = {other for one in known for other in self.turns_into(one)} if not named else set()
-            chosen = self._explained(noun, [name for name in known if name not in later] or known, state)
+            chosen = self._explained(noun, named or self._first_forms(known), state)
             return tuple(self._numbered(noun, chosen)) if self._of_that_kind(noun, known) else ()
         inside = (c for thing in self.things(noun, state) for c in self.contents(thing, state))
         return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+
+    def _first_forms(self, constants: list[str]) -> list[str]:
+        """Return the constants but for what others of them turn into: noodles, and no cooked ones."""
+        later = {other for one in constants for other in self.turns_into(one)}
+        return [name for name in constants if name not in later] or constants
 
     def _aliases(self, matches: Iterable[Match]) -> list[str]:
         return [m.name for m in matches if m.how == ALIAS or (self.guess and m.how == WORDNET)]
