@@ -40,7 +40,7 @@ def test_a_guess_may_leave_a_word_out() -> None:
 @pytest.mark.parametrize(
     ("place", "text", "excepted"),
     [
-        ("living_room/room1", "Switch everything off apart from the ceiling lamp.", "ceiling_lamp1"),
+        ("living_room/room1", "Switch everything off apart from the lamp.", "lamp1"),
         ("living_room/room1", "Put the pillows on the sofa except the one on the armchair.", "pillow2"),
         ("kitchen/kitchen1", "Close all doors except the fridge door.", "fridge1_door"),
     ],
@@ -63,8 +63,8 @@ def test_it_is_what_made_the_condition_true() -> None:
     assert goals(grounded)[-1] == "(at pillow2 shelf1 on)"
 
 
-def test_it_is_rather_what_was_opened_meanwhile() -> None:
-    grounded = said("kitchen", "kitchen1", "Put the milk in the fridge and close it.")
+def test_it_is_rather_what_something_was_put_in() -> None:
+    grounded = said("kitchen", "kitchen4", "Put the milk in the fridge and close it.")
     assert goals(grounded)[-1] == "(not (opened fridge1_door))"
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 from itertools import combinations, islice, product
+from operator import or_
 from typing import TypeAlias
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
@@ -30,6 +32,7 @@ from tmd.pddl.ground_formula import (
     only_negative,
 )  # fmt: skip
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
+from tmd.pddl.task import Bits
 from tmd.planning.unsolvable import Impossible
 from tmd.veil.world import World
 
@@ -276,8 +279,20 @@ class RowReader:
         if reading.awaited and found[-1].held:
             return found[-1]
         fresh = [option for option in found if not option.held and not self._is_late(option, found)]
-        undone = (option for option in fresh if not option.is_object and self._undoes(option.goal[0], reading))
-        return next(undone, next(iter(fresh), found[0]))
+        nouns = [option for option in fresh if not option.is_object]
+        undone = (option for option in nouns if self._undoes(option.goal[0], reading))
+        locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
+        return next(undone, None) or next(locking, None) or next(iter(fresh), found[0])
+
+    def _locks(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Return whether what is asked for would have prevented what was done: to close what something was put in."""
+        task, gained = self.world.task, reading.state & ~reading.memory.first
+        wanted = sum(1 << task.index[atom] for atom in atoms_of(formula) if atom in task.index)
+        ways = [o for o in task.operators if (o.delete if only_negative(formula) else o.add) & wanted]
+        added = [way.add & ~gained for way in ways]
+        done = [o for o in task.operators if o.add & gained]
+        ruled_out = [o.precondition.negative | _union(cube.positive for cube in o.forbidden) for o in done]
+        return any(add & bits for add in added for bits in ruled_out)
 
     def _undoes(self, formula: Formula, reading: ClauseReading) -> bool:
         """Return whether what is asked for held before the text: what was done meanwhile is undone."""
@@ -537,6 +552,11 @@ class RowReader:
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.grounder)
         return self._cannot(reading, f": {reason}")
+
+
+def _union(bits: Iterable[Bits]) -> Bits:
+    """Return the union of sets of atoms."""
+    return reduce(or_, bits, 0)
 
 
 def _mentions(formula: Formula, names: set[str]) -> bool:
