@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
@@ -134,12 +134,7 @@ class Facts:
         things = not (self.is_constant(target) or self.is_constant(name))
         words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
         inside = bool(words & words_of("relations", "contents"))
-        says = _Says(
-            words,
-            anywhere=bool(words & words_of("relations", "anchored")) or (inside and things),
-            things=things,
-            inside=inside,
-        )
+        says = _Says(words, things=things, inside=inside)
         # (on a b) says where a is, not where b is
         ordered = things and not inside and not is_relation(relation, "locating")
         for end in (target, *(other for level in range(3) for other in self.grounder.relatives(target, level))):
@@ -170,25 +165,28 @@ class _Says:
 
     Args:
         words: The relation, and its name in patterns.
-        anywhere: Any predicate of place will do.
         things: Neither end is a constant.
         inside: It is about contents.
     """
 
-    def __init__(self, words: set[str], *, anywhere: bool, things: bool, inside: bool) -> None:
+    def __init__(self, words: set[str], *, things: bool, inside: bool) -> None:
         self.words = words
         self.named = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
-        self.anywhere = anywhere
+        self.anywhere = bool(words & words_of("relations", "anchored")) or (inside and things)
         self.things = things
         self.inside = inside
 
     def so(self, atom: GroundAtom, ends: set[str], changes: bool) -> bool:
         """Return whether an atom says it of two things."""
         others = [argument for argument in atom.args if argument not in ends]
-        known = [a for a in others if a in PREPOSITIONS]
+        known = set(others).intersection(PREPOSITIONS)
         if known:
-            return self.anywhere or any(a in self.words for a in known)
-        parts = words_in_name(atom.predicate)
+            return self.anywhere or bool(known & self.words)
+        return self._named(words_in_name(atom.predicate), alone=not others, changes=changes)
+
+    def _named(self, parts: Collection[str], *, alone: bool, changes: bool) -> bool:
+        """Return whether the words of a predicate's name say it."""
+        parts = set(parts)
         if parts & self.named:
             return True
         if parts & words_of("located"):
@@ -196,6 +194,6 @@ class _Says:
         if parts & _KNOWN:
             return self.anywhere
         if self.inside:
-            return not self.things and not others
+            return not self.things and alone
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
         return self.anywhere and (changes or joins)

@@ -187,13 +187,17 @@ class Nouns(Facts):
         modifiers = split_name(noun)[:-1]  # a noun may be no word at all: "é", "²"
         if not modifiers or len(names) < 2:
             return names
-        if noun in self.lexicon.nouns:  # "upper_drawer: [top_drawer]" in the lexicon means cabinet1_top_drawer
-            aliases = (split_name(alias) for alias in self.lexicon.nouns[noun])
-            whole = [set(alias) for alias in aliases if len(alias) > 1]
-            return [n for n in names if any(alias <= set(split_name(n)) for alias in whole)] or names
+        if noun in self.lexicon.nouns:
+            return self._aliased(noun, names)
         alike = {word for modifier in modifiers for word in state_words(modifier)}  # the upper drawer is the top one
         called = [n for n in names if any(alike & set(split_name(kind)) for kind in self._kinds(n))]
         return called or self._described(modifiers, names, Moments(state, state))
+
+    def _aliased(self, noun: str, names: list[str]) -> list[str]:
+        """Return the things with an alias in their names: ``upper_drawer: [top_drawer]``, cabinet1_top_drawer."""
+        aliases = (split_name(alias) for alias in self.lexicon.nouns[noun])
+        whole = [set(alias) for alias in aliases if len(alias) > 1]
+        return [n for n in names if any(alias <= set(split_name(n)) for alias in whole)] or names
 
     def _described(self, modifiers: Collection[str], names: list[str], moments: Moments) -> list[str]:
         owners = [m.name for m in self.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
@@ -212,8 +216,7 @@ class Nouns(Facts):
         it belongs to, a state that it is in, or the room.
         """
         modifiers = [word for word in split_name(noun)[:-1] if not _says_nothing(word)]
-        declared = noun in self.lexicon.nouns and any(m.how == ALIAS for m in self.mentions.ranked(noun))
-        if not modifiers or declared or noun in self.mentions.classes:
+        if not modifiers or noun in self.mentions.classes or self._is_declared(noun):
             return []
         called = self._words_about(name)
         left = [w for w in modifiers if called.isdisjoint(state_words(w)) and not _is_slip(w, sorted(called))]
@@ -221,6 +224,10 @@ class Nouns(Facts):
         if left and self._belongs("_".join(left), name, moments):
             return []
         return [w for w in left if not (self._belongs(w, name, moments) or self._is_so(w, name, moments))]
+
+    def _is_declared(self, noun: str) -> bool:
+        """Return whether the lexicon says what a noun means here."""
+        return noun in self.lexicon.nouns and any(m.how == ALIAS for m in self.mentions.ranked(noun))
 
     def _words_about(self, name: str) -> set[str]:
         """Return the words in the names of a thing, of its class, of its whole, and of all that it may hold."""
@@ -280,7 +287,11 @@ class Nouns(Facts):
         if known:
             chosen = self._explained(noun, named or self._first_forms(known), state)
             return tuple(self._numbered(noun, chosen)) if self._of_that_kind(noun, known) else ()
-        inside = (c for thing in self.things(noun, state) for c in self.contents(thing, state))
+        return self.contained(self.things(noun, state), types, state)
+
+    def contained(self, things: Iterable[str], types: tuple[str, ...], state: Bits) -> tuple[str, ...]:
+        """Return the constants of some types in some things."""
+        inside = (c for thing in things for c in self.contents(thing, state))
         return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
 
     def _first_forms(self, constants: list[str]) -> list[str]:
@@ -308,12 +319,15 @@ class Nouns(Facts):
                 names = self._changeable(word, names, moments) if is_noun(phrase.name, "everything") else names
                 continue
             named = tuple(n for n in names if word in split_name(n))
-            contrary = word in section("keep_adjectives") and len(names) > 1 and all(map(self._modified, names))
-            if named or contrary:
+            if named or self._contrary(word, names):
                 names = named
             elif not is_idle(word):
                 unknown.append(word)
         return names, unknown
+
+    def _contrary(self, word: str, names: tuple[str, ...]) -> bool:
+        """Return whether names say which one each thing is, so that a word that none has leaves none."""
+        return word in section("keep_adjectives") and len(names) > 1 and all(map(self._modified, names))
 
     def _changeable(self, word: str, names: tuple[str, ...], moments: Moments) -> tuple[str, ...]:
         """Return those that may be otherwise, or of which another one of the class may.

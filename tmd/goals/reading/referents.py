@@ -95,15 +95,12 @@ class Referents:
     def units(self, reading: ClauseReading) -> list[Unit]:
         """Return what the verb acts on, one by one, with the relations of each."""
         clause = reading.clause
-        named = [name for name in clause.direct if name not in PERSONS]
-        none = [name for name in named if is_none(name, clause)]
-        direct = [name for name in named if name not in none] or named  # "coffee, no sugar"
-        direct = direct or ([""] if "" in clause.antecedents else [])
+        direct, none = self._acted_on(clause)
         units = [Unit(name, self.relations_of(name, clause)) for name in direct]
         without = the_word("relations", "lacking")
         for unit in units:
             unit.relations = self._lacking(unit.relations, clause)
-            unit.relations += [(without, name) for name in none if name not in direct]
+            unit.relations += [(without, name) for name in none]
             self._make_room(unit, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
         if clause.implied:
@@ -111,6 +108,14 @@ class Referents:
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def _acted_on(self, clause: Clause) -> tuple[list[str], list[str]]:
+        """Return what the verb acts on, and what shall not be there: "coffee, no sugar"."""
+        named = [name for name in clause.direct if name not in PERSONS]
+        some = [name for name in named if not is_none(name, clause)]
+        if not named and "" in clause.antecedents:
+            return [""], []
+        return (some, [name for name in named if name not in some]) if some else (named, [])
 
     def _make_room(self, unit: Unit, clause: Clause) -> None:
         """Let a measure make room for what it measures: *a spoon of sugar* is sugar."""
@@ -266,11 +271,7 @@ class Referents:
         """Return a pronoun as an object that was spoken of, or what that contains."""
         if self.grounder.is_a(name, types):
             return Referent(noun or IT, (name,), definite=True)
-        return Referent(noun or IT, self._contained((name,), types, reading))
-
-    def _contained(self, names: Iterable[str], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        inside = (c for name in names for c in self.nouns.contents(name, reading.state))
-        return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+        return Referent(noun or IT, self.nouns.contained((name,), types, reading.state))
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         """Return a pronoun as if it stood for ``antecedent``: what that turned out to be."""
@@ -288,7 +289,7 @@ class Referents:
         known = (*bound.names, *bound.containers)
         names = tuple(n for n in known if self.grounder.is_a(n, types))
         if not names:
-            return Referent(antecedent, self._contained(known, types, reading))
+            return Referent(antecedent, self.nouns.contained(known, types, reading.state))
         names = self._by_now(names, types, reading)
         if many and len(names) > 1:
             return Referent(antecedent, names, Mode.ALL, definite=True)
@@ -403,7 +404,7 @@ class Referents:
         *Cook the noodles with an egg and serve everything in the bowl.*
         """
         if is_noun(noun, "everything"):
-            names = self._contained(reading.memory.recent, types, reading)
+            names = self.nouns.contained(reading.memory.recent, types, reading.state)
         else:
             names = self.nouns.constants(noun, types, reading.state)
         spoken_of = noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER

@@ -371,16 +371,13 @@ class RowReader:
         refused = self._unused(row, unit, leftover, reading) or self._unknown_thing(leftover, reading)
         if refused is not None:
             return refused
-        formulas = []
-        for choice in product(*([(slot, *filler) for filler in said] for slot, said in fillers)):
-            found = self._combination(row, unit.direct, choice, leftover, reading)
-            if not isinstance(found, Refusal):
-                formulas.append(found)
-            elif not alternatives:
-                return found
-        if not formulas:
-            return self._cannot(reading)
-        return disjunction(formulas) if alternatives else conjunction(formulas)
+        choices = product(*([(slot, *filler) for filler in said] for slot, said in fillers))
+        found = [self._combination(row, unit.direct, choice, leftover, reading) for choice in choices]
+        failure = next((one for one in found if isinstance(one, Refusal)), None)
+        formulas = [one for one in found if not isinstance(one, Refusal)]
+        if alternatives:
+            return disjunction(formulas) if formulas else self._cannot(reading)
+        return failure or conjunction(formulas)
 
     def _unused(
         self, row: GoalRow, unit: Unit, leftover: Sequence[tuple[str, str]], reading: ClauseReading

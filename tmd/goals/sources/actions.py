@@ -296,16 +296,20 @@ class _Words:
         """Return the effects on what is acted on, the first parameter: to strip a bed does not get hold of a sheet."""
         made, lost = [e for e in own if e.positive], [e for e in own if not e.positive]
         made_of, lost_of = ([e for e in part if first in e.atom.terms] for part in (made, lost))
-        held = {word for verb in words_of("verbs", "holding") for word in results(verb)}
-        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in made_of)
         only = [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]
         take = the_word("verbs", "taking")
-        if made_of and general and only and split_name(action.name)[0] not in (take, *family(take)):
+        taking = split_name(action.name)[0] in (take, *family(take))
+        if made_of and only and not taking and all(map(self._is_to_hold, made_of)):
             return only  # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
         moved = {e.atom.predicate for e in made} & {e.atom.predicate for e in lost}
         if made_of or moved or not lost_of:
             return made_of or made or lost
         return lost_of
+
+    def _is_to_hold(self, effect: Effect) -> bool:
+        """Return whether an effect that other actions have as well says that something is held."""
+        held = {word for verb in words_of("verbs", "holding") for word in results(verb)}
+        return bool(words_in_name(effect.atom.predicate) & held) and self._makers(effect) > 1
 
     def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
         """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""

@@ -230,7 +230,8 @@ class _Learner:
     ) -> tuple[list[tuple[str, str]], str, bool] | None:
         """Preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
-        direct = [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
+        elided = [""] if "" in clause.antecedents else []
+        direct = [n for n in clause.direct if n not in PERSONS] or elided
         first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
         if first is None:
             return None
