@@ -138,16 +138,16 @@ class Facts:
         # (on a b) says where a is, not where b is
         ordered = things and not inside and not is_relation(relation, "locating")
         for end in (target, *(other for level in range(3) for other in self.grounder.relatives(target, level))):
-            joining = (a for a in self._joining(name, end) if not ordered or a.args.index(name) <= a.args.index(end))
+            joining = self._joining(name, end, ordered=ordered)
             found = [atom for atom in joining if says.so(atom, {name, end}, atom in self.world.task.index)]
             if found:
                 return disjunction(Atom(a.predicate, a.args) for a in found)
         return FALSE
 
-    def _joining(self, name: str, end: str) -> Iterable[GroundAtom]:
-        """Return the facts that join two things and say something of these two."""
-        facts = (atom for atom in self.facts_about(name) if end in atom.args)
-        return (atom for atom in facts if atom.predicate not in self.grounder.reflexive)
+    def _joining(self, name: str, end: str, *, ordered: bool) -> Iterable[GroundAtom]:
+        """Return the facts that join two things and say something of these two; in this order, if ``ordered``."""
+        facts = (a for a in self.facts_about(name) if end in a.args and a.predicate not in self.grounder.reflexive)
+        return (atom for atom in facts if not ordered or atom.args.index(name) <= atom.args.index(end))
 
     def related_now(
         self, names: Iterable[str], relation: str, targets: Sequence[str], moments: Moments

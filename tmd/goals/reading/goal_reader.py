@@ -143,9 +143,10 @@ class GoalReader:
         for strict, verbs in ((True, own), (True, others), (False, own), *looser):
             for verb in verbs:
                 tried = self._by_verb(table, verb, reading.again(strict=strict), own)
-                if isinstance(tried, ClauseGoal) or (tried and self._settles(verb, tried, reading.clause)):
+                if self._settles(verb, tried, reading.clause):
                     return tried
-                failure = _more_telling(failure, tried)
+                if isinstance(tried, Refusal):
+                    failure = _more_telling(failure, tried)
             if failure is not None and not _is_unclear(failure) and (not strict or placing):
                 return failure
         return failure
@@ -167,11 +168,13 @@ class GoalReader:
         rows = [row for row in table.of(verb) if verb in own or not row.traceless]
         return self.rows.by_rows(rows, reading) if rows else None
 
-    def _settles(self, verb: str, refusal: Refusal, clause: Clause) -> bool:
-        """Return whether what the verb itself asks for can never be: its relatives would ask for less."""
+    def _settles(self, verb: str, found: ClauseGoal | Refusal | None, clause: Clause) -> bool:
+        """Return whether there is a goal, or what the verb itself asks for can never be: its relatives ask for less."""
+        if not isinstance(found, Refusal):
+            return found is not None
         alone = not any(r.source in clause.direct for r in clause.relations)
         itself = (clause.verb, *self._synonyms(clause.verb))
-        return alone and verb in itself and refusal.kind is RefusalKind.IMPOSSIBLE
+        return alone and verb in itself and found.kind is RefusalKind.IMPOSSIBLE
 
     def _is_placing(self, clause: Clause) -> bool:
         """Return whether a clause says where something shall go: if it cannot go there, nothing less will do."""
@@ -201,6 +204,6 @@ def _is_unclear(refusal: Refusal) -> bool:
     return refusal.kind is RefusalKind.NOT_UNDERSTOOD
 
 
-def _more_telling(one: Refusal | None, other: Refusal | None) -> Refusal | None:
+def _more_telling(one: Refusal | None, other: Refusal) -> Refusal:
     """Return the second of two reasons where the first says only that a row does not fit."""
-    return other if one is None or (other is not None and _is_unclear(one)) else one
+    return other if one is None or _is_unclear(one) else one

@@ -373,6 +373,12 @@ class RowReader:
             return refused
         choices = product(*([(slot, *filler) for filler in said] for slot, said in fillers))
         found = [self._combination(row, unit.direct, choice, leftover, reading) for choice in choices]
+        return self._joined_ways(found, reading, alternatives=alternatives)
+
+    def _joined_ways(
+        self, found: Sequence[Formula | Refusal], reading: ClauseReading, *, alternatives: bool
+    ) -> Formula | Refusal:
+        """Return what all combinations ask for, or any one of them."""
         failure = next((one for one in found if isinstance(one, Refusal)), None)
         formulas = [one for one in found if not isinstance(one, Refusal)]
         if alternatives:

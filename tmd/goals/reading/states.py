@@ -108,10 +108,9 @@ class States:
         adjectives = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
         targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
         known = reading.memory.bound[noun].containers if noun in reading.memory.bound and not targets else ()
+        contained = self._contained(constants, fixed=bool(targets))
         ways = []
-        for thing, held in self._contained(constants, fixed=bool(targets)):
-            if known and thing not in known:
-                continue
+        for thing, held in ((thing, held) for thing, held in contained if not known or thing in known):
             placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
             said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
             if FALSE not in placed and None not in said:

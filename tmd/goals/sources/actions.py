@@ -294,8 +294,8 @@ class _Words:
 
     def _main_effects(self, action: ActionSchema, own: Sequence[Effect], first: str) -> list[Effect]:
         """Return the effects on what is acted on, the first parameter: to strip a bed does not get hold of a sheet."""
-        made, lost = [e for e in own if e.positive], [e for e in own if not e.positive]
-        made_of, lost_of = ([e for e in part if first in e.atom.terms] for part in (made, lost))
+        made, lost = _by_sign(own)
+        made_of, lost_of = _by_sign([e for e in own if first in e.atom.terms])
         only = [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]
         take = the_word("verbs", "taking")
         taking = split_name(action.name)[0] in (take, *family(take))
@@ -350,6 +350,10 @@ class _Words:
         atom = Atom(effect.atom.predicate, terms)
         formula = Exists(others, atom) if others else atom
         return formula if effect.positive else Not(formula)
+
+
+def _by_sign(effects: Sequence[Effect]) -> tuple[list[Effect], list[Effect]]:
+    return [e for e in effects if e.positive], [e for e in effects if not e.positive]
 
 
 def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:

@@ -236,9 +236,9 @@ class _Learner:
         if first is None:
             return None
         substance = first in world.profiles.constants
-        for relation in clause.relations:
+        for relation in (r for r in clause.relations if r.source in (direct[0], None) and r.target not in PERSONS):
             group = next((g for g, words in PREPOSITIONS.items() if relation.relation in words), None)
-            if relation.source not in (direct[0], None) or group is None or relation.target in PERSONS:
+            if group is None:
                 continue
             second = self._object(relation.target, clause, world, state, used)
             if second is not None and second != first:
