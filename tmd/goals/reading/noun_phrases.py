@@ -11,7 +11,7 @@ from functools import cached_property
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.words import is_idle, is_noun, state_words, words_of
+from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
@@ -123,6 +123,8 @@ class Nouns(Facts):
         """
         if is_noun(noun, "everything"):
             return self.world.profiles.objects
+        if ends_as(noun, "thing"):  # "flammable things", of whatever class
+            return self._all_that_are(split_name(noun)[:-1], Moments(state, state))
         group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()
         if group:
             return group
@@ -136,6 +138,10 @@ class Nouns(Facts):
             return ()
         best = self._explained(noun, self._numbered(noun, self._told_apart(noun, best, state)), state)
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
+        said = {n: [self.attribute(word, n, moments) for word in adjectives] for n in self.world.profiles.objects}
+        return tuple(n for n, all_ in said.items() if all(f and self.grounder.truth(f, moments.now) for f in all_))
 
     def _group(self, noun: str) -> tuple[str, ...]:
         classes = self.table.groups.get(noun, ())
@@ -346,7 +352,7 @@ class Nouns(Facts):
 
 def _says_nothing(word: str) -> bool:
     """Return whether a modifier need not be explained: *nice*, *second*, *kitchen*."""
-    return is_idle(word) or word in words_of("ordinals") or word in words_of("rooms")
+    return len(word) == 1 or is_idle(word) or word in words_of("ordinals") or word in words_of("rooms")
 
 
 def _is_slip(word: str, called: Sequence[str]) -> bool:

@@ -406,6 +406,7 @@ class RowReader:
         further = [(r.relation, r.target) for r in clause.relations if r.source and r.source not in clause.direct]
         for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or target in clause.quantities or is_none(target, clause))
+            named = named and not is_noun(target, "degrees")
             if named and is_relation(relation, "naming") and not self.referents.targets(target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None

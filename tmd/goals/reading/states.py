@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, text_of, words
-from tmd.goals.reading.noun_phrases import Mode, Referent
+from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb
@@ -107,7 +107,8 @@ class States:
         result = reading.clause.result
         adjectives = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
         targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
-        known = reading.memory.bound[noun].containers if noun in reading.memory.bound and not targets else ()
+        bound = reading.memory.bound.get(noun, Bound(()))
+        known = () if targets else bound.containers
         contained = self._contained(constants, fixed=bool(targets))
         ways = []
         for thing, held in ((thing, held) for thing, held in contained if not known or thing in known):

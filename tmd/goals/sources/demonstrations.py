@@ -137,6 +137,11 @@ def _said(text: str) -> int:
     return text.count("?x") + text.count("?y") + text.count("(")
 
 
+def _acted_on(clause: Clause) -> list[str]:
+    """Return what a verb acts on; the empty name for what was left out."""
+    return [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
+
+
 class _Learner:
     """Counts, demonstration after demonstration."""
 
@@ -230,8 +235,7 @@ class _Learner:
     ) -> tuple[list[tuple[str, str]], str, bool] | None:
         """Preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
-        elided = [""] if "" in clause.antecedents else []
-        direct = [n for n in clause.direct if n not in PERSONS] or elided
+        direct = _acted_on(clause)
         first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
         if first is None:
             return None
