@@ -13,7 +13,7 @@ from tmd.readers.interface import Step
 USE: str = the_word("verbs", "using")
 _ENDS = frozenset(".!?;")
 _FEWEST = 2
-"""A first clause that at least so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*"""
+"""A first clause that so many others follow may be a heading: *tidy the floor. The toy goes on the shelf, …*"""
 
 
 @dataclass(frozen=True, slots=True)
