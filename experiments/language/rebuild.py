@@ -1,8 +1,8 @@
 """Rebuild the WordNet subsets of ``tmd/language/data`` from WordNet 3.0's own ``dict`` files.
 
 Run ``python -m experiments.language.rebuild [DICT] [OUT]``; DICT is ``/usr/share/wordnet`` on Debian (package
-``wordnet-base``), OUT ``tmd/language/data``, where the licence of WordNet stands beside them. The output is the same bytes
-for the same input. What is written:
+``wordnet-base``), OUT ``tmd/language/data``, where the licence of WordNet stands beside them. The output is the same
+bytes for the same input. What is written:
 
 * ``wordnet_verbs.txt``: single-word verbs, each with how much it is also a noun (``nv`` for all that do not
   occur in WordNet's tagged texts) and its irregular forms; and the tagged verbs with a particle.

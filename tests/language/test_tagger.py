@@ -7,7 +7,7 @@ import pytest
 from tmd.diagnostics import TmdError
 from tmd.language.lexicon.lexicon import Lexicon, builtin
 from tmd.language.syntax.phrases import builtin_rows
-from tmd.language.syntax.tagger import Classes, Row, classes, decide, tag
+from tmd.language.syntax.tagger import ClassRow, WordClasses, classes, decide, tag
 from tmd.language.syntax.tokens import Kind, tokenise
 
 CASES = [
@@ -22,7 +22,7 @@ ROW = (
 
 
 @pytest.mark.parametrize(("row", "text"), CASES)
-def test_the_row_decides_the_words_between_asterisks(row: Row, text: str) -> None:
+def test_the_row_decides_the_words_between_asterisks(row: ClassRow, text: str) -> None:
     before, words, after = text.split("*")
     lexicon = Lexicon(kinds=frozenset({"safe"}))
     trace: list[str] = []
@@ -71,7 +71,7 @@ def test_a_bad_row_is_refused_with_its_place(old: str, new: str, line: int, mess
     text = ROW.replace(old, new, 1)
     assert text != ROW
     with pytest.raises(TmdError, match=re.escape(message)) as caught:
-        Classes(text, "pos.yaml")
+        WordClasses(text, "pos.yaml")
     assert caught.value.location
     assert caught.value.location.line == line
 

@@ -110,11 +110,11 @@ def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
     """Yield a warning for each phrase row of a lexicon that does not fire on its own example, or on its paraphrase."""
     lines = read_text(path).splitlines() if lexicon.phrases else []
     for row in lexicon.phrases:
-        for key in ("example", "paraphrase"):
-            place, trace = row.entry.places[key], list[str]()
-            parse_text(row.entry[key], lexicon, trace)
+        for text, place in row.examples:
+            trace: list[str] = []
+            parse_text(text, lexicon, trace)
             if row.id not in trace and place.file == str(path):
-                message = f"the phrase '{row.id}' can never fire on its own {key}"
+                message = f"the phrase '{row.id}' can never fire on its own example"
                 hint = "mend 'read' or the sentence; an earlier row may have taken its words"
                 yield TmdError(message, location=place, hint=hint, source=lines[place.line - 1], code="idle-phrase")
 

@@ -248,19 +248,27 @@ _UNSAID = ("span", "name")
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401 - any value of JSON
-    """Return a value as JSON; of a record, the fields that are not as they mostly are."""
+    """Return a value as JSON."""
     if isinstance(value, Condition):
-        clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
-        return {"word": value.word, "text": value.text, "clauses": clauses} | (
-            {"negated": True} if value.negated else {}
-        )
+        return _condition_json(value)
     if isinstance(value, Clause | NounPhrase):
-        given = {f.name: (f, getattr(value, f.name)) for f in fields(value) if f.name not in _UNSAID}
-        usual = {n: f.default if f.default is not MISSING else {} for n, (f, _) in given.items()}
-        return {n: _plain(v) for n, (_, v) in given.items() if v != usual[n]}
+        return _said(value)
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return {k: _plain(v) for k, v in value.items()} if isinstance(value, Mapping) else value
+
+
+def _said(value: Clause | NounPhrase) -> dict[str, Any]:
+    """Return those fields of a record that are not as they mostly are."""
+    usual = {f.name: {} if f.default is MISSING else f.default for f in fields(value) if f.name not in _UNSAID}
+    return {name: _plain(getattr(value, name)) for name, least in usual.items() if getattr(value, name) != least}
+
+
+def _condition_json(value: Condition) -> dict[str, Any]:
+    """Return a condition as JSON; the clauses of what it says have no text of their own."""
+    clauses = [{k: v for k, v in clause_json(c).items() if k != "text"} for c in value.clauses]
+    said: dict[str, Any] = {"word": value.word, "text": value.text, "clauses": clauses}
+    return said | ({"negated": True} if value.negated else {})
 
 
 def print_clause(clause: Clause) -> str:

@@ -11,17 +11,14 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn, TypeVar
 
 import yaml
 
 from tmd.diagnostics import Location, TmdError
 from tmd.files import bundled, real
-from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, SharedPredicate, section, singular
+from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, PhraseRow, SharedPredicate, section, singular
 from tmd.yaml_nodes import compose
-
-if TYPE_CHECKING:
-    from tmd.language.syntax.phrases import PhraseRow
 
 KEYS = (
     "include", "predicates", "types", "verbs", "phrasal", "nouns", "verb_synonyms", "goals", "attributes", "groups",
@@ -33,6 +30,9 @@ _NAME = re.compile(r"[a-z][a-z0-9_]*\Z")
 _TERM = re.compile(r"\??[a-z][a-z0-9_-]*\Z")
 _WORDS = ("types", "verbs", "phrasal", "nouns", "verb_synonyms", "groups")
 """The sections whose entries are words; for each the place is kept."""
+
+
+_Part = TypeVar("_Part")
 
 
 class _Source:
@@ -118,44 +118,30 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
 
 def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
     """Read a file and those that it includes; ``above`` are the base lexicons that lead to it."""
-    try:
-        text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
-        raise TmdError(f"cannot read the lexicon {path}: {reason}", hint="check the file; it is UTF-8 text") from None
-    source = _Source(path, text)
-    node = compose(text, str(path))
-    if node is None:
-        return Lexicon(source=str(path))
-    parts = _parts(source, node)
-    lexicon = _declared(source, parts)
+    source, parts = _opened(path)
+
+    def part(name: str, read: Callable[[_Source, yaml.Node], _Part]) -> _Part | None:
+        return read(source, parts[name]) if name in parts else None
+
+    nouns = part("nouns", _Source.aliases) or {}
+    goals, place = part("goals", _goals) or ((), None)
+    predicates, types = part("predicates", _predicates) or (), part("types", _Source.aliases) or {}
+    lexicon = Lexicon(
+        verbs=frozenset(part("verbs", lambda _, verbs: source.sequence(verbs, source.name)) or ()),
+        phrasal=part("phrasal", _phrasal) or {},
+        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
+        verb_synonyms=part("verb_synonyms", _synonyms) or {},
+        goals=goals,
+        attributes=part("attributes", _attributes) or (),
+        groups=part("groups", _Source.aliases) or {},
+        source=str(path),
+        base=Base(predicates=predicates, types=types, place=place),
+        places=_places(source, parts),
+        phrases=part("phrases", _phrases) or (),
+    )
     for base in _included(source, parts["include"], above) if "include" in parts else ():
         lexicon = _with(lexicon, base)
     return lexicon
-
-
-def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
-    """Return what a file says itself."""
-    verbs = source.sequence(parts["verbs"], source.name) if "verbs" in parts else ()
-    nouns = source.aliases(parts["nouns"]) if "nouns" in parts else {}
-    goals, place = _goals(source, parts["goals"]) if "goals" in parts else ((), None)
-    return Lexicon(
-        verbs=frozenset(verbs),
-        phrasal=_phrasal(source, parts["phrasal"]) if "phrasal" in parts else {},
-        nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
-        verb_synonyms=_synonyms(source, parts["verb_synonyms"]) if "verb_synonyms" in parts else {},
-        goals=goals,
-        attributes=_attributes(source, parts["attributes"]) if "attributes" in parts else (),
-        groups=source.aliases(parts["groups"]) if "groups" in parts else {},
-        source=str(source.path),
-        base=Base(
-            predicates=_predicates(source, parts["predicates"]) if "predicates" in parts else (),
-            types=source.aliases(parts["types"]) if "types" in parts else {},
-            place=place,
-        ),
-        places=_places(source, parts),
-        phrases=_phrases(source, parts["phrases"]) if "phrases" in parts else (),
-    )
 
 
 def bases_near(path: Path) -> dict[str, Path]:
@@ -272,16 +258,24 @@ def _ways(text: str) -> list[tuple[int, str]]:
     return found
 
 
-def _parts(source: _Source, node: yaml.Node) -> dict[str, yaml.Node]:
+def _opened(path: Path) -> tuple[_Source, dict[str, yaml.Node]]:
+    """Return the text of a file, and its sections by name; empty ones are left out."""
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise TmdError(f"cannot read the lexicon {path}: {reason}", hint="check the file; it is UTF-8 text") from None
+    source = _Source(path, text)
+    node = compose(text, str(path))
     parts = {}
-    for name, key, value in source.mapping(node):
+    for name, key, value in source.mapping(node) if node is not None else ():
         if name not in KEYS:
             near = difflib.get_close_matches(name, KEYS, 1)
             hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(KEYS)}"
             source.fail(key.start_mark, f"unknown key '{name}'", hint)
         if not (isinstance(value, yaml.ScalarNode) and value.tag.endswith(":null")):
             parts[name] = value
-    return parts
+    return source, parts
 
 
 INCLUDED = "included"

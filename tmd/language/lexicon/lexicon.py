@@ -7,16 +7,13 @@ from __future__ import annotations
 
 import difflib
 import gzip
+import re
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property, lru_cache
 from importlib.resources import files
-from typing import TYPE_CHECKING
 
 from tmd.diagnostics import Location
-
-if TYPE_CHECKING:
-    from tmd.language.syntax.phrases import PhraseRow
 
 _TYPO_LENGTH = 4
 """Shorter words are never corrected."""
@@ -97,6 +94,29 @@ class Base:
     place: int | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class PhraseRow:
+    """A turn of phrase with plainer words (:mod:`tmd.language.syntax.phrases`).
+
+    Attributes:
+        id: Its name.
+        pattern: The compiled pattern, over ``word<tab>CLASS`` and a blank for each token.
+        triggers: Words of which the sentence must have one; empty if it must have none.
+        replacement: The elements of the replacement, each with the name that it says again, if it does.
+        verbs: Names of kept words of which the verb is wanted.
+        note: Why the words that disappear ask for nothing; empty where they do.
+        examples: Sentences on which it must fire, each with its place.
+    """
+
+    id: str
+    pattern: re.Pattern[str]
+    triggers: frozenset[str]
+    replacement: tuple[tuple[str, str], ...]
+    verbs: frozenset[str]
+    note: str
+    examples: tuple[tuple[str, Location], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Lexicon:
     """Built-in words plus those of a domain.
@@ -141,14 +161,6 @@ class Lexicon:
     def names_thing(self, word: str) -> bool:
         """Whether the domain has things that are called so."""
         return word in self.kinds or word in self.nouns or word in self.groups
-
-    @cached_property
-    def compound_lengths(self) -> dict[str, tuple[int, ...]]:
-        """For the first word of each name of several words, how many words such names have."""
-        found: dict[str, set[int]] = {}
-        for words in self.compounds:
-            found.setdefault(words[0], set()).add(len(words))
-        return {first: tuple(sorted(lengths, reverse=True)) for first, lengths in found.items()}
 
     @cached_property
     def goal_verbs(self) -> frozenset[str]:
@@ -243,22 +255,26 @@ class Lexicon:
         """
         if len(word) < _TYPO_LENGTH:
             return None
+        group = self._by_initial.get(word[0], ())
         if self.knows(word):
-            # "wraper" is rather a wrapper, which is a noun of its own, than who wraps
-            doer = self._is_doer(word) and not (self.is_noun(word) or word in _english())
-            nouns = sorted(self._own_nouns.intersection(self._by_initial.get(word[0], ()))) if doer else ()
-            return next(iter(difflib.get_close_matches(word, nouns, 1, _DOER_TYPO_RATIO)), None)
-        swapped = [w for w in self._by_initial.get(word[0], ()) if _is_swap(word, w)]
-        if swapped or (swapped := [w for w in _swaps(word) if w in _english()]):
-            return swapped[0]
+            return self._doer_slip(word, group)
+        swaps = _swaps(word)
+        if swapped := [*swaps.intersection(group)] or [*swaps & _english()]:
+            return min(swapped)
         if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
             return stem + ("es" if stem.endswith("s") else "s")
-        group = self._by_initial.get(word[0], ())
+        nouns = sorted(self._own_nouns.intersection(group))
         near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
-        if not near:
-            near = difflib.get_close_matches(word, sorted(self._own_nouns.intersection(group)), 1, _NOUN_TYPO_RATIO)
+        near = near or difflib.get_close_matches(word, nouns, 1, _NOUN_TYPO_RATIO)
         # "soapy" is not a slip of "soap": letters get lost at the end, endings are not made up
         return near[0] if near and not word.startswith(near[0]) else None
+
+    def _doer_slip(self, word: str, group: tuple[str, ...]) -> str | None:
+        """Return the noun that a word stands for which is known only since it ends in -er: "wraper" is a wrapper."""
+        if not self._is_doer(word) or self.is_noun(word) or word in _english():
+            return None
+        nouns = sorted(self._own_nouns.intersection(group))
+        return next(iter(difflib.get_close_matches(word, nouns, 1, _DOER_TYPO_RATIO)), None)
 
     @cached_property
     def _by_initial(self) -> Mapping[str, tuple[str, ...]]:
@@ -271,20 +287,9 @@ class Lexicon:
         return {initial: tuple(group) for initial, group in table.items()}
 
 
-def _swaps(word: str) -> list[str]:
+def _swaps(word: str) -> set[str]:
     """Return a word with each pair of neighbouring letters changed, but for the first."""
-    return [word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)]
-
-
-def _is_swap(word: str, other: str) -> bool:
-    """Tell whether two words differ by two neighbouring letters that changed places."""
-    if len(word) != len(other):
-        return False
-    places = [i for i in range(len(word)) if word[i] != other[i]]
-    if len(places) != 2 or places[1] != places[0] + 1:
-        return False
-    first, second = places
-    return word[first] == other[second] and word[second] == other[first]
+    return {word[:i] + word[i + 1] + word[i] + word[i + 2 :] for i in range(1, len(word) - 1)}
 
 
 @cache

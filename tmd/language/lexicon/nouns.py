@@ -232,45 +232,29 @@ def _similar(word: str, words: tuple[str, ...]) -> float:
     return similarity(word, whole if _in_wordnet(whole) else words[-1])
 
 
-class _Taxonomy:
+_SENSES = 4
+"""Rarer senses of a word are not looked at."""
+
+
+class _Taxonomy(NamedTuple):
     """Synsets by number, parents before children."""
 
-    def __init__(self, lines: list[str]) -> None:
-        self.parents: list[tuple[int, ...]] = []
-        self.depth: list[int] = []
-        self.senses: dict[str, list[tuple[int, int]]] = {}
-        for number, line in enumerate(lines):
-            above, _, lemmas = line.partition("\t")
-            parents = tuple(int(p) for p in above.split(",") if p)
-            self.parents.append(parents)
-            self.depth.append(1 + min((self.depth[p] for p in parents), default=0))
-            for lemma in lemmas.split():
-                word, _, sense = lemma.rpartition(".")
-                self.senses.setdefault(word, []).append((int(sense), number))
-        for senses in self.senses.values():
-            senses.sort()
-
-    def ancestors(self, number: int) -> dict[int, int]:
-        """Return every hypernym with its distance, the synset itself included."""
-        distance, frontier = {number: 0}, [number]
-        while frontier:
-            following = []
-            for node in frontier:
-                for parent in self.parents[node]:
-                    if parent not in distance:
-                        distance[parent] = distance[node] + 1
-                        following.append(parent)
-            frontier = following
-        return distance
+    parents: list[tuple[int, ...]]
+    depth: list[int]
+    senses: dict[str, list[tuple[int, int]]]
+    """For each noun its senses, the commonest first, with their synsets."""
 
 
 @cache
 def _taxonomy() -> _Taxonomy:
-    return _Taxonomy(data_text("wordnet_nouns.txt.gz").split("\n")[:-1])
-
-
-_SENSES = 4
-"""Rarer senses of a word are not looked at."""
+    found = _Taxonomy([], [], {})
+    for number, line in enumerate(data_text("wordnet_nouns.txt.gz").split("\n")[:-1]):
+        above, _, lemmas = line.partition("\t")
+        found.parents.append(tuple(int(p) for p in above.split(",") if p))
+        found.depth.append(1 + min((found.depth[p] for p in found.parents[-1]), default=0))
+        for word, _, sense in (lemma.rpartition(".") for lemma in lemmas.split()):
+            found.senses.setdefault(word, []).append((int(sense), number))
+    return found
 
 
 def _in_wordnet(noun: str) -> bool:
@@ -279,10 +263,11 @@ def _in_wordnet(noun: str) -> bool:
 
 
 @cache
-def _senses(noun: str) -> list[tuple[int, int]]:
-    taxonomy = _taxonomy()
-    found = taxonomy.senses.get(noun) or taxonomy.senses.get(singular(noun)) or []
-    return [pair for pair in found if pair[0] <= _SENSES]
+def _senses(noun: str) -> list[int]:
+    """Return the synsets of a noun, rare senses left out."""
+    known = _taxonomy().senses
+    found = known.get(noun) or known.get(singular(noun)) or []
+    return [synset for sense, synset in sorted(found) if sense <= _SENSES]
 
 
 @cache
@@ -292,23 +277,21 @@ def similarity(first: str, second: str) -> float:
     ``2 d(lcs) / (d(lcs) + l1 + d(lcs) + l2)`` with the depth ``d`` of the lowest common hypernym and the
     lengths ``l`` of the paths up to it.
     """
-    taxonomy = _taxonomy()
-    best = 0.0
-    for _, one in _senses(first):
-        for _, other in _senses(second):
-            best = max(best, _wu_palmer(taxonomy, _above(one), _above(other)))
-    return best
+    depth, pairs = (
+        _taxonomy().depth,
+        [(_above(one), _above(other)) for one in _senses(first) for other in _senses(second)],
+    )
+    ways = ((depth[node], up + other[node]) for one, other in pairs for node, up in one.items() if node in other)
+    return max((2 * deep / (2 * deep + steps) for deep, steps in ways), default=0.0)
 
 
 @cache
 def _above(number: int) -> dict[int, int]:
-    return _taxonomy().ancestors(number)
-
-
-def _wu_palmer(taxonomy: _Taxonomy, first: dict[int, int], second: dict[int, int]) -> float:
-    best = 0.0
-    for node, up in first.items():
-        if node in second:
-            depth = taxonomy.depth[node]
-            best = max(best, 2 * depth / (2 * depth + up + second[node]))
-    return best
+    """Return every hypernym of a synset with its distance, itself included."""
+    distance, frontier = {number: 0}, [number]
+    for node in frontier:  # grows while it is read
+        for parent in _taxonomy().parents[node]:
+            if parent not in distance:
+                distance[parent] = distance[node] + 1
+                frontier.append(parent)
+    return distance

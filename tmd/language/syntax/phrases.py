@@ -18,13 +18,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from functools import cache
 
 import yaml
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, data_text, section
+from tmd.language.lexicon.lexicon import Lexicon, PhraseRow, data_text, section
 from tmd.language.syntax.rows import Entry, read_file, read_rows, section_names
 from tmd.language.syntax.tagger import decide, tag
 from tmd.language.syntax.tokens import Kind, Token, tokenise
@@ -44,28 +43,6 @@ _MOST = 4
 """Times that one row may fire in a sentence."""
 _LONGEST = 200
 """Tokens of a sentence that is searched; longer ones are read as they are."""
-
-
-@dataclass(frozen=True, slots=True)
-class PhraseRow:
-    """One row.
-
-    Attributes:
-        entry: The row as it is written.
-        pattern: The compiled pattern, over ``word<tab>CLASS`` and a blank for each token.
-        triggers: Words of which the sentence must have one; empty if it must have none.
-        replacement: The elements of the replacement.
-    """
-
-    entry: Entry
-    pattern: re.Pattern[str]
-    triggers: frozenset[str]
-    replacement: tuple[str, ...]
-
-    @property
-    def id(self) -> str:
-        """Its name."""
-        return self.entry["id"]
 
 
 _NEEDED, _FURTHER = ("read",), ("as", "note", "means")
@@ -103,12 +80,13 @@ def read_phrases(node: yaml.Node, file: str) -> tuple[PhraseRow, ...]:
 def _row(entry: Entry, macros: Mapping[str, str]) -> PhraseRow:
     body, triggers = entry.checked("read", lambda text: _regex(text, macros))
     pattern = entry.checked("read", lambda _: re.compile(rf"(?<![^ \n]){body}"))
-    replacement = tuple(entry["as"].split())
-    for element in replacement:
-        slot = _SLOT.match(element)
-        if slot and slot[1] not in pattern.groupindex:
-            entry.fail("as", f"the pattern keeps nothing under '{slot[1]}'")
-    return PhraseRow(entry, pattern, triggers, replacement)
+    slots = [(element, _SLOT.match(element)) for element in entry["as"].split()]
+    for slot in (slot for _, slot in slots if slot and slot[1] not in pattern.groupindex):
+        entry.fail("as", f"the pattern keeps nothing under '{slot[1]}'")
+    verbs = frozenset(slot[1] for _, slot in slots if slot and slot[2])
+    replacement = tuple((element, slot[1] if slot else "") for element, slot in slots)
+    examples = tuple((entry[key], entry.places[key]) for key in ("example", "paraphrase"))
+    return PhraseRow(entry["id"], pattern, triggers, replacement, verbs, entry["note"], examples)
 
 
 def _regex(text: str, macros: Mapping[str, str]) -> tuple[str, frozenset[str]]:
@@ -138,18 +116,23 @@ def _element(element: str, macros: Mapping[str, str]) -> tuple[str, frozenset[st
     match = _ELEMENT.match(element)
     if match is None:
         raise ValueError(f"'{element}' is no element of a pattern")
-    parts = match["core"].split("|")
-    lists = [section(name) for part in parts if part.startswith("@") for name in section_names(part[1:])]
-    words = frozenset().union(*lists, (part for part in parts if not (part.isupper() or part.startswith("@"))))
-    kinds = [part for part in parts if part.isupper() and part not in macros]
-    if unknown := [part for part in kinds if part not in Kind.__members__]:
-        raise ValueError(f"'{unknown[0]}' is no class of words and no macro")
-    bodies = [macros[part] for part in parts if part in macros]
-    bodies += [rf"(?:{'|'.join(map(re.escape, sorted(words)))})\t[A-Z]+ "] if words else []
-    bodies += [rf"[^\t ]+\t(?:{'|'.join(kinds)}) "] if kinds else []
-    body = f"(?:{'|'.join(bodies)}){match['times']}"
-    always = len(bodies) == bool(words) and match["times"] in ("", "+")
-    return f"(?P<{match['slot']}>{body})" if match["slot"] else body, words if always else frozenset()
+    given, kinds, words = list[str](), list[str](), set[str]()
+    for part in match["core"].split("|"):
+        if part in macros:
+            given.append(macros[part])
+        elif part.startswith("@"):
+            words.update(*(section(name) for name in section_names(part[1:])))
+        elif not part.isupper():
+            words.add(part)
+        elif part in Kind.__members__:
+            kinds.append(part)
+        else:
+            raise ValueError(f"'{part}' is no class of words and no macro")
+    given += [rf"(?:{'|'.join(map(re.escape, sorted(words)))})\t[A-Z]+ "] if words else []
+    given += [rf"[^\t ]+\t(?:{'|'.join(kinds)}) "] if kinds else []
+    body = f"(?:{'|'.join(given)}){match['times']}"
+    always = len(given) == bool(words) and match["times"] in ("", "+")
+    return f"(?P<{match['slot']}>{body})" if match["slot"] else body, frozenset(words if always else ())
 
 
 def rewrite(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> tuple[list[Token], list[Token]]:
@@ -167,19 +150,32 @@ def rewrite(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = Non
     dropped: list[Token] = []
     for sentence in _sentences(tokens):
         for row in (*builtin_rows(), *lexicon.phrases) if len(sentence) <= _LONGEST else ():
-            for _ in range(_MOST if not row.triggers or any(t.text in row.triggers for t in sentence) else 0):
-                text = "".join(f"{t.text.replace(' ', '_')}\t{t.kind.value} " for t in sentence)
-                match = row.pattern.search(text)
-                slots = _slots(match, sentence) if match and match[0] else {}
-                if not match or not match[0] or not _has_verbs(row, slots):
-                    break
-                if trace is not None:
-                    trace.append(row.id)
-                begin, end = (text.count(" ", 0, place) for place in match.span())
-                new = _new(row, slots, sentence[begin:end], dropped)
-                sentence = _decided([*sentence[:begin], *new, *sentence[end:]], lexicon, trace)
+            if not row.triggers or any(t.text in row.triggers for t in sentence):
+                sentence = _applied(row, sentence, lexicon, trace, dropped)
         result += sentence
     return result, dropped
+
+
+def _applied(
+    row: PhraseRow, sentence: list[Token], lexicon: Lexicon, trace: list[str] | None, dropped: list[Token]
+) -> list[Token]:
+    """Return a sentence with what a row matches replaced; what disappears with a note is added to ``dropped``."""
+    for _ in range(_MOST):
+        text = "".join(f"{t.text.replace(' ', '_')}\t{t.kind.value} " for t in sentence)
+        match = row.pattern.search(text)
+        if match is None or not match[0]:
+            break
+        slots = _slots(match, sentence)
+        if not all(name in slots and slots[name][0].stem for name in row.verbs):
+            break
+        if trace is not None:
+            trace.append(row.id)
+        begin, end = (text.count(" ", 0, place) for place in match.span())
+        used = {id(token) for _, name in row.replacement for token in slots.get(name, ())}
+        gone = [t for t in sentence[begin:end] if id(t) not in used and t.kind is not Kind.ADV]
+        new = _new(row, slots, sentence[begin].span.start, gone, dropped)
+        sentence = _decided([*sentence[:begin], *new, *sentence[end:]], lexicon, trace)
+    return sentence
 
 
 def _sentences(tokens: list[Token]) -> Iterator[list[Token]]:
@@ -197,29 +193,23 @@ def _slots(match: re.Match[str], sentence: list[Token]) -> dict[str, list[Token]
     return {n: sentence[match.string.count(" ", 0, a) : match.string.count(" ", 0, b)] for n, (a, b) in spans.items()}
 
 
-def _has_verbs(row: PhraseRow, slots: Mapping[str, list[Token]]) -> bool:
-    """Tell whether each kept word of which the verb is wanted can be one."""
-    wanted = [slot[1] for element in row.replacement if (slot := _SLOT.match(element)) and slot[2]]
-    return all(slots.get(name) and slots[name][0].stem for name in wanted)
-
-
-def _new(row: PhraseRow, slots: Mapping[str, list[Token]], matched: list[Token], dropped: list[Token]) -> list[Token]:
-    """Return what takes the place of a match; what disappears with a note is added to ``dropped``."""
-    used = {id(t) for element in row.replacement if (s := _SLOT.match(element)) for t in slots.get(s[1], ())}
-    gone = [t for t in matched if id(t) not in used and t.kind is not Kind.ADV]
-    spans = [] if row.entry["note"] else [span for t in gone for span in (t.span, *t.parts)]
-    for token in gone if row.entry["note"] else ():
-        token.note = row.entry["note"]
-        dropped.append(token)
+def _new(
+    row: PhraseRow, slots: Mapping[str, list[Token]], place: int, gone: list[Token], dropped: list[Token]
+) -> list[Token]:
+    """Return what takes the place of a match; the first new word covers the words that are gone without a note."""
+    spans = [span for token in gone for span in (token.span, *token.parts)]
+    if row.note:
+        spans, dropped[len(dropped) :] = [], gone
+        for token in gone:
+            token.note = row.note
     new: list[Token] = []
-    for element in row.replacement:
-        slot = _SLOT.match(element)
-        if slot and not slot[2]:
-            new += slots.get(slot[1], ())
+    for element, name in row.replacement:
+        if name and not element.endswith(".stem}"):
+            new += slots.get(name, ())
             continue
-        place = new[-1].span.end if new else matched[0].span.start
-        fresh = _fresh(element, slots[slot[1]][0].stem if slot else "", Span(place, place))
-        if spans and fresh.kind is not Kind.STOP:  # the clause covers the words that it was made of
+        place = new[-1].span.end if new else place
+        fresh = _fresh(element, slots[name][0].stem if name else "", Span(place, place))
+        if spans and fresh.kind is not Kind.STOP:
             fresh.span, fresh.parts, spans = spans[0], spans[1:], []
         new.append(fresh)
     return new

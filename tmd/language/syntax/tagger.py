@@ -56,7 +56,7 @@ class Sentence:
 _NEW = Sentence()
 
 
-class Word:
+class Surroundings:
     """A word and what stands around it: what a condition looks at.
 
     Attributes:
@@ -135,7 +135,7 @@ FEATURES = {f.name: f"w.sentence.{f.name}" for f in fields(Sentence)} | {
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ClassRow:
     """A row that says what a word or a run of words is.
 
     Attributes:
@@ -157,7 +157,7 @@ class Row:
     entry: Entry
 
 
-class Classes:
+class WordClasses:
     """Everything a file says of classes of words.
 
     Attributes:
@@ -177,7 +177,7 @@ class Classes:
         entries, sections = read_file(text, file, ("table", "class", "reason"), optional)
         conditions = Conditions(FEATURES, {"is_number": is_number, "singular": singular})
         self.parts: dict[str, str] = {}
-        self.tables: dict[str, list[Row]] = {}
+        self.tables: dict[str, list[ClassRow]] = {}
         reading: tuple[tuple[str, Callable[[str], Any], dict[str, Any]], ...] = (
             ("groups", conditions.kinds, conditions.groups),
             ("terms", conditions.expression, conditions.names),
@@ -190,10 +190,10 @@ class Classes:
         self.terms = {name: conditions.compiled(name) for name in conditions.names if name not in FEATURES}
         self.rows = [self._row(entry, conditions) for entry in entries]
 
-    def _row(self, entry: Entry, conditions: Conditions) -> Row:
+    def _row(self, entry: Entry, conditions: Conditions) -> ClassRow:
         if entry["phrases"]:
             entry.checked("phrases", section_names)
-        row = Row(
+        row = ClassRow(
             entry["id"],
             Kind(entry.checked("class", conditions.kinds)[0]),
             entry["form"],
@@ -221,12 +221,12 @@ class Classes:
 
 
 @cache
-def classes() -> Classes:
+def classes() -> WordClasses:
     """Return what ``data/pos.yaml`` says."""
-    return Classes(data_text("pos.yaml"), "pos.yaml")
+    return WordClasses(data_text("pos.yaml"), "pos.yaml")
 
 
-def _first(table: str, word: Word) -> Row | None:
+def _first(table: str, word: Surroundings) -> ClassRow | None:
     """Return the first row of a table that holds for a word."""
     for row in classes().tables.get(table, ()):
         if row.when(word):
@@ -268,9 +268,11 @@ def tag(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -
     return tagged
 
 
-def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token, Row]]:
+def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token, ClassRow]]:
     """Give tokens another first class where a row of a table holds; what they were as verbs is forgotten."""
-    fired = [(token, row) for at, token in enumerate(tokens) if (row := _first(table, Word(tokens, at, lexicon)))]
+    fired = [
+        (token, row) for at, token in enumerate(tokens) if (row := _first(table, Surroundings(tokens, at, lexicon)))
+    ]
     for token, row in fired:
         token.kind, token.stem, token.strength = row.kind, "", 0
     return fired
@@ -278,18 +280,18 @@ def _each(table: str, tokens: list[Token], lexicon: Lexicon) -> list[tuple[Token
 
 def _compounds(tokens: list[Token], lexicon: Lexicon) -> None:
     """Keep all words of names of the domain with a particle inside."""
-    for at in range(len(tokens) if lexicon.compounds else 0):
-        for length in lexicon.compound_lengths.get(tokens[at].text, ()):
-            run = tokens[at : at + length]
-            if (*(t.text for t in run[:-1]), singular(run[-1].text)) in lexicon.compounds:
+    for words in lexicon.compounds:
+        for at in (at for at, token in enumerate(tokens) if token.text == words[0]):
+            run = tokens[at : at + len(words)]
+            if (*(t.text for t in run[:-1]), singular(run[-1].text)) == words:
                 for token in run:
                     token.kind, token.stem, token.strength = Kind.N, "", 0
 
 
 @cache
-def _phrases() -> Mapping[str, Sequence[tuple[tuple[str, ...], Row]]]:
+def _phrases() -> Mapping[str, Sequence[tuple[tuple[str, ...], ClassRow]]]:
     """Return entries of several words by the first one, the longest first, each with the row that has its section."""
-    found: dict[str, list[tuple[tuple[str, ...], Row]]] = {}
+    found: dict[str, list[tuple[tuple[str, ...], ClassRow]]] = {}
     for row in classes().rows:
         for entry in sections()[row.entry["phrases"]] if row.entry["phrases"] else ():
             words = tuple(entry.split("_"))
@@ -298,20 +300,20 @@ def _phrases() -> Mapping[str, Sequence[tuple[tuple[str, ...], Row]]]:
     return {first: sorted(entries, key=lambda e: -len(e[0])) for first, entries in found.items()}
 
 
-def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[Row, Token, int] | None:
+def _phrase(tokens: list[Token], at: int, lexicon: Lexicon) -> tuple[ClassRow, Token, int] | None:
     """Return the longest phrase of ``words.txt`` that begins here."""
     for words, row in _phrases().get(tokens[at].text, ()):
         run = tokens[at : at + len(words)]
         if tuple(t.text for t in run) == words:
             token = fold(run, row.kind)
             right, beyond, *_ = [*tokens[at + len(words) :][:2], _EDGE, _EDGE]
-            if not row.unless(Word([token], 0, lexicon, ahead=(right, beyond))):
+            if not row.unless(Surroundings([token], 0, lexicon, ahead=(right, beyond))):
                 token.text = pairs("joined").get(token.text, token.text)
                 return row, token, len(words)
     return None
 
 
-def _run(tokens: list[Token], at: int) -> tuple[Row, Token, int] | None:
+def _run(tokens: list[Token], at: int) -> tuple[ClassRow, Token, int] | None:
     """Fold what a row has a pattern of: "for about 3 minutes", "to 180 degrees", "at 6 pm"."""
     if not _begins_run(tokens[at].text):
         return None
@@ -329,9 +331,9 @@ def _begins_run(word: str) -> bool:
 
 
 @lru_cache(maxsize=1 << 14)
-def _first_class(word: str) -> Row:
+def _first_class(word: str) -> ClassRow:
     """Return the row that gives a word its first class."""
-    row = _first("first", Word([Token(Kind.WORD, word, NOWHERE)], 0, builtin()))
+    row = _first("first", Surroundings([Token(Kind.WORD, word, NOWHERE)], 0, builtin()))
     assert row is not None, "the last row holds for any word"
     return row
 
@@ -351,15 +353,10 @@ def _range(tokens: list[Token], at: int, before: list[Token]) -> bool:
 
 
 def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) -> None:
-    word = token.text
-    if word.endswith("'s") and word not in section("be") | section("whole"):
-        word, token.form = word[:-2], "possessive"
-    word = token.text = slips().get(word, word).rstrip("'")
+    word = token.text = _spelled(token, lexicon)
     if word.endswith(sections()["contracted"]):
         token.kind = Kind.SUBJECT
         return
-    corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
-    word = token.text = (corrected or word).replace("-", "_")
     row = _first_class(word)
     token.kind = row.kind
     trace.append(row.id)
@@ -378,6 +375,18 @@ def _tag_word(token: Token, lexicon: Lexicon, starts: bool, trace: list[str]) ->
         token.stem, token.form, token.strength = word, "base", 3
 
 
+def _spelled(token: Token, lexicon: Lexicon) -> str:
+    """Return a word without its possessive ending, which the form of the token notes, and without slips."""
+    word = token.text
+    if word.endswith("'s") and word not in section("be") | section("whole"):
+        word, token.form = word[:-2], "possessive"
+    word = slips().get(word, word).rstrip("'")
+    if word.endswith(sections()["contracted"]):
+        return word
+    corrected = lexicon.correct(word) if word.isalpha() and not token.capital else None
+    return (corrected or word).replace("-", "_")
+
+
 def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:
     """Return what a word is as a verb; one with a hyphen may end in it."""
     reading = lexicon.verb(word)
@@ -393,7 +402,7 @@ def _reading(word: str, lexicon: Lexicon) -> tuple[str, str, int] | None:
 # -- classes by neighbours ---------------------------------------------------------------------------------------------
 
 
-def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> list[tuple[Token, Row]]:
+def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None) -> list[tuple[Token, ClassRow]]:
     """Set the class of every token that its neighbours decide, in place, in one pass.
 
     Args:
@@ -409,7 +418,7 @@ def decide(tokens: list[Token], lexicon: Lexicon, trace: list[str] | None = None
     for at, (token, ahead) in enumerate(zip(tokens, _ahead(tokens), strict=True)):
         if token.kind is Kind.TO:
             token.form = ""  # the words of a statement are decided twice
-        word = Word(tokens, at, lexicon, left, ahead, sentence)
+        word = Surroundings(tokens, at, lexicon, left, ahead, sentence)
         row = _decide(word)
         if row is not None:
             token.kind, token.form = row.kind, row.form or token.form
@@ -435,7 +444,7 @@ def _ahead(tokens: list[Token]) -> list[tuple[Token, Token]]:
     return found[::-1]
 
 
-def _decide(word: Word) -> Row | None:
+def _decide(word: Surroundings) -> ClassRow | None:
     """Return the first row that holds for a word; ``None`` leaves it as it is."""
     token = word.word
     if token.kind is not Kind.WORD:
@@ -447,7 +456,7 @@ def _decide(word: Word) -> Row | None:
     return row
 
 
-def _remember(word: Word, sentence: Sentence) -> None:
+def _remember(word: Surroundings, sentence: Sentence) -> None:
     """Note what a decided word says of the sentence."""
     token, kind, terms = word.word, word.word.kind, classes().terms
     if kind in (Kind.SUB, Kind.REL, Kind.PURP):

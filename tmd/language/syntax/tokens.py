@@ -161,16 +161,17 @@ def tokenise(text: str) -> list[Token]:
         tokens += _cut(token, pairs("copulas"))
     _enumeration(tokens, text)
     _capitals(tokens, text)
-    for token, after in pairwise(tokens):
-        abbreviated = text[after.span.start : after.span.end].isupper()
-        if (
-            after.kind is Kind.WORD
-            and after.text[0] not in "aeioux"
-            and not (abbreviated or after.text in section("silent_h"))
-        ):
-            # "warm it up an pour it out": no article stands before such a sound
-            token.text = pairs("before_consonants").get(token.text, token.text)
+    _articles(tokens, text)
     return tokens
+
+
+def _articles(tokens: list[Token], text: str) -> None:
+    """Read "an" as "and" where no article stands before such a sound: "warm it up an pour it out"."""
+    for token, after in pairwise(tokens):
+        if token.text in pairs("before_consonants") and after.kind is Kind.WORD and after.text[0] not in "aeioux":
+            spelled = text[after.span.start : after.span.end].isupper()  # "an HDMI cable"
+            if not spelled and after.text not in section("silent_h"):
+                token.text = pairs("before_consonants")[token.text]
 
 
 def _token(match: re.Match[str]) -> Token:
