@@ -9,6 +9,7 @@ from importlib import import_module
 from pathlib import Path
 
 import pytest
+from radon.complexity import cc_visit
 
 PACKAGE = Path(__file__).parents[1] / "tmd"
 LAYERS = (
@@ -36,6 +37,7 @@ HEAVY = {
     "matplotlib", "jinja2", "scipy", "distributed", "dask", "imageio", "PIL", "ikfast_pr2", "pr2_ikfast",
     "viser", "trimesh", "vhacdx", "mcap_ros2", "mujoco", "openai",
 }  # fmt: skip
+MOST_COMPLEX = 15
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
 
@@ -153,3 +155,15 @@ def test_packages_say_where_to_begin(folder: Path) -> None:
     modules = [path for path in folder.glob("*.py") if not path.name.startswith("__")]
     text = ast.get_docstring(ast.parse((folder / "__init__.py").read_text())) or ""
     assert len(modules) < 4 or "Begin with" in text or "copy the shortest" in text
+
+
+@pytest.mark.parametrize("package", ["language", "goals"])
+def test_no_function_is_too_complex(package: str) -> None:
+    """Cyclomatic complexity as radon counts it: with ``and``, ``or`` and comprehensions."""
+    blocks = {
+        f"{path.relative_to(PACKAGE)}:{block.lineno} {block.name}": block.complexity
+        for path in (PACKAGE / package).rglob("*.py")
+        for block in cc_visit(path.read_text())
+        if block.letter != "C"
+    }
+    assert {name: found for name, found in blocks.items() if found > MOST_COMPLEX} == {}

@@ -20,6 +20,7 @@ FILES = sorted(
 )
 GRAMMAR = ROOT / "language" / "syntax" / "clauses.lark"
 ALLOWED = {
+    **dict.fromkeys(("evidence", "probability"), "keys of the JSON of learned goals"),
     **dict.fromkeys(Clause.__dataclass_fields__, "fields of a clause, also in JSON"),
     **dict.fromkeys(("base", "ed", "ing", "inf", "possessive"), "forms of words"),
     **dict.fromkeys(("and", "or", "not", "imply", "forall", "exists", "when", "either", "total"), "signs of PDDL"),

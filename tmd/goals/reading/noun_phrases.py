@@ -128,6 +128,9 @@ class Nouns(Facts):
         group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()
         if group:
             return group
+        return self._one_thing(noun, state, types)
+
+    def _one_thing(self, noun: str, state: Bits, types: tuple[str, ...] | None) -> tuple[str, ...]:
         ranked = self.mentions.ranked(noun)
         if ranked and ranked[0].name in self.places and ranked[0].how != WORDNET:
             return (ranked[0].name,)  # the floor, which is no substance that things contain

@@ -111,11 +111,12 @@ class States:
         known = () if targets else bound.containers
         contained = self._contained(constants, fixed=bool(targets))
         ways = []
-        for thing, held in ((thing, held) for thing, held in contained if not known or thing in known):
+        for thing, held in contained:
             placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
             said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
-            if FALSE not in placed and None not in said:
-                ways.append(conjunction((held, *placed, *(f for f in said if f is not None))))
+            told = [f for f in said if f is not None]
+            if (not known or thing in known) and FALSE not in placed and len(told) == len(said):
+                ways.append(conjunction((held, *placed, *told)))
         if not ways:
             message = f"'{text_of(reading.clause)}' says nothing that could be checked here"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message)

@@ -296,11 +296,12 @@ class _Words:
         """Return the effects on what is acted on, the first parameter: to strip a bed does not get hold of a sheet."""
         made, lost = _by_sign(own)
         made_of, lost_of = _by_sign([e for e in own if first in e.atom.terms])
-        only = [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]
-        if made_of and only and not _takes(action) and all(map(self._is_to_hold, made_of)):
+        held = bool(made_of) and not _takes(action) and all(map(self._is_to_hold, made_of))
+        if held and (only := [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]):
             return only  # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
-        moved = bool({e.atom.predicate for e in made} & {e.atom.predicate for e in lost})
-        return lost_of if lost_of and not (made_of or moved) else made_of or made or lost
+        if lost_of and not (made_of or _moves(made, lost)):
+            return lost_of
+        return made_of or made or lost
 
     def _is_to_hold(self, effect: Effect) -> bool:
         """Return whether an effect that other actions have as well says that something is held."""
@@ -404,3 +405,8 @@ def _placelike(parameter: TypedName, types: object) -> bool:
 def describe(rows: Iterable[GoalRow]) -> str:
     """The rows as lines of ``lexicon.yaml``, for an author to look at."""
     return "\n".join(f"- {row.pattern}: {' '.join(format_formula(row.condition).split())}" for row in rows)
+
+
+def _moves(made: Sequence[Effect], lost: Sequence[Effect]) -> bool:
+    """Return whether a predicate is made true of one thing and false of another."""
+    return not {e.atom.predicate for e in made}.isdisjoint(e.atom.predicate for e in lost)

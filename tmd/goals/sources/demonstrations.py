@@ -28,7 +28,7 @@ from tmd.goals.sources.table import (
     PutBack,
     read_row,
 )
-from tmd.goals.words import CONTRARY, is_noun, is_pronoun, is_verb, results, the_word, words_of
+from tmd.goals.words import CONTRARY, is_noun, is_pronoun, is_verb, results, table, the_word, words_of
 from tmd.language.clause import PERSONS, Clause, Mood
 from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.language.lexicon.nouns import NAME, Match, words_in_name
@@ -361,7 +361,7 @@ class _Learner:
                 parts = " ".join(f"({' '.join((f[0], '?v', *f[1:]))})" for f in common)
                 condition = f"(exists (?v - object) (and {parts}))"
                 evidence = f"the ends of {count} demonstrations that make {noun}"
-                yield from self._row(f"make|have|serve|cook {noun}", condition, evidence, 0.8)
+                yield from self._row(f"{'|'.join(table('rows')['serve'])} {noun}", condition, evidence, 0.8)
         for (verb, groups, _), shape in sorted(self.shapes.items()):
             yield from self._of_shape(verb, groups, shape)
 

@@ -217,14 +217,13 @@ def _fitting(
 ) -> list[tuple[str, int]]:
     """Return the candidates with those first, or those only, that fit the pronoun."""
     mentions = [m for scene in recent for m in scene.mentions]
+    plural = {m.name for m in mentions if m.plural}
     if is_one(pronoun):  # "the book and the empty can … the full one": what was told apart, or one of many
-        telling = {m.name for m in mentions if m.described or m.plural}
+        telling = plural | {m.name for m in mentions if m.described}
         alike = {m.name for m in mentions if m.behind and m.behind in before}
         return sorted(scored, key=lambda pair: (pair[0] not in alike, pair[0] not in telling))
-    if is_singular(pronoun):
-        plural = {m.name for m in mentions if m.plural}
-        return [pair for pair in scored if pair[0] not in plural] or scored
-    return scored
+    single = [pair for pair in scored if pair[0] not in plural]
+    return single if is_singular(pronoun) and single else scored
 
 
 def _group(recent: list[_Scene], own: set[str]) -> tuple[str, ...]:
@@ -254,18 +253,24 @@ def _scored(recent: list[_Scene], own: set[str], draft: ClauseDraft) -> list[tup
 def _scene(draft: ClauseDraft, clause: Clause) -> _Scene:
     """Return what a clause leaves behind."""
     direct = [p for p in draft.direct if p.name not in PERSONS]
-    spread = _COORDINATED if len(direct) > 1 else 0
     elided = clause.antecedents.get("", ())[: clause.together.get("", 1)]
+    spread = _COORDINATED if len(direct) > 1 else 0
     mentions = [_Mention(name, False, 0) for name in elided]
-    for phrase in direct:
-        many = phrase.plural or is_plural(phrase.name)
-        mentions += [_Mention(name, many, spread, _told(phrase)) for name in _meant(phrase, clause)]
-        mentions += [_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase]
-    for landmark in draft.landmarks:
-        mentions += _landmark(landmark, clause)
-    named = tuple(m for m in mentions if not is_pronoun(m.name) and m.name not in section("pronouns"))
+    mentions += [m for phrase in direct for m in _acted_on(phrase, clause, spread)]
+    mentions += [m for landmark in draft.landmarks for m in _landmark(landmark, clause)]
     together = [*(name for phrase in direct for name in _meant(phrase, clause)), *elided]
-    return _Scene(named, tuple(dict.fromkeys(n for n in together if not is_pronoun(n))))
+    return _Scene(tuple(m for m in mentions if _is_name(m.name)), tuple(dict.fromkeys(filter(_is_name, together))))
+
+
+def _is_name(name: str) -> bool:
+    return not is_pronoun(name) and name not in section("pronouns")
+
+
+def _acted_on(phrase: Phrase, clause: Clause, spread: int) -> list[_Mention]:
+    """Return what a direct object mentions, farther where it is one of several."""
+    many = phrase.plural or is_plural(phrase.name)
+    own = [_Mention(name, many, spread, _told(phrase)) for name in _meant(phrase, clause)]
+    return own + [_Mention(p.name, p.plural, _PART + spread) for p in phrase.all() if p is not phrase]
 
 
 def _landmark(landmark: Phrase, clause: Clause) -> list[_Mention]:

@@ -70,34 +70,34 @@ class TextReading:
         last.spans.extend(spans(arguments))
         for aside in trees(front, *_ASIDES):
             self._aside(aside)
-        front = self._taken_up([n for n in front if not is_a(n, *_ASIDES)], arguments, last)
-        first.spans.extend(spans([n for n in front if not is_a(n, "group")]))
         before = self.drafts[-1] if self.drafts else None
         self.drafts.extend(drafts)
-        places = [n for n in front if is_a(n, "place", "exception")]
-        self._modify(first, [n for n in front if n not in places], fronted=True)
-        self._attach(last, arguments, front=places)
+        self._join(first, last, self._taken_up([n for n in front if not is_a(n, *_ASIDES)], arguments, last), arguments)
         for draft in drafts[:-1]:
             draft.direct = last.direct
         self._settle(first, last, before, arguments)
+
+    def _join(self, first: ClauseDraft, last: ClauseDraft, front: list[Node], arguments: list[Node]) -> None:
+        """Attach what stands before the first verb, and behind the last."""
+        first.spans.extend(spans([n for n in front if not is_a(n, "group")]))
+        places = [n for n in front if is_a(n, "place", "exception")]
+        self._modify(first, [n for n in front if n not in places], fronted=True)
+        self._attach(last, arguments, front=places)
 
     @staticmethod
     def _taken_up(front: list[Node], arguments: list[Node], draft: ClauseDraft) -> list[Node]:
         """Put what is named first in the place of the pronoun that takes it up: "the drawers, open them"."""
         topic = [n for n in front if is_a(n, "group", "place")]
-        place = next((i for i, n in enumerate(arguments) if is_a(n, "group")), None)
+        groups = trees(arguments, "group")
         if not topic or not is_a(topic[0], "group"):
             return front
-        if place is None and draft.verb.stem not in section("intransitive"):
+        if groups and _is_pronoun(groups[0]):
+            place = next(i for i, n in enumerate(arguments) if n is groups[0])
+            arguments[place : place + 1] = topic
+        elif not groups and draft.verb.stem not in section("intransitive"):
             arguments[:0] = topic  # "second drawer, open"
-            draft.spans.extend(spans(topic))
-            return [n for n in front if n not in topic]
-        if place is None:
+        else:
             return front
-        phrases = phrases_of(trees(arguments[place : place + 1], "group")[0])
-        if len(phrases) != 1 or not phrases[0].pronoun or phrases[0].lead:
-            return front
-        arguments[place : place + 1] = topic
         draft.spans.extend(spans(topic))
         return [n for n in front if n not in topic]
 
@@ -198,12 +198,13 @@ class TextReading:
         denied = _NOT if opener.negated else ""
         by_name = {p.name: p for p in said.landmarks}
         where, state = opener.text in section("where_words"), said.verb.stem == BE
+        holds = bool(named) and (state or said.verb.stem in section("holding"))
         targets = [(denied + r.relation, by_name[r.target]) for r in said.relations if r.target in by_name]
-        if where or (named and (state or said.verb.stem in section("holding"))):
+        if where or holds:
             targets = [(WHERE if where else WITH, p) for p in named]
         elif state and said.result is not None:
             noun.attributes.append(denied + said.result)
-            targets = []
+            return
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.further[phrase.name] = phrase.said()
@@ -320,6 +321,11 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
+
+
+def _is_pronoun(group: Tree[Leaf]) -> bool:
+    phrases = phrases_of(group)
+    return len(phrases) == 1 and phrases[0].pronoun and not phrases[0].lead
 
 
 def _is_fold(node: Node) -> bool:

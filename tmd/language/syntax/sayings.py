@@ -68,20 +68,23 @@ class Saying:
 
     def clauses(self, attach: Attach) -> list[ClauseDraft]:
         """Return what it says."""
-        last = self.verbs[-1].stem if self.verbs else ""
-        if last in section("noticed") and trees(self.rest, "group"):
-            self.subject = []  # what you see is there
-            return [self._state(attach)]
-        if last in section("becoming") | section("staying") and trees(self.rest, "state"):
+        if self._only_states():
             return [self._state(attach)]
         verbs = [v for v in self.verbs if v.text not in section("loosely")]
-        done = [v for v in verbs if v.kind is Kind.PARTICIPLE]
-        if done and verbs[-1] is done[-1] and self._passive():
-            return [self._done(verb, attach) for verb in done]
+        if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
+            return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
         if verbs:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
         owned = self._helped("having") and trees(self.rest, "group")
         return [self._owned(attach) if owned else self._state(attach)]
+
+    def _only_states(self) -> bool:
+        """Tell whether its verb adds nothing to a state: "stays open", "you see a cup"."""
+        last = self.verbs[-1].stem if self.verbs else ""
+        if last in section("noticed") and trees(self.rest, "group"):
+            self.subject = []  # what you see is there
+            return True
+        return last in section("becoming") | section("staying") and bool(trees(self.rest, "state"))
 
     def _helped(self, name: str) -> bool:
         """Tell whether its last auxiliary is in a section of ``words.txt``."""
