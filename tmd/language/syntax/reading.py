@@ -195,7 +195,7 @@ class TextReading:
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
         named = [p for p in said.direct if not p.pronoun]
-        denied = _NOT if opener.negated else ""
+        denied = _NOT * opener.negated
         by_name = {p.name: p for p in said.landmarks}
         where, state = opener.text in section("where_words"), said.verb.stem == BE
         holds = bool(named) and (state or said.verb.stem in section("holding"))
