@@ -125,7 +125,7 @@ def test_a_row_without_its_predicates_is_left_out_with_the_reason(tmp_path: Path
     rows, unused = table(folder)
     assert rows.rows == () and rows.attributes == {}
     assert [one.entry.pattern for one in unused] == ["heat X", "hot"]
-    assert unused[0].reason == "this domain has nothing for (hot ?x): (hot ?x), (warm ?x)"
+    assert unused[0].reason == "this domain has nothing for (hot ?x): (hot ?x) | (warm ?x)"
     assert told(folder) == []
 
 

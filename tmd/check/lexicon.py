@@ -53,14 +53,21 @@ def check_lexicon(
         texts: The texts of the domain's demonstrations.
     """
     source = _Lines(path)
-    found = []
-    for noun, targets in sorted(lexicon.nouns.items()):
+    return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
+
+
+def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: _Lines) -> Iterator[TmdError]:
+    """Nouns that lead to what the domain does not have."""
+    for noun, targets in sorted(lexicon.nouns.items()) if names else ():
         for target in targets:
-            if names and target not in names and lexicon.own("nouns", noun):
+            if target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
-                found.append(source.error(noun, target, message, hint, "unknown-target"))
-    served = _Served(texts, actions)
+                yield source.error(noun, target, message, hint, "unknown-target")
+
+
+def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: _Lines) -> Iterator[TmdError]:
+    """Verbs of the lexicon itself that no demonstration, no action and no row serves."""
     verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
     # one word of several that stand for the same verb is enough: its template serves all of them
     shown = {
@@ -73,8 +80,7 @@ def check_lexicon(
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
             hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
-            found.append(source.error(verb, verb, message, hint, "unserved-verb"))
-    return found
+            yield source.error(verb, verb, message, hint, "unserved-verb")
 
 
 def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:

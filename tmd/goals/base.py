@@ -14,7 +14,7 @@ does not apply. Where a condition is there for some prepositions of a row only, 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Location, TmdError
@@ -69,7 +69,7 @@ class SharedMeanings:
 
 
 def shared_meanings(
-    lexicon: Lexicon, domain: Domain, own: Sequence[GoalRow], adjectives: Iterable[str]
+    lexicon: Lexicon, domain: Domain, own: Sequence[GoalRow], adjectives: Collection[str]
 ) -> SharedMeanings:
     """Return what base lexicons add to the meanings that a lexicon declares itself.
 
@@ -85,33 +85,37 @@ def shared_meanings(
     for fault in faults_of(lexicon, domain):
         raise fault
     translation = _Translation(lexicon.base, domain)
-    rows = list(own)
-    added: list[GoalRow] = []
-    left_out: list[LeftOut] = []
+    rows, added, unused = list(own), [], []
     for entry in lexicon.base.goals:
         found, reason = translation.rows(entry)
-        verbs = read_pattern(entry)[0]
         if not found:
-            left_out.append(LeftOut(entry, reason, verbs))
+            unused.append(LeftOut(entry, reason, read_pattern(entry)[0]))
         for row in found:
-            taken = {
-                verb: other for verb in row.verbs if (other := _before(verb, row, rows, lexicon, domain)) is not None
-            }
-            for other in dict.fromkeys(taken.values()):
-                gone = tuple(verb for verb in row.verbs if taken.get(verb) == other)
-                left_out.append(LeftOut(entry, f"'{other.pattern}' ({other.location}) says it already", gone))
-            if len(taken) < len(row.verbs):
-                added.append(replace(row, verbs=tuple(verb for verb in row.verbs if verb not in taken)))
-                rows.append(added[-1])
+            kept, gone = _without_replaced(row, entry, rows, lexicon, domain)
+            unused += gone
+            if kept.verbs:
+                rows.append(kept)
+                added.append(kept)
     meant: dict[str, Formula] = {}
-    declared = set(adjectives)
     for entry in lexicon.base.attributes:
         condition, reason = translation.adjective(entry)
-        if condition is None or entry.pattern in declared:
-            left_out.append(LeftOut(entry, reason or f"the adjective '{entry.pattern}' is declared already"))
+        if condition is None or entry.pattern in adjectives:
+            unused.append(LeftOut(entry, reason or f"the adjective '{entry.pattern}' is declared already"))
         else:
             meant.setdefault(entry.pattern, condition)
-    return SharedMeanings(tuple(added), meant, tuple(left_out))
+    return SharedMeanings(tuple(added), meant, tuple(unused))
+
+
+def _without_replaced(
+    row: GoalRow, entry: Declared, rows: Sequence[GoalRow], lexicon: Lexicon, domain: Domain
+) -> tuple[GoalRow, list[LeftOut]]:
+    """Return a shared row for the verbs for which no row nearer to the domain replaces it, and what is left out."""
+    replaced = {verb: other for verb in row.verbs if (other := _before(verb, row, rows, lexicon, domain)) is not None}
+    gone: dict[str, list[str]] = {}
+    for verb, other in replaced.items():
+        gone.setdefault(f"'{other.pattern}' ({other.location}) says it already", []).append(verb)
+    kept = replace(row, verbs=tuple(verb for verb in row.verbs if verb not in replaced))
+    return kept, [LeftOut(entry, reason, tuple(verbs)) for reason, verbs in gone.items()]
 
 
 def _before(verb: str, row: GoalRow, rows: Iterable[GoalRow], lexicon: Lexicon, domain: Domain) -> GoalRow | None:
@@ -398,7 +402,7 @@ def _syntax_faults(entry: Declared) -> list[TmdError]:
 def _entry_faults(entry: Declared, base: Base, *, is_row: bool) -> Iterator[TmdError]:
     """Yield what is wrong with a row or an adjective of a base lexicon, whatever the domain."""
     try:
-        slots = read_pattern(entry)[2] if is_row else ()
+        free = _slots(entry) if is_row else frozenset({"?x"})
     except TmdError as error:
         yield _fault(error.message, error.location, error.hint, error.code)
         return
@@ -406,24 +410,40 @@ def _entry_faults(entry: Declared, base: Base, *, is_row: bool) -> Iterator[TmdE
     if told:
         yield from told
         return
-    free = {slot.variable for slot in slots} | ({RELATION} if any(slot.prepositions for slot in slots) else set())
-    for node, bound in _atoms(parse(entry.condition, "").groups[0], frozenset(free if is_row else {"?x"})):
+    for node, bound in _atoms(parse(entry.condition, "").groups[0], free):
         arguments = [part.text for part in node.parts[1:] if isinstance(part, Word)]
         place = _within(entry, node.location)
         if node.head != "=":
-            known = [predicate for predicate in base.predicates if predicate.name == node.head]
-            if not known:
-                hint = nearest(node.head, sorted({p.name for p in base.predicates}), what="shared predicates")
-                message = f"there is no shared predicate '{node.head}', in '{entry.pattern}'"
-                yield _fault(message, place, hint, "unknown-predicate")
-            elif all(len(predicate.terms) != len(arguments) for predicate in known):
-                wanted = " ".join((known[0].name, *known[0].terms))
-                message = f"'{node.head}' is declared as ({wanted}), in '{entry.pattern}'"
-                yield _fault(message, place, None, "wrong-arity")
+            yield from _atom_faults(entry, node.head, arguments, place, base)
         for term in arguments:
             if term.startswith("?") and term not in bound:
                 hint = f"the slots here: {', '.join(sorted(bound)) or 'none'}"
                 yield _fault(f"no slot is called {term}, in '{entry.pattern}'", place, hint, "free-variable")
+
+
+def _slots(entry: Declared) -> frozenset[str]:
+    """Return the variables that the pattern of a row binds.
+
+    Raises:
+        TmdError: It is not a pattern.
+    """
+    slots = read_pattern(entry)[2]
+    related = {RELATION} if any(slot.prepositions for slot in slots) else set()
+    return frozenset({*(slot.variable for slot in slots), *related})
+
+
+def _atom_faults(
+    entry: Declared, name: str, arguments: Sequence[str], place: Location | None, base: Base
+) -> Iterator[TmdError]:
+    """Yield what is wrong with an atom of a row: it must be one of the shared predicates."""
+    known = [predicate for predicate in base.predicates if predicate.name == name]
+    if not known:
+        hint = nearest(name, sorted({predicate.name for predicate in base.predicates}), what="shared predicates")
+        message = f"there is no shared predicate '{name}', in '{entry.pattern}'"
+        yield _fault(message, place, hint, "unknown-predicate")
+    elif all(len(predicate.terms) != len(arguments) for predicate in known):
+        wanted = " ".join((known[0].name, *known[0].terms))
+        yield _fault(f"'{name}' is declared as ({wanted}), in '{entry.pattern}'", place, None, "wrong-arity")
 
 
 def _atoms(node: Node, bound: frozenset[str]) -> Iterator[tuple[Group, frozenset[str]]]:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.sources.table import GoalRow
+from tmd.goals.words import words_of
 from tmd.language.clause import Clause
 from tmd.pddl.model import Formula
 from tmd.pddl.task import Bits, Cube
+
+_WORD = re.compile(r"[a-z]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,6 +84,13 @@ class ClauseReading:
     def again(self, *, strict: bool = False) -> ClauseReading:
         """Return a fresh reading of the same clause."""
         return ClauseReading(self.clause, self.moments, self.memory, strict, self.awaited)
+
+
+def lost_amount(clause: Clause) -> str | None:
+    """Return a word for an amount that stands in a clause and in no part of it: *half of the milk*."""
+    kept = " ".join((*clause.objects, *clause.quantities.values(), clause.duration or "", clause.setting or ""))
+    lost = [word for word in _WORD.findall(clause.text.lower()) if word in words_of("amounts")]
+    return next((word for word in lost if word not in _WORD.findall(kept)), None)
 
 
 def text_of(clause: Clause) -> str:

@@ -23,6 +23,7 @@ from tmd.pddl.model import (
     Imply,
     Not,
     Or,
+    TypedName,
     universe,
 )  # fmt: skip
 from tmd.pddl.semantics import bindings
@@ -197,12 +198,15 @@ class _Grounding:
                 unless = negation(self.of(left, binding))
                 return unless if unless == TRUE else disjunction((unless, self.of(right, binding)))
             case Forall(parameters, part):
-                every = bindings(parameters, self.grounder.objects, binding)
-                spared = self.moments.excepted
-                meant = (b for b in every if not any(b[p.name] in spared for p in parameters))
-                return conjunction(self.of(part, each) for each in meant)
+                return conjunction(self.of(part, each) for each in self._meant(parameters, binding))
             case Exists(parameters, part):
                 return disjunction(self.of(part, e) for e in bindings(parameters, self.grounder.objects, binding))
+
+    def _meant(self, parameters: tuple[TypedName, ...], binding: Mapping[str, str]) -> Iterable[Mapping[str, str]]:
+        """Return the bindings of variables to what is not excepted."""
+        names = [parameter.name for parameter in parameters]
+        every = bindings(parameters, self.grounder.objects, binding)
+        return (each for each in every if self.moments.excepted.isdisjoint(each[name] for name in names))
 
     def _any_way(self, parts: Sequence[Formula], binding: Mapping[str, str]) -> Formula:
         """Return a disjunction: where one way is open for what was named, nothing stands in for it in another."""

@@ -50,20 +50,26 @@ def command(
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
-    from tmd.check.codes import Severity
-    from tmd.check.report import check_paths
-
     if as_json and form != "text":
         raise click.UsageError("give --json or --format, not both")
     if explain is not None:
-        if domain or strict or notes or fix or form != "text":
+        if any((domain, strict, notes, fix, form != "text")):
             raise click.UsageError("--explain takes domains and --json only")
         return _explain(roots, explain, paths, as_json)
     if not paths:
         raise click.UsageError("Missing argument 'PATH...'.")
     given = roots.pddl_file(domain) if domain else None
     chosen = [roots.path(path) for path in paths]
+    from tmd.check.report import check_paths
+
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
+    return _told(report, strict=strict, notes=notes, as_json=as_json, form=form)
+
+
+def _told(report: CheckReport, *, strict: bool, notes: bool, as_json: bool, form: str) -> ExitCode:
+    """Print what was found; return how the program ends."""
+    from tmd.check.codes import Severity
+
     shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
     if as_json:
         emit_json(_all_json(report))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
 
 from tmd.goals.grounder import Grounder, Moments
@@ -134,26 +134,20 @@ class Facts:
         things = not (self.is_constant(target) or self.is_constant(name))
         words = {group for group, members in PREPOSITIONS.items() if relation in members} | {relation}
         inside = bool(words & words_of("relations", "contents"))
-        says = _Says(
-            words,
-            anywhere=bool(words & words_of("relations", "anchored")) or (inside and things),
-            things=things,
-            inside=inside,
-        )
+        says = _Says(words, things=things, inside=inside)
         # (on a b) says where a is, not where b is
         ordered = things and not inside and not is_relation(relation, "locating")
         for end in (target, *(other for level in range(3) for other in self.grounder.relatives(target, level))):
-            found = [
-                atom
-                for atom in self.facts_about(name)
-                if end in atom.args
-                and atom.predicate not in self.grounder.reflexive
-                and not (ordered and atom.args.index(name) > atom.args.index(end))
-                and says.so(atom, [a for a in atom.args if a not in (name, end)], atom in self.world.task.index)
-            ]
+            joining = self._joining(name, end, ordered=ordered)
+            found = [atom for atom in joining if says.so(atom, {name, end}, atom in self.world.task.index)]
             if found:
                 return disjunction(Atom(a.predicate, a.args) for a in found)
         return FALSE
+
+    def _joining(self, name: str, end: str, *, ordered: bool) -> Iterable[GroundAtom]:
+        """Return the facts that join two things and say something of these two; in this order, if ``ordered``."""
+        facts = (a for a in self.facts_about(name) if end in a.args and a.predicate not in self.grounder.reflexive)
+        return (atom for atom in facts if not ordered or atom.args.index(name) <= atom.args.index(end))
 
     def related_now(
         self, names: Iterable[str], relation: str, targets: Sequence[str], moments: Moments
@@ -171,24 +165,28 @@ class _Says:
 
     Args:
         words: The relation, and its name in patterns.
-        anywhere: Any predicate of place will do.
         things: Neither end is a constant.
         inside: It is about contents.
     """
 
-    def __init__(self, words: set[str], *, anywhere: bool, things: bool, inside: bool) -> None:
+    def __init__(self, words: set[str], *, things: bool, inside: bool) -> None:
         self.words = words
         self.named = {w for word in words for w in PREPOSITIONS.get(word, ())} | words
-        self.anywhere = anywhere
+        self.anywhere = bool(words & words_of("relations", "anchored")) or (inside and things)
         self.things = things
         self.inside = inside
 
-    def so(self, atom: GroundAtom, others: Sequence[str], changes: bool) -> bool:
-        """Return whether an atom with further arguments says it."""
-        known = [a for a in others if a in PREPOSITIONS]
+    def so(self, atom: GroundAtom, ends: set[str], changes: bool) -> bool:
+        """Return whether an atom says it of two things."""
+        others = [argument for argument in atom.args if argument not in ends]
+        known = set(others).intersection(PREPOSITIONS)
         if known:
-            return self.anywhere or any(a in self.words for a in known)
-        parts = words_in_name(atom.predicate)
+            return self.anywhere or bool(known & self.words)
+        return self._named(words_in_name(atom.predicate), alone=not others, changes=changes)
+
+    def _named(self, parts: Collection[str], *, alone: bool, changes: bool) -> bool:
+        """Return whether the words of a predicate's name say it."""
+        parts = set(parts)
         if parts & self.named:
             return True
         if parts & words_of("located"):
@@ -196,6 +194,6 @@ class _Says:
         if parts & _KNOWN:
             return self.anywhere
         if self.inside:
-            return not self.things and not others
+            return not self.things and alone
         joins = bool(self.words & words_of("relations", "joining")) and self.things  # "the door to the hall"
         return self.anywhere and (changes or joins)

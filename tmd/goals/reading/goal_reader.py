@@ -7,7 +7,7 @@ from dataclasses import replace
 from functools import cached_property
 
 from tmd.diagnostics import Refusal, RefusalKind
-from tmd.goals.clause_goal import ClauseGoal, ClauseReading, words
+from tmd.goals.clause_goal import ClauseGoal, ClauseReading, lost_amount, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.noun_phrases import Memory
 from tmd.goals.reading.row_reader import RowReader
@@ -56,21 +56,33 @@ class GoalReader:
         """Return what ``clause`` asks for, or says that it is waited for, said when ``state`` holds."""
         reading = ClauseReading(clause, Moments(state, memory.first), memory, awaited=awaited)
         clause = reading.clause = self.referents.reattached(reading)
-        placed = [r for r in clause.relations if r.source in clause.direct]
-        somewhere = any(not is_relation(r.relation, "composing") for r in placed)
-        if clause.implied and is_verb(clause.verb, "having") and somewhere:
+        lost = None if self.guess else lost_amount(clause)
+        if lost is not None:
+            message = f"nothing here can tell '{lost}' of something"
+            return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "leave it out, or allow guesses")
+        if self._is_to_settle(clause):
             settle = the_word("verbs", "settling")
             found = self.read(replace(clause, verb=settle, implied=False), state, memory)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be
-        bare = clause.verb == BE and not clause.relations and not clause.result
-        if bare or ((clause.verb == BE or clause.result) and not self._rows_with(clause)):
+        if self._is_state(clause):
             return self._state(reading)
         found = self._by_tables(self._own_verbs(clause), reading)
         if isinstance(found, Refusal) and clause.verb == BE and found.kind is not RefusalKind.NO_SUCH_THING:
             asked = self._state(reading.again())
             found = found if isinstance(asked, Refusal) else asked
         return found
+
+    def _is_state(self, clause: Clause) -> bool:
+        """Return whether a clause says what is to be so, and no row says what that means."""
+        bare = clause.verb == BE and not clause.relations and not clause.result
+        return bare or ((clause.verb == BE or bool(clause.result)) and not self._rows_with(clause))
+
+    def _is_to_settle(self, clause: Clause) -> bool:
+        """Return whether a clause without a verb says where a thing shall be."""
+        placed = (r for r in clause.relations if r.source in clause.direct)
+        somewhere = any(not is_relation(r.relation, "composing") for r in placed)
+        return clause.implied and is_verb(clause.verb, "having") and somewhere
 
     def _own_verbs(self, clause: Clause) -> list[str]:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""
@@ -122,26 +134,32 @@ class GoalReader:
     def _by_table(self, table: GoalTable, own: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal | None:
         """Return the goal by the rows of one source; ``None`` where it knows neither the verb nor its family."""
         others = [verb for verb in dict.fromkeys(name for one in own for name in family(one)) if verb not in own]
-        if any(row.source == ACTIONS for row in table.rows[:1]):
-            # an action that takes just what was named is meant rather than what an action does to a relative of it
-            for known in filter(None, map(table.of, (*own, *others))):
-                found = self._exact_rows.by_rows(known, reading.again(strict=True))
-                if not isinstance(found, Refusal) or found.kind is RefusalKind.IMPOSSIBLE:
-                    return found
+        exact = self._by_action(table, (*own, *others), reading)
+        if exact is not None:
+            return exact
         placing = self._is_placing(reading.clause)
         looser = () if placing else ((False, others),)  # to put is more than to take
         failure: Refusal | None = None
         for strict, verbs in ((True, own), (True, others), (False, own), *looser):
             for verb in verbs:
                 tried = self._by_verb(table, verb, reading.again(strict=strict), own)
-                if isinstance(tried, ClauseGoal) or (tried and self._settles(verb, tried, reading.clause)):
+                if self._settles(verb, tried, reading.clause):
                     return tried
-                if failure is None or (tried and failure.kind is RefusalKind.NOT_UNDERSTOOD):
-                    failure = tried
-            settled = failure is not None and failure.kind is not RefusalKind.NOT_UNDERSTOOD
-            if settled and (not strict or placing):
+                if isinstance(tried, Refusal):
+                    failure = _more_telling(failure, tried)
+            if failure is not None and not _is_unclear(failure) and (not strict or placing):
                 return failure
         return failure
+
+    def _by_action(self, table: GoalTable, verbs: Sequence[str], reading: ClauseReading) -> ClauseGoal | Refusal | None:
+        """Return the goal by an action that takes just what was named, rather than a relative of it."""
+        if not any(row.source == ACTIONS for row in table.rows[:1]):
+            return None
+        for known in filter(None, map(table.of, verbs)):
+            found = self._exact_rows.by_rows(known, reading.again(strict=True))
+            if not isinstance(found, Refusal) or found.kind is RefusalKind.IMPOSSIBLE:
+                return found
+        return None
 
     def _by_verb(
         self, table: GoalTable, verb: str, reading: ClauseReading, own: Sequence[str]
@@ -150,11 +168,13 @@ class GoalReader:
         rows = [row for row in table.of(verb) if verb in own or not row.traceless]
         return self.rows.by_rows(rows, reading) if rows else None
 
-    def _settles(self, verb: str, refusal: Refusal, clause: Clause) -> bool:
-        """Return whether what the verb itself asks for can never be: its relatives would ask for less."""
+    def _settles(self, verb: str, found: ClauseGoal | Refusal | None, clause: Clause) -> bool:
+        """Return whether there is a goal, or what the verb itself asks for can never be: its relatives ask for less."""
+        if not isinstance(found, Refusal):
+            return found is not None
         alone = not any(r.source in clause.direct for r in clause.relations)
         itself = (clause.verb, *self._synonyms(clause.verb))
-        return alone and verb in itself and refusal.kind is RefusalKind.IMPOSSIBLE
+        return alone and verb in itself and found.kind is RefusalKind.IMPOSSIBLE
 
     def _is_placing(self, clause: Clause) -> bool:
         """Return whether a clause says where something shall go: if it cannot go there, nothing less will do."""
@@ -178,3 +198,12 @@ class GoalReader:
         near = ", ".join(map(words, nearest_verbs(clause.verb, known)))
         hint = f"the nearest known verbs are {near}" if near else "say what shall be different afterwards"
         return Refusal(RefusalKind.UNKNOWN_VERB, f"unknown verb '{words(clause.verb)}'", hint)
+
+
+def _is_unclear(refusal: Refusal) -> bool:
+    return refusal.kind is RefusalKind.NOT_UNDERSTOOD
+
+
+def _more_telling(one: Refusal | None, other: Refusal) -> Refusal:
+    """Return the second of two reasons where the first says only that a row does not fit."""
+    return other if one is None or _is_unclear(one) else one

@@ -11,7 +11,7 @@ from functools import cached_property
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.reading.facts import Facts
 from tmd.goals.sources.table import GoalTable
-from tmd.goals.words import is_idle, is_noun, state_words, words_of
+from tmd.goals.words import ends_as, is_idle, is_noun, state_words, words_of
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import section
 from tmd.language.lexicon.nouns import ALIAS, NAME, WORDNET, Match, split_name
@@ -123,11 +123,11 @@ class Nouns(Facts):
         """
         if is_noun(noun, "everything"):
             return self.world.profiles.objects
-        if noun in self.table.groups and not (place and noun in self.lexicon.nouns):
-            classes = self.table.groups[noun]
-            found = tuple(n for n in self.world.profiles.objects if not self._kinds(n).isdisjoint(classes))
-            if found:
-                return found
+        if ends_as(noun, "thing"):  # "flammable things", of whatever class
+            return self._all_that_are(split_name(noun)[:-1], Moments(state, state))
+        group = self._group(noun) if not (place and noun in self.lexicon.nouns) else ()
+        if group:
+            return group
         ranked = self.mentions.ranked(noun)
         if ranked and ranked[0].name in self.places and ranked[0].how != WORDNET:
             return (ranked[0].name,)  # the floor, which is no substance that things contain
@@ -136,16 +136,23 @@ class Nouns(Facts):
         best = self._likeliest(noun, state, types)
         if best is None:
             return ()
-        best = self._numbered(noun, self._told_apart(noun, best, state))
-        best = [name for name in best if self.guess or not self.unexplained(noun, name, state)]
+        best = self._explained(noun, self._numbered(noun, self._told_apart(noun, best, state)), state)
         return tuple(best) or self._called_after(noun) or (self._siblings(noun) if self.guess else ())
+
+    def _all_that_are(self, adjectives: Sequence[str], moments: Moments) -> tuple[str, ...]:
+        said = {n: [self.attribute(word, n, moments) for word in adjectives] for n in self.world.profiles.objects}
+        return tuple(n for n, all_ in said.items() if all(f and self.grounder.truth(f, moments.now) for f in all_))
+
+    def _group(self, noun: str) -> tuple[str, ...]:
+        classes = self.table.groups.get(noun, ())
+        return tuple(n for n in self.world.profiles.objects if not self._kinds(n).isdisjoint(classes))
+
+    def _explained(self, noun: str, names: Iterable[str], state: Bits) -> list[str]:
+        return [name for name in names if self.guess or not self.unexplained(noun, name, state)]
 
     def _likeliest(self, noun: str, state: Bits, types: tuple[str, ...] | None) -> list[str] | None:
         """Return the objects of the best match; ``None`` where the domain knows that it is nothing that is here."""
-        matches = self._matches(noun, state)
-        if types is not None:
-            fitting = [m for m in matches if self.grounder.fits(m.name, types)]
-            matches = [m for m in fitting if self.grounder.is_a(m.name, types)] or fitting or matches
+        matches = self._fitting(self._matches(noun, state), types)
         best = [m.name for m in matches if (m.score, m.how) == (matches[0].score, matches[0].how)]
         how = matches[0].how if matches else ""
         if how == NAME and not self.guess and self._of_another_class(noun, best):
@@ -153,6 +160,12 @@ class Nouns(Facts):
         if how == CONTAINED and not self._of_that_kind(noun, self.contents(best[0], state)):
             return None
         return best
+
+    def _fitting(self, matches: list[Match], types: tuple[str, ...] | None) -> list[Match]:
+        if types is None:
+            return matches
+        fitting = [m for m in matches if self.grounder.fits(m.name, types)]
+        return [m for m in fitting if self.grounder.is_a(m.name, types)] or fitting or matches
 
     def _matches(self, noun: str, state: Bits) -> list[Match]:
         return [m for m in self.mentions.of(noun, state) if self.guess or m.how != WORDNET]
@@ -180,13 +193,17 @@ class Nouns(Facts):
         modifiers = split_name(noun)[:-1]  # a noun may be no word at all: "é", "²"
         if not modifiers or len(names) < 2:
             return names
-        declared = self.lexicon.nouns.get(noun)
-        if declared is not None:  # "upper_drawer: [top_drawer]" in the lexicon means cabinet1_top_drawer
-            whole = [set(split_name(alias)) for alias in declared if len(split_name(alias)) > 1]
-            return [n for n in names if any(words <= set(split_name(n)) for words in whole)] or names
+        if noun in self.lexicon.nouns:
+            return self._aliased(noun, names)
         alike = {word for modifier in modifiers for word in state_words(modifier)}  # the upper drawer is the top one
         called = [n for n in names if any(alike & set(split_name(kind)) for kind in self._kinds(n))]
         return called or self._described(modifiers, names, Moments(state, state))
+
+    def _aliased(self, noun: str, names: list[str]) -> list[str]:
+        """Return the things with an alias in their names: ``upper_drawer: [top_drawer]``, cabinet1_top_drawer."""
+        aliases = (split_name(alias) for alias in self.lexicon.nouns[noun])
+        whole = [set(alias) for alias in aliases if len(alias) > 1]
+        return [n for n in names if any(alias <= set(split_name(n)) for alias in whole)] or names
 
     def _described(self, modifiers: Collection[str], names: list[str], moments: Moments) -> list[str]:
         owners = [m.name for m in self.mentions.ranked("_".join(modifiers)) if m.how in (NAME, ALIAS)]
@@ -204,19 +221,25 @@ class Nouns(Facts):
         A modifier may be a part of its name, the name of its class or whole, something that it holds or may hold, what
         it belongs to, a state that it is in, or the room.
         """
-        modifiers = [
-            w for w in split_name(noun)[:-1] if not (is_idle(w) or w in words_of("ordinals") or w in words_of("rooms"))
-        ]
-        if not modifiers or noun in self.lexicon.nouns or noun in self.mentions.classes:
+        modifiers = [word for word in split_name(noun)[:-1] if not _says_nothing(word)]
+        if not modifiers or noun in self.mentions.classes or self._is_declared(noun):
             return []
-        held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
-        kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
-        called = sorted({word for kind in kinds for word in split_name(kind)})
-        left = [w for w in modifiers if not (set(called) & set(state_words(w)) or _is_slip(w, called))]
+        called = self._words_about(name)
+        left = [w for w in modifiers if called.isdisjoint(state_words(w)) and not _is_slip(w, sorted(called))]
         moments = Moments(state, state)
         if left and self._belongs("_".join(left), name, moments):
             return []
         return [w for w in left if not (self._belongs(w, name, moments) or self._is_so(w, name, moments))]
+
+    def _is_declared(self, noun: str) -> bool:
+        """Return whether the lexicon says what a noun means here."""
+        return noun in self.lexicon.nouns and any(m.how == ALIAS for m in self.mentions.ranked(noun))
+
+    def _words_about(self, name: str) -> set[str]:
+        """Return the words in the names of a thing, of its class, of its whole, and of all that it may hold."""
+        held = (a for fact in self.facts_about(name) for a in fact.args if self.is_constant(a))
+        kinds = (*self._kinds(name), *self.world.profiles.unit(name), *held)
+        return {word for kind in kinds for word in split_name(kind)}
 
     def _belongs(self, modifier: str, name: str, moments: Moments) -> bool:
         """Return whether a thing holds, may hold or is related to what a modifier names; a substance: comes from it."""
@@ -266,14 +289,24 @@ class Nouns(Facts):
         ranked = (m for m in self.mentions.ranked(noun) if self.is_constant(m.name))
         fitting = [m for m in ranked if self.grounder.is_a(m.name, types)]
         named = [m.name for m in fitting if m.how == NAME and m.score == fitting[0].score]
-        aliases = [m.name for m in fitting if m.how == ALIAS or (self.guess and m.how == WORDNET)]
-        if named or aliases:
-            later = {other for one in aliases for other in self.turns_into(one)} if not named else set()
-            fresh = [name for name in aliases if name not in later] or aliases
-            chosen = [n for n in named or fresh if self.guess or not self.unexplained(noun, n, state)]
-            return tuple(self._numbered(noun, chosen)) if self._of_that_kind(noun, named or aliases) else ()
-        inside = (c for thing in self.things(noun, state) for c in self.contents(thing, state))
+        known = named or self._aliases(fitting)
+        if known:
+            chosen = self._explained(noun, named or self._first_forms(known), state)
+            return tuple(self._numbered(noun, chosen)) if self._of_that_kind(noun, known) else ()
+        return self.contained(self.things(noun, state), types, state)
+
+    def contained(self, things: Iterable[str], types: tuple[str, ...], state: Bits) -> tuple[str, ...]:
+        """Return the constants of some types in some things."""
+        inside = (c for thing in things for c in self.contents(thing, state))
         return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+
+    def _first_forms(self, constants: list[str]) -> list[str]:
+        """Return the constants but for what others of them turn into: noodles, and no cooked ones."""
+        later = {other for one in constants for other in self.turns_into(one)}
+        return [name for name in constants if name not in later] or constants
+
+    def _aliases(self, matches: Iterable[Match]) -> list[str]:
+        return [m.name for m in matches if m.how == ALIAS or (self.guess and m.how == WORDNET)]
 
     def substances(self, noun: str) -> tuple[str, ...]:
         """Return all constants that a noun may mean by its name or by the words of the domain."""
@@ -287,18 +320,20 @@ class Nouns(Facts):
         unknown: list[str] = []
         for word in phrase.attributes:
             said = {name: self.attribute(word, name, moments) for name in names}
-            if all(formula is None for formula in said.values()):
-                named = tuple(n for n in names if word in split_name(n))
-                contrary = word in section("keep_adjectives") and len(names) > 1 and all(map(self._modified, names))
-                if not named and not contrary:
-                    unknown += [] if is_idle(word) else [word]
-                    continue
-                names = named
+            if any(formula is not None for formula in said.values()):
+                names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, moments.now))
+                names = self._changeable(word, names, moments) if is_noun(phrase.name, "everything") else names
                 continue
-            names = tuple(n for n in names if (f := said[n]) is not None and self.grounder.truth(f, moments.now))
-            if is_noun(phrase.name, "everything"):
-                names = self._changeable(word, names, moments)
+            named = tuple(n for n in names if word in split_name(n))
+            if named or self._contrary(word, names):
+                names = named
+            elif not is_idle(word):
+                unknown.append(word)
         return names, unknown
+
+    def _contrary(self, word: str, names: tuple[str, ...]) -> bool:
+        """Return whether names say which one each thing is, so that a word that none has leaves none."""
+        return word in section("keep_adjectives") and len(names) > 1 and all(map(self._modified, names))
 
     def _changeable(self, word: str, names: tuple[str, ...], moments: Moments) -> tuple[str, ...]:
         """Return those that may be otherwise, or of which another one of the class may.
@@ -313,6 +348,11 @@ class Nouns(Facts):
     def _modified(self, name: str) -> bool:
         """Return whether the name of an object says which one of its kind it is: ``red_block``."""
         return len([word for word in split_name(name) if not word.isdigit()]) > 1
+
+
+def _says_nothing(word: str) -> bool:
+    """Return whether a modifier need not be explained: *nice*, *second*, *kitchen*."""
+    return len(word) == 1 or is_idle(word) or word in words_of("ordinals") or word in words_of("rooms")
 
 
 def _is_slip(word: str, called: Sequence[str]) -> bool:

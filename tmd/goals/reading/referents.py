@@ -34,6 +34,7 @@ from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
 ANY_TYPE = (OBJECT,)
+_PARTITIVE = words_of("relations", "partitive")
 
 
 class Referents:
@@ -64,18 +65,20 @@ class Referents:
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
             found.append((SETTING, clause.setting.split()[-1]))
-        contents = {r.source: r.target for r in clause.relations if is_relation(r.relation, "partitive")}
-        measures = words_of("measures")
-
-        def measured(relation: str, target: str) -> bool:  # "coffee with two spoons of sugar" is with sugar
-            of = is_relation(relation, "partitive")
-            return is_relation(relation, "accompanying") or (target in measures and not of)
-
-        found = [(r, contents.get(t, t) if measured(r, t) else t) for r, t in found]
+        found = self._measured(found, clause)
         # "the eggs in the fridge except the one on the shelf": what is acted on is excepted from
         excepted = [(r.relation, r.target) for r in said if is_relation(r.relation, "excepting")]
         found = [pair for pair in found if pair not in excepted] + (excepted if name in clause.direct else [])
         return [(r, t) for r, t in found if t not in PERSONS]
+
+    def _measured(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
+        """Return relations to what measures hold: "coffee with two spoons of sugar" is with sugar."""
+        contents = {r.source: r.target for r in clause.relations if is_relation(r.relation, "partitive")}
+        measures = words_of("measures")
+        return [
+            (r, contents.get(t, t) if is_relation(r, "accompanying") or (t in measures and r not in _PARTITIVE) else t)
+            for r, t in relations
+        ]
 
     def _without_rooms(self, clause: Clause) -> Sequence[Relation]:
         """Return all relations but that to the room, where everything is: "in the room on the shelf" is on the shelf.
@@ -92,26 +95,34 @@ class Referents:
     def units(self, reading: ClauseReading) -> list[Unit]:
         """Return what the verb acts on, one by one, with the relations of each."""
         clause = reading.clause
-        direct = [name for name in clause.direct if name not in PERSONS]
-        direct = direct or ([""] if "" in clause.antecedents else [])
-        none = [name for name in direct if is_none(name, clause)]
-        if len(none) < len(direct):
-            direct = [name for name in direct if name not in none]  # "coffee, no sugar"
+        direct, none = self._acted_on(clause)
         units = [Unit(name, self.relations_of(name, clause)) for name in direct]
         without = the_word("relations", "lacking")
         for unit in units:
             unit.relations = self._lacking(unit.relations, clause)
-            unit.relations += [(without, name) for name in none if name not in direct]
-            measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
-            if unit.direct in words_of("measures") and measured is not None:
-                others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
-                unit.direct, unit.relations = measured, others + self.relations_of(measured, clause)
+            unit.relations += [(without, name) for name in none]
+            self._make_room(unit, clause)
             unit.relations = [p for pair in unit.relations for p in self._whereabouts(*pair, reading)]
         if clause.implied:
             # "pillows and blanket on the sofa": what has no place of its own goes where the next one does
             for unit, following in reversed(list(pairwise(units))):
                 unit.relations = unit.relations or list(following.relations)
         return units or [Unit(None, [(r.relation, r.target) for r in clause.relations if r.source is None])]
+
+    def _acted_on(self, clause: Clause) -> tuple[list[str], list[str]]:
+        """Return what the verb acts on, and what shall not be there: "coffee, no sugar"."""
+        named = [name for name in clause.direct if name not in PERSONS]
+        some = [name for name in named if not is_none(name, clause)]
+        if not named and "" in clause.antecedents:
+            return [""], []
+        return (some, [name for name in named if name not in some]) if some else (named, [])
+
+    def _make_room(self, unit: Unit, clause: Clause) -> None:
+        """Let a measure make room for what it measures: *a spoon of sugar* is sugar."""
+        measured = next((t for r, t in unit.relations if is_relation(r, "partitive")), None)
+        if unit.direct in words_of("measures") and measured is not None:
+            others = [(r, t) for r, t in unit.relations if not is_relation(r, "partitive")]
+            unit.direct, unit.relations = measured, others + self.relations_of(measured, clause)
 
     def _lacking(self, relations: Sequence[tuple[str, str]], clause: Clause) -> list[tuple[str, str]]:
         """Return relations with *without* for what is joined to a place: "in the bowl, no raspberry"."""
@@ -153,12 +164,18 @@ class Referents:
             hosts = [r for r in clause.relations if r.target == source and r.source in clause.direct]
             if not is_relation(relation.relation, "place") or not hosts or source in clause.direct:
                 continue
-            target = self.targets(relation.target, reading)
-            now = self.nouns.related_now(self.targets(source, reading), relation.relation, target, reading.moments)
-            if target and not now and all(self.tells_which(h.source, h.relation, h.target, reading) for h in hosts):
+            if self._goes_elsewhere(relation, hosts, reading):
                 found[number] = relation._replace(source=hosts[0].source)
                 found += [relation._replace(source=host.source) for host in hosts[1:]]
         return replace(clause, relations=tuple(found)) if found != list(clause.relations) else clause
+
+    def _goes_elsewhere(self, relation: Relation, hosts: Sequence[Relation], reading: ClauseReading) -> bool:
+        """Return whether a place is no place of its host, which tells already which thing is meant."""
+        target = self.targets(relation.target, reading)
+        places = self.targets(relation.source or "", reading)
+        now = self.nouns.related_now(places, relation.relation, target, reading.moments)
+        tells = all(self.tells_which(h.source, h.relation, h.target, reading) for h in hosts)
+        return bool(target) and not now and tells
 
     def tells_which(self, noun: str | None, relation: str, target: str, reading: ClauseReading) -> bool:
         """Return whether a relation of what is acted on holds now of one of its candidates."""
@@ -238,6 +255,9 @@ class Referents:
             return [Referent(noun, mixed, definite=True), *found] if mixed else found
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
             return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+        return self._meant_by_pronoun(noun, types, reading)
+
+    def _meant_by_pronoun(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> list[Referent]:
         options = self.antecedents(noun, reading)
         if reading.antecedent is not None and noun == reading.pronoun:
             options = options[reading.antecedent : reading.antecedent + 1]
@@ -251,11 +271,7 @@ class Referents:
         """Return a pronoun as an object that was spoken of, or what that contains."""
         if self.grounder.is_a(name, types):
             return Referent(noun or IT, (name,), definite=True)
-        return Referent(noun or IT, self._contained((name,), types, reading))
-
-    def _contained(self, names: Iterable[str], types: tuple[str, ...], reading: ClauseReading) -> tuple[str, ...]:
-        inside = (c for name in names for c in self.nouns.contents(name, reading.state))
-        return tuple(dict.fromkeys(c for c in inside if self.grounder.is_a(c, types)))
+        return Referent(noun or IT, self.nouns.contained((name,), types, reading.state))
 
     def _antecedent(self, antecedent: str, pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         """Return a pronoun as if it stood for ``antecedent``: what that turned out to be."""
@@ -273,7 +289,7 @@ class Referents:
         known = (*bound.names, *bound.containers)
         names = tuple(n for n in known if self.grounder.is_a(n, types))
         if not names:
-            return Referent(antecedent, self._contained(known, types, reading))
+            return Referent(antecedent, self.nouns.contained(known, types, reading.state))
         names = self._by_now(names, types, reading)
         if many and len(names) > 1:
             return Referent(antecedent, names, Mode.ALL, definite=True)
@@ -349,11 +365,18 @@ class Referents:
             # "a hot cup of coffee": the cup shall be so, with what is in it
             reading.wanted[noun] = phrase.attributes
             names = whole.names
+        referent = self._restricted(whole.only(self._known(names, unknown, reading)), context.relations, reading, whole)
+        return self._spoken_of(referent, context)
+
+    def _known(self, names: tuple[str, ...], unknown: Sequence[str], reading: ClauseReading) -> tuple[str, ...]:
+        """Return the candidates of adjectives that nothing explains: none, unless guesses are allowed."""
         if unknown and self.nouns.guess:
             reading.notes += [f"'{words(word)}' says nothing here that could be checked" for word in unknown]
-        elif unknown:
-            names = ()
-        referent = self._restricted(whole.only(names), context.relations, reading, whole)
+        return () if unknown and not self.nouns.guess else names
+
+    def _spoken_of(self, referent: Referent, context: Context) -> Referent:
+        """Return the candidates that the rest of the text leaves."""
+        noun, phrase, reading = context.noun, context.phrase, context.reading
         if referent.mode is Mode.ALL:  # "all of it to the table, but leave the bowl"
             referent = referent.only(choose(NOT_LEFT, referent.names, context))
         if noun in reading.taken:
@@ -361,7 +384,7 @@ class Referents:
             return referent.only(n for n in referent.names if (n == one) != other)
         if phrase.quantifier is Quantifier.OTHER:
             return self._other(referent, context)
-        if phrase.definite and whole.mode is Mode.ANY:
+        if phrase.definite and referent.mode is Mode.ANY:
             return referent.only(choose(AS_BEFORE, referent.names, context))
         return referent
 
@@ -381,7 +404,7 @@ class Referents:
         *Cook the noodles with an egg and serve everything in the bowl.*
         """
         if is_noun(noun, "everything"):
-            names = self._contained(reading.memory.recent, types, reading)
+            names = self.nouns.contained(reading.memory.recent, types, reading.state)
         else:
             names = self.nouns.constants(noun, types, reading.state)
         spoken_of = noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER
@@ -430,14 +453,18 @@ class Referents:
         if len(objects) == 1 and wider:
             if all_of_it and self._is_kind(noun, objects):
                 wider = frozenset(kind for kind in wider if noun in split_name(kind))
-            kinds = self.world.mentions.kinds
-            names = [n for n in self.world.profiles.objects if kinds.get(n) in wider and self.grounder.is_a(n, types)]
-            return (tuple(names), True) if len(names) > 1 else (objects, False)
+            names = self._of_kinds(wider, types)
+            return (names, True) if len(names) > 1 else (objects, False)
         matches = self.world.mentions.of(noun, reading.state)
         if not matches or matches[0].how != ALIAS:
             return objects, False
         alike = (m.name for m in matches if m.how == ALIAS and not self.nouns.is_constant(m.name))
         return tuple(n for n in alike if self.grounder.is_a(n, types)), True
+
+    def _of_kinds(self, wanted: frozenset[str], types: tuple[str, ...]) -> tuple[str, ...]:
+        kinds = self.world.mentions.kinds
+        alike = (n for n in self.world.profiles.objects if kinds.get(n) in wanted)
+        return tuple(n for n in alike if self.grounder.is_a(n, types))
 
     def every_kind(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
         """Return all that a noun may mean: vanilla and chocolate, where it is *ice cream*."""
@@ -473,14 +500,18 @@ class Referents:
             elif is_relation(relation, "untelling") or not names:
                 continue
             else:
-                now = self.described(referent, relation, names, reading)
-                # what stands on nothing has no burner under it
-                tells = relation in table("inverse") or is_relation(relation, "locating")
-                if now or tells or self.described(whole, relation, names, reading):
-                    referent = referent.only(now)
+                referent = self._where(referent, relation, names, reading, whole)
                 continue
             referent = referent.only(n for n in referent.names if n not in left)
         return referent
+
+    def _where(
+        self, referent: Referent, relation: str, names: tuple[str, ...], reading: ClauseReading, whole: Referent
+    ) -> Referent:
+        now = self.described(referent, relation, names, reading)
+        # what stands on nothing has no burner under it
+        tells = relation in table("inverse") or is_relation(relation, "locating")
+        return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent
 
     def _any_one(self, noun: str, reading: ClauseReading) -> bool:
         """Return whether any one will do: nothing was said that tells which."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
 from itertools import combinations, islice, product
+from operator import or_
 from typing import TypeAlias
 
 from tmd.diagnostics import Refusal, RefusalKind, TmdError
@@ -17,7 +19,7 @@ from tmd.goals.reading.requirements import Requirements
 from tmd.goals.reasons import forms, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable, Slot
 from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said
-from tmd.language.clause import Quantifier
+from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.ground_formula import (
     FALSE,
@@ -30,6 +32,7 @@ from tmd.pddl.ground_formula import (
     only_negative,
 )  # fmt: skip
 from tmd.pddl.model import Atom, Formula, Or, conjuncts
+from tmd.pddl.task import Bits
 from tmd.planning.unsolvable import Impossible
 from tmd.veil.world import World
 
@@ -40,6 +43,16 @@ _MOST_CHOICES = 200
 """Maximum number of ways of choosing two of many things."""
 Read: TypeAlias = "tuple[Formula, GoalRow] | Refusal"
 Places: TypeAlias = Sequence[tuple[Slot, str, str | None]]
+
+
+@dataclass(frozen=True, slots=True)
+class _Option:
+    """The goal with one meaning of a pronoun; ``held`` if it holds already."""
+
+    goal: tuple[Formula, GoalRow]
+    meant: dict[str, tuple[str, ...]]
+    held: bool
+    is_object: bool
 
 
 class RowReader:
@@ -187,13 +200,14 @@ class RowReader:
         if not one or row.places or not isinstance(formula, Or) or not _of_alternatives(formula.parts):
             return formula
         named = {name for atom in atoms_of(formula) for name in atom.args}
-        for name in reading.memory.recent:
-            facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
-            joined = {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
-            near = [part for part in formula.parts if any(joined.intersection(a.args) for a in atoms_of(part))]
-            if near and name not in named:
-                return disjunction(near)
-        return formula
+        joined = (self._joined(name, reading) for name in reading.memory.recent if name not in named)
+        near = ([part for part in formula.parts if _mentions(part, others)] for others in joined)
+        return disjunction(next(filter(None, near), formula.parts))
+
+    def _joined(self, name: str, reading: ClauseReading) -> set[str]:
+        """Return what a thing stands in facts with, of those that may change."""
+        facts = (f for f in self.nouns.facts_about(name) if f in self.world.task.index)
+        return {other for f in facts if self.grounder.holds(f, reading.state) for other in f.args} - {name}
 
     def _measured(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read | None:
         """Return *two spoons of coffee* as some coffee, where nothing can be said of the spoons."""
@@ -201,9 +215,7 @@ class RowReader:
         if inner is None or not self.nouns.constants(inner, ANY_TYPE, reading.state):
             return None
         clause, measure = reading.clause, reading.clause.phrase(unit.direct or "")
-        held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.moments)
-        few = measure.quantifier is Quantifier.NUMBER and 0 < len(held) < (measure.number or 1)
-        if few and all(map(self.nouns.is_supply, held)):
+        if self._too_few(measure, inner, reading):
             return None  # two packets, where there is one
         if measure.quantifier is not Quantifier.PLAIN or not measure.plural:  # of one packet of noodles one is meant
             own = clause.phrase(inner)
@@ -218,41 +230,69 @@ class RowReader:
             reading.meant.setdefault(unit.direct, reading.meant[inner])
         return found
 
+    def _too_few(self, measure: NounPhrase, inner: str, reading: ClauseReading) -> bool:
+        held = self.nouns.holders(measure.name, self.referents.targets(inner, reading), reading.moments)
+        few = measure.quantifier is Quantifier.NUMBER and 0 < len(held) < (measure.number or 1)
+        return few and all(map(self.nouns.is_supply, held))
+
     def _unit(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Read:
         """Return the goal of one thing; a pronoun is what it most likely means of that which a row fits."""
         if unit.direct is None or not self.referents.points_back(unit.direct):
             return self._with_places(rows, unit, reading)
         failure: Refusal | None = None
-        held: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
-        first: tuple[tuple[Formula, GoalRow], dict[str, tuple[str, ...]]] | None = None
+        found: list[_Option] = []
         reading.pronoun = unit.direct
         options = self.referents.antecedents(unit.direct, reading)
+        before = dict(reading.meant)
         for number, (_, is_object) in enumerate(options or [("", True)]):
-            reading.antecedent = number
-            before = dict(reading.meant)
-            found = self._with_rows(rows, unit, reading)
-            if isinstance(found, Refusal):
-                failure = failure or found
-            elif self.grounder.truth(found[0], reading.state) and atoms_of(found[0]):
-                if reading.awaited:
-                    return found
-                held = held or (found, reading.meant)  # so already: rather what is not
-                reading.meant = before
-            elif first is None and (held is None or not is_object or found[1].looks_back):
-                first = found, reading.meant
-                reading.meant = before
-                if not self._undoes(found[0], reading) and not is_object:
-                    continue  # "put the milk in the fridge and close it": rather what was opened meanwhile
+            if is_object and any(not option.held for option in found):
+                break  # a noun comes before any object that was spoken of
+            reading.antecedent, reading.meant = number, dict(before)
+            tried = self._with_rows(rows, unit, reading)
+            if isinstance(tried, Refusal):
+                failure = failure or tried
+                continue
+            held = self.grounder.truth(tried[0], reading.state) and bool(atoms_of(tried[0]))
+            found.append(_Option(tried, reading.meant, held, is_object))
+            if self._settles(found, reading):
                 break
-            elif first is not None and (is_object or self._undoes(found[0], reading)):
-                first = first if is_object else (found, reading.meant)
-                break
-        best = first or held
-        if best is not None:
-            reading.meant = best[1]
-            return best[0]
-        assert failure is not None
-        return failure
+        if not found:
+            assert failure is not None
+            return failure
+        best = self._best(found, reading)
+        reading.meant = best.meant
+        return best.goal
+
+    def _settles(self, found: Sequence[_Option], reading: ClauseReading) -> bool:
+        """Return whether what a pronoun means is settled by the last of its options."""
+        last = found[-1]
+        if last.held:
+            return reading.awaited
+        return (last.is_object and not self._is_late(last, found)) or self._undoes(last.goal[0], reading)
+
+    def _is_late(self, option: _Option, found: Sequence[_Option]) -> bool:
+        """Return whether an object comes after a noun of which the goal holds already: that was meant then."""
+        return option.is_object and not option.goal[1].looks_back and any(other.held for other in found)
+
+    def _best(self, found: Sequence[_Option], reading: ClauseReading) -> _Option:
+        """Return rather what is not so already, and of that what was done meanwhile: what was opened is closed."""
+        if reading.awaited and found[-1].held:
+            return found[-1]
+        fresh = [option for option in found if not option.held and not self._is_late(option, found)]
+        nouns = [option for option in fresh if not option.is_object]
+        undone = (option for option in nouns if self._undoes(option.goal[0], reading))
+        locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
+        return next(undone, None) or next(locking, None) or next(iter(fresh), found[0])
+
+    def _locks(self, formula: Formula, reading: ClauseReading) -> bool:
+        """Return whether what is asked for would have prevented what was done: to close what something was put in."""
+        task, gained = self.world.task, reading.state & ~reading.memory.first
+        wanted = sum(1 << task.index[atom] for atom in atoms_of(formula) if atom in task.index)
+        ways = [o for o in task.operators if (o.delete if only_negative(formula) else o.add) & wanted]
+        added = [way.add & ~gained for way in ways]
+        done = [o for o in task.operators if o.add & gained]
+        ruled_out = [o.precondition.negative | _union(cube.positive for cube in o.forbidden) for o in done]
+        return any(add & bits for add in added for bits in ruled_out)
 
     def _undoes(self, formula: Formula, reading: ClauseReading) -> bool:
         """Return whether what is asked for held before the text: what was done meanwhile is undone."""
@@ -264,11 +304,7 @@ class RowReader:
         A place may be left out (*pour the milk*) or be a pronoun (*pour the milk in it*); it is then no object of the
         clause itself, whatever row would fit that.
         """
-        fillers = [f for row in rows for slot in row.places for f in self.fitting.fillers(slot, unit, reading)]
-        back = [""] if any(target is None and is_relation(relation, "elided") for relation, target in fillers) else []
-        pronouns = (target for _, target in fillers if target is not None and self.referents.points_back(target))
-        back += [p for p in islice(pronouns, 1) if reading.clause.together.get(p, 1) == 1]
-        for pronoun in back:
+        for pronoun in self._back(rows, unit, reading):
             reading.pronoun = pronoun
             for number, (_, is_object) in enumerate(self.referents.antecedents(pronoun, reading)):
                 reading.antecedent = number
@@ -277,6 +313,14 @@ class RowReader:
                     return found
             reading.pronoun = reading.antecedent = None
         return self._with_rows(rows, unit, reading)
+
+    def _back(self, rows: Sequence[GoalRow], unit: Unit, reading: ClauseReading) -> Iterator[str]:
+        """Yield the places of rows that point back: the empty one that was left out, and the first pronoun."""
+        fillers = [f for row in rows for slot in row.places for f in self.fitting.fillers(slot, unit, reading)]
+        if any(target is None and is_relation(relation, "elided") for relation, target in fillers):
+            yield ""
+        pronouns = (target for _, target in fillers if target is not None and self.referents.points_back(target))
+        yield from (p for p in islice(pronouns, 1) if reading.clause.together.get(p, 1) == 1)
 
     # ------------------------------------------------------------------ rows
 
@@ -324,23 +368,32 @@ class RowReader:
         consumed = {filler for _, said in fillers for filler in said}
         alternatives = any(target and clause.phrase(target).either for _, target in consumed)
         leftover = [pair for pair in unit.relations if pair not in consumed]
+        refused = self._unused(row, unit, leftover, reading) or self._unknown_thing(leftover, reading)
+        if refused is not None:
+            return refused
+        choices = product(*([(slot, *filler) for filler in said] for slot, said in fillers))
+        found = [self._combination(row, unit.direct, choice, leftover, reading) for choice in choices]
+        return self._joined_ways(found, reading, alternatives=alternatives)
+
+    def _joined_ways(
+        self, found: Sequence[Formula | Refusal], reading: ClauseReading, *, alternatives: bool
+    ) -> Formula | Refusal:
+        """Return what all combinations ask for, or any one of them."""
+        failure = next((one for one in found if isinstance(one, Refusal)), None)
+        formulas = [one for one in found if not isinstance(one, Refusal)]
+        if alternatives:
+            return disjunction(formulas) if formulas else self._cannot(reading)
+        return failure or conjunction(formulas)
+
+    def _unused(
+        self, row: GoalRow, unit: Unit, leftover: Sequence[tuple[str, str]], reading: ClauseReading
+    ) -> Refusal | None:
+        """Return a refusal for a place that no slot of the row takes, where each must have one."""
         every = reading.strict or row.source == ACTIONS
-        if every and any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
-            message = f"'{text_of(clause)}' says a place that nothing is known of"
-            return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
-        unknown = self._unknown_thing(leftover, reading)
-        if unknown is not None:
-            return unknown
-        formulas = []
-        for choice in product(*([(slot, *filler) for filler in said] for slot, said in fillers)):
-            found = self._combination(row, unit.direct, choice, leftover, reading)
-            if not isinstance(found, Refusal):
-                formulas.append(found)
-            elif not alternatives:
-                return found
-        if not formulas:
-            return self._cannot(reading)
-        return disjunction(formulas) if alternatives else conjunction(formulas)
+        if not every or not any(self.referents.unplaced(unit, *pair, reading) for pair in leftover):
+            return None
+        message = f"'{text_of(reading.clause)}' says a place that nothing is known of"
+        return Refusal(RefusalKind.NOT_UNDERSTOOD, message)
 
     def _cannot(self, reading: ClauseReading, reason: str = "") -> Refusal:
         return Refusal(RefusalKind.IMPOSSIBLE, f"'{text_of(reading.clause)}' cannot be done here{reason}")
@@ -350,8 +403,10 @@ class RowReader:
         if self.nouns.guess:
             return None
         clause = reading.clause
-        for relation, target in leftover:
+        further = [(r.relation, r.target) for r in clause.relations if r.source and r.source not in clause.direct]
+        for relation, target in (*leftover, *further):
             named = not (self.referents.points_back(target) or target in clause.quantities or is_none(target, clause))
+            named = named and not is_noun(target, "degrees")
             if named and is_relation(relation, "naming") and not self.referents.targets(target, reading):
                 return self.referents.missing(Referent(target, ()), reading)
         return None
@@ -364,13 +419,8 @@ class RowReader:
         leftover: Sequence[tuple[str, str]],
         reading: ClauseReading,
     ) -> Formula | Refusal:
-        slots: list[tuple[str, list[Referent]]] = []
-        if row.direct is not None and direct is not None:
-            acted_on = self.referents.referents(direct, row, row.direct, leftover, reading)
-            slots.append((row.direct.variable, [self._at_origin(r, places, reading) for r in acted_on]))
-        for slot, _, target in places:
-            relations = self.referents.relations_of(target, reading.clause) if target else []
-            slots.append((slot.variable, self.referents.referents(target or "", row, slot, relations, reading)))
+        slots = self._options(row, direct, places, leftover, reading)
+        said = [r for slot, relation, _ in places for r in relations_said(relation, slot.prepositions)] or [""]
         failure: Refusal | None = None
         for chosen in product(*(options for _, options in slots)):
             missing = next((referent for referent in chosen if not referent.names), None)
@@ -378,14 +428,31 @@ class RowReader:
                 failure = failure or self.referents.missing(missing, reading)
                 continue
             pairs = [(variable, referent) for (variable, _), referent in zip(slots, chosen, strict=True)]
-            said = [r for slot, relation, _ in places for r in relations_said(relation, slot.prepositions)]
-            formula = self._formula(row, pairs, said or [""], direct, leftover, reading)
+            formula = self._formula(row, pairs, said, direct, leftover, reading)
             if formula == FALSE:
-                failure = failure or self._impossible(row, pairs, said or [""], reading)
+                failure = failure or self._impossible(row, pairs, said, reading)
                 continue
             reading.meant.update((referent.noun, referent.names) for _, referent in pairs)
             return formula
         return failure or self._cannot(reading)
+
+    def _options(
+        self,
+        row: GoalRow,
+        direct: str | None,
+        places: Places,
+        leftover: Sequence[tuple[str, str]],
+        reading: ClauseReading,
+    ) -> list[tuple[str, list[Referent]]]:
+        """Return what may stand in each slot."""
+        slots: list[tuple[str, list[Referent]]] = []
+        if row.direct is not None and direct is not None:
+            acted_on = self.referents.referents(direct, row, row.direct, leftover, reading)
+            slots.append((row.direct.variable, [self._at_origin(r, places, reading) for r in acted_on]))
+        for slot, _, target in places:
+            relations = self.referents.relations_of(target, reading.clause) if target else []
+            slots.append((slot.variable, self.referents.referents(target or "", row, slot, relations, reading)))
+        return slots
 
     def _at_origin(self, referent: Referent, places: Places, reading: ClauseReading) -> Referent:
         """Return of *everything off the table* what is there now."""
@@ -489,6 +556,15 @@ class RowReader:
         binding = {variable: referent.names[0] for variable, referent in pairs}
         reason = why_impossible(row.condition, {**binding, RELATION: said[0]}, self.grounder)
         return self._cannot(reading, f": {reason}")
+
+
+def _union(bits: Iterable[Bits]) -> Bits:
+    """Return the union of sets of atoms."""
+    return reduce(or_, bits, 0)
+
+
+def _mentions(formula: Formula, names: set[str]) -> bool:
+    return any(names.intersection(atom.args) for atom in atoms_of(formula))
 
 
 def _of_alternatives(parts: Sequence[Formula]) -> bool:

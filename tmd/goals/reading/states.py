@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, text_of, words
-from tmd.goals.reading.noun_phrases import Mode, Referent
+from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
 from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb
@@ -43,21 +43,20 @@ class States:
         return conjunction(formulas)
 
     def _state_of(self, noun: str, reading: ClauseReading) -> Formula | Refusal:
-        relations = self.referents.relations_of(noun, reading.clause)
-        excepted = [r for r in relations if is_relation(r[0], "excepting")]
-        relations = [r for r in relations if r not in excepted]
+        said = self.referents.relations_of(noun, reading.clause)
+        relations = [pair for pair in said if not is_relation(pair[0], "excepting")]
+        excepted = [pair for pair in said if pair not in relations]
         constants = self._substance(noun, reading) if noun and not is_pronoun(noun) else ()
         if constants:
             return self._substance_state(noun, constants, relations, reading)
         failure: Refusal | None = None
         found: list[tuple[Formula, Referent]] = []
         for referent in self.referents.referents(noun, _ROW, _ROW.slots[0], excepted, reading):
-            missing = None if referent.names else self.referents.missing(referent, reading)
-            said = missing or self._thing_state(referent, relations, reading)
-            if isinstance(said, Refusal):
-                failure = failure or said
+            state = self._thing_state(referent, relations, reading)
+            if isinstance(state, Refusal):
+                failure = failure or state
             else:
-                found.append((said, referent))
+                found.append((state, referent))
         if not found:
             return failure or self.referents.missing(Referent(noun or IT, ()), reading)
         formula, referent = self._likeliest(found, reading) if is_pronoun(noun) else found[0]
@@ -83,6 +82,8 @@ class States:
     def _thing_state(
         self, referent: Referent, relations: Sequence[tuple[str, str]], reading: ClauseReading
     ) -> Formula | Refusal:
+        if not referent.names:
+            return self.referents.missing(referent, reading)
         result = reading.clause.result
         alive: list[Formula] = []
         for name in referent.names:
@@ -106,12 +107,11 @@ class States:
         result = reading.clause.result
         adjectives = [*([result] if result else []), *reading.clause.phrase(noun).attributes]
         targets = [(relation, self.referents.targets(target, reading)) for relation, target in relations]
-        bound = reading.memory.bound.get(noun)
-        known = bound.containers if bound is not None and not targets else ()
+        bound = reading.memory.bound.get(noun, Bound(()))
+        known = () if targets else bound.containers
+        contained = self._contained(constants, fixed=bool(targets))
         ways = []
-        for thing, held in self._contained(constants, fixed=bool(targets)):
-            if known and thing not in known:
-                continue
+        for thing, held in ((thing, held) for thing, held in contained if not known or thing in known):
             placed = [TRUE if thing in names else self._related(thing, r, names, reading) for r, names in targets]
             said = [self.nouns.attribute(word, thing, reading.moments) for word in adjectives]
             if FALSE not in placed and None not in said:

@@ -294,18 +294,18 @@ class _Words:
 
     def _main_effects(self, action: ActionSchema, own: Sequence[Effect], first: str) -> list[Effect]:
         """Return the effects on what is acted on, the first parameter: to strip a bed does not get hold of a sheet."""
-        made, lost = [e for e in own if e.positive], [e for e in own if not e.positive]
-        made_of, lost_of = ([e for e in part if first in e.atom.terms] for part in (made, lost))
-        held = {word for verb in words_of("verbs", "holding") for word in results(verb)}
-        general = all(words_in_name(e.atom.predicate) & held and self._makers(e) > 1 for e in made_of)
+        made, lost = _by_sign(own)
+        made_of, lost_of = _by_sign([e for e in own if first in e.atom.terms])
         only = [e for e in lost_of if self._makers(e) == 1 and len(e.atom.terms) > 1]
-        take = the_word("verbs", "taking")
-        if made_of and general and only and split_name(action.name)[0] not in (take, *family(take)):
+        if made_of and only and not _takes(action) and all(map(self._is_to_hold, made_of)):
             return only  # to disconnect a hose is more than to hold it: nothing else makes it be no longer connected
-        moved = {e.atom.predicate for e in made} & {e.atom.predicate for e in lost}
-        if made_of or moved or not lost_of:
-            return made_of or made or lost
-        return lost_of
+        moved = bool({e.atom.predicate for e in made} & {e.atom.predicate for e in lost})
+        return lost_of if lost_of and not (made_of or moved) else made_of or made or lost
+
+    def _is_to_hold(self, effect: Effect) -> bool:
+        """Return whether an effect that other actions have as well says that something is held."""
+        held = {word for verb in words_of("verbs", "holding") for word in results(verb)}
+        return bool(words_in_name(effect.atom.predicate) & held) and self._makers(effect) > 1
 
     def _of_oneself(self, action: ActionSchema, words: Sequence[str]) -> Iterator[GoalRow]:
         """Rows for an action that only changes who acts: ``wash-gripper``, ``recharge``."""
@@ -346,6 +346,16 @@ class _Words:
         atom = Atom(effect.atom.predicate, terms)
         formula = Exists(others, atom) if others else atom
         return formula if effect.positive else Not(formula)
+
+
+def _takes(action: ActionSchema) -> bool:
+    """Return whether an action's name says to take something."""
+    take = the_word("verbs", "taking")
+    return split_name(action.name)[0] in (take, *family(take))
+
+
+def _by_sign(effects: Sequence[Effect]) -> tuple[list[Effect], list[Effect]]:
+    return [e for e in effects if e.positive], [e for e in effects if not e.positive]
 
 
 def _journeys(action: ActionSchema) -> Iterator[tuple[Atom, tuple[str]]]:

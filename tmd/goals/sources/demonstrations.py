@@ -137,6 +137,11 @@ def _said(text: str) -> int:
     return text.count("?x") + text.count("?y") + text.count("(")
 
 
+def _acted_on(clause: Clause) -> list[str]:
+    """Return what a verb acts on; the empty name for what was left out."""
+    return [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
+
+
 class _Learner:
     """Counts, demonstration after demonstration."""
 
@@ -230,14 +235,14 @@ class _Learner:
     ) -> tuple[list[tuple[str, str]], str, bool] | None:
         """Preposition group and object of the direct object and of the first place that was said."""
         used = {a for i in done for a in getattr(i, "args", ())}
-        direct = [n for n in clause.direct if n not in PERSONS] or ([""] if "" in clause.antecedents else [])
+        direct = _acted_on(clause)
         first = self._object(direct[0], clause, world, state, used) if len(direct) == 1 else None
         if first is None:
             return None
         substance = first in world.profiles.constants
-        for relation in clause.relations:
+        for relation in (r for r in clause.relations if r.source in (direct[0], None) and r.target not in PERSONS):
             group = next((g for g, words in PREPOSITIONS.items() if relation.relation in words), None)
-            if relation.source not in (direct[0], None) or group is None or relation.target in PERSONS:
+            if group is None:
                 continue
             second = self._object(relation.target, clause, world, state, used)
             if second is not None and second != first:

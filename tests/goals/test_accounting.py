@@ -1,0 +1,79 @@
+"""Words that count: nothing that was said is silently lost, and what is excepted is left alone."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from tests.goals.conftest import goals, kit, said, steps
+from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS
+from tmd.goals.reasons import nearest_verbs
+from tmd.goals.words import family
+
+
+@pytest.mark.parametrize(
+    ("place", "text", "word"),
+    [
+        ("kitchen/kitchen1", "Bring me the honey jar.", "honey jar"),
+        ("kitchen/kitchen1", "Put the striped cup on the table.", "striped"),
+        ("kitchen/kitchen1", "Take the cup to the pantry.", "pantry"),
+        ("kitchen/kitchen1", "Put the mug on the table next to the piano.", "piano"),
+        ("kitchen/kitchen1", "Put three cups on the table.", "not 3"),
+        ("kitchen/kitchen1", "Open the cupboard using the crowbar.", "crowbar"),
+        ("kitchen/kitchen1", "Pour half of the milk into the cup.", "half"),
+        ("living_room/room1", "Turn on the garden lamp.", "garden lamp"),
+    ],
+)
+def test_a_word_that_fits_nothing_here_refuses_the_step(place: str, text: str, word: str) -> None:
+    domain, environment = place.split("/")
+    grounded = said(domain, environment, text)
+    assert not grounded.plans
+    assert word in grounded.reason
+
+
+def test_a_guess_may_leave_a_word_out() -> None:
+    grounded = kit("kitchen").ground("Put the striped cup on the table.", "kitchen1", guess=True)
+    assert goals(grounded) == ["(at cup1 table1 on)"]
+
+
+@pytest.mark.parametrize(
+    ("place", "text", "excepted"),
+    [
+        ("living_room/room1", "Switch everything off apart from the lamp.", "lamp1"),
+        ("living_room/room1", "Put the pillows on the sofa except the one on the armchair.", "pillow2"),
+        ("kitchen/kitchen1", "Close all doors except the fridge door.", "fridge1_door"),
+    ],
+)
+def test_no_instruction_handles_what_is_excepted(place: str, text: str, excepted: str) -> None:
+    domain, environment = place.split("/")
+    grounded = said(domain, environment, text)
+    assert excepted in grounded.dialogue.constraints.untouched
+    assert not any(re.search(rf"\b{excepted}\b", step) for step in steps(grounded))
+
+
+def test_a_generic_verb_means_no_more_specific_one() -> None:
+    assert "throw" not in family("put")
+    assert "put" in family("toss")
+    assert "stop" not in family("pause")
+
+
+def test_it_is_what_made_the_condition_true() -> None:
+    grounded = said("living_room", "room1", "If a pillow is on the armchair, carry it to the shelf.")
+    assert goals(grounded)[-1] == "(at pillow2 shelf1 on)"
+
+
+def test_it_is_rather_what_something_was_put_in() -> None:
+    grounded = said("kitchen", "kitchen4", "Put the milk in the fridge and close it.")
+    assert goals(grounded)[-1] == "(not (opened fridge1_door))"
+
+
+def test_an_unknown_verb_names_the_nearest_known_ones() -> None:
+    assert nearest_verbs("hone", {"sharpen", "open", "take"}) == ["sharpen"]
+    assert nearest_verbs("flurble", {"open"}) == []
+
+
+def test_preferences_have_names_reasons_and_examples() -> None:
+    table = (*THINGS, *SUBSTANCES, *NOT_LEFT, *AS_BEFORE)
+    assert len({preference.name for preference in table}) == len(table)
+    assert all(preference.reason and preference.example.endswith(".") for preference in table)
