@@ -119,6 +119,14 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
 def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
     """Read a file and those that it includes; ``above`` are the base lexicons that lead to it."""
     source, parts = _opened(path)
+    lexicon = _declared(source, parts)
+    for base in _included(source, parts["include"], above) if "include" in parts else ():
+        lexicon = _with(lexicon, base)
+    return lexicon
+
+
+def _declared(source: _Source, parts: Mapping[str, yaml.Node]) -> Lexicon:
+    """Return what a file says itself."""
 
     def part(name: str, read: Callable[[_Source, yaml.Node], _Part]) -> _Part | None:
         return read(source, parts[name]) if name in parts else None
@@ -126,7 +134,7 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
     nouns = part("nouns", _Source.aliases) or {}
     goals, place = part("goals", _goals) or ((), None)
     predicates, types = part("predicates", _predicates) or (), part("types", _Source.aliases) or {}
-    lexicon = Lexicon(
+    return Lexicon(
         verbs=frozenset(part("verbs", lambda _, verbs: source.sequence(verbs, source.name)) or ()),
         phrasal=part("phrasal", _phrasal) or {},
         nouns={singular(noun): things for noun, things in nouns.items()} | nouns,  # "ear_muffs" is said of one as well
@@ -134,14 +142,11 @@ def _read(path: Path, above: tuple[Path, ...] = ()) -> Lexicon:
         goals=goals,
         attributes=part("attributes", _attributes) or (),
         groups=part("groups", _Source.aliases) or {},
-        source=str(path),
+        source=str(source.path),
         base=Base(predicates=predicates, types=types, place=place),
         places=_places(source, parts),
         phrases=part("phrases", _phrases) or (),
     )
-    for base in _included(source, parts["include"], above) if "include" in parts else ():
-        lexicon = _with(lexicon, base)
-    return lexicon
 
 
 def bases_near(path: Path) -> dict[str, Path]:

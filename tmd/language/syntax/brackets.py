@@ -58,6 +58,8 @@ class Bracketer(Words):
         """The verb of the clause that is open."""
         self._subject = 0
         """Where in ``out`` the arguments begin that may be the subject of a statement."""
+        self._asked = False
+        """A request begins as a question: "could the lamp be turned off"."""
         self._open: list[Token] = []
         """The openers of the brackets that are open."""
         shared: dict[Kind, Handler] = {
@@ -83,7 +85,7 @@ class Bracketer(Words):
             if self.among(at, "corrections") and self.out:
                 at = self._corrected(at)
             elif self._is_question(at):
-                at = self._skip(at, self.first(at, "STOP"), QUESTION)
+                at = self._question(at)
             else:
                 at = self._outer.get(self.kind(at), self._keep)(at)
         return self.out
@@ -114,6 +116,7 @@ class Bracketer(Words):
         start = (self.out[self._subject] if self._subject < len(self.out) else self.tokens[at]).span.start
         say = mark(K.SAY, start)
         say.negated = negated
+        say.form = DUTY if self._asked else ""
         self.out.insert(self._subject, say)
         end = self._statement_end(at)
         self._fill(say, at, end)
@@ -128,7 +131,7 @@ class Bracketer(Words):
 
     def _begin(self) -> None:
         """Begin a unit."""
-        self._verb, self._subject = None, len(self.out)
+        self._verb, self._subject, self._asked = None, len(self.out), False
 
     def _last(self) -> Kind:
         return self.out[-1].kind if self.out else K.SEP
@@ -298,9 +301,6 @@ class Bracketer(Words):
     def _negation(self, at: int) -> int:
         """Bracket what must not be done: "don't open it", "not the mug"."""
         token = self.tokens[at]
-        if self.among(at, "choices"):
-            token.kind = K.CC
-            return self._keep(at)
         if self._verb is None and self.among(at, "none_words") and self._statement_follows(at):
             token.kind = K.DET  # "neither the lamp nor the radio should be on"
             return self._keep(at)
@@ -394,6 +394,7 @@ class Bracketer(Words):
             self.out.insert(start, mark(K.SEP, self.out[start].span.start))
             self._verb, self._subject = None, start + 1
             return self._statement(at)
+        self._asked = fresh and self.among(at, "asking")
         return self._negation(at) if self.kind(after) is K.NEG else at + 1
 
     def _run_on(self) -> int:
@@ -417,6 +418,19 @@ class Bracketer(Words):
             return False
         end = self.first(at, "STOP")
         return end < len(self.tokens) and "?" in self.tokens[end].text
+
+    def _question(self, at: int) -> int:
+        """Set a question aside; one that "if so" or "if not" follows is a condition of what is asked then."""
+        end = self.first(at, "STOP")
+        so = end + 1 + (self.kind(end + 1) is K.SUB and self.among(end + 2, "affirming"))
+        denied = self.among(end + 1, "denying")
+        if not (denied or so > end + 1 or self.among(end + 1, "then_words")):
+            return self._skip(at, end, QUESTION)
+        opener = mark(K.SUB, self.tokens[at].span.start)
+        opener.text = first_of("excepting" if denied else "guards")
+        self.out.append(opener)
+        self._fill(opener, at, end)
+        return so + 1
 
     def _corrected(self, at: int) -> int:
         """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
@@ -569,6 +583,8 @@ class Bracketer(Words):
             return self._bracket(token, K.SUB, at + 1, end)
         if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
             return self._manner(at)
+        if self.kind(at + 1) is K.ING and self._verb is not None and self._verb.stem in section("stopping"):
+            return at + 1  # "refrain from opening it"
         state = self.among(at, "end_states") and self.kind(at + 1) not in NP | {K.ING, K.V, K.OF}
         if state and self._is_state(at):
             token.kind = K.STATE

@@ -24,6 +24,8 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     tokens = _copulas(tokens)
     _finite(Words(tokens))
     _partitives(Words(tokens))
+    for token in tokens:
+        token.kind = K.CC if token.kind is K.NEG and token.text in section("choices") else token.kind  # "nor"
     tokens = _numbered(Words(tokens))
     _settings(Words(tokens))
     _exceptions(Words(tokens))
@@ -160,7 +162,7 @@ def _sentences(tokens: list[Token]) -> None:
         if token.kind is K.STOP and token.text == ":" and last is not None:
             last.heading = any(t.kind is K.V for t in tokens[at + 1 :])
         otherwise = otherwise or token.text in section("otherwise_words")
-        if token.kind is K.V:
+        if token.kind in (K.V, K.LET):
             token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token
 
 

@@ -301,7 +301,11 @@ class TextReading:
             draft = ClauseDraft(verb, spans=spans(nodes))
             self._attach(draft, nodes)
             name_verb(draft)
-            self.drafts.append(draft)
+            if draft.none() and draft.verb.stem == HAVE:
+                draft.mood = Mood.AVOID  # "no sugar, please"
+                self.forbidden.append((len(self.drafts), draft))
+            else:
+                self.drafts.append(draft)
 
     def _orders(self, nodes: Sequence[Node]) -> bool:
         """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
