@@ -7,13 +7,13 @@ base lexicons that are not used there, with reasons.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from tmd.diagnostics import Location, TmdError
-from tmd.goals.sources.table import MARK, GoalRow, GoalTable, family
+from tmd.goals.base import condition_text
+from tmd.goals.sources.table import GoalRow, GoalTable, family
 from tmd.goals.tables import goal_tables, left_out
 from tmd.knowledge import known
 from tmd.language.clause import Clause
@@ -21,7 +21,6 @@ from tmd.language.lexicon.file import bases_near, read_lexicon
 from tmd.language.lexicon.lexicon import Declared, Lexicon, builtin, data_text
 from tmd.language.parser import parse
 from tmd.pddl.reading.syntax import nearest
-from tmd.pddl.writer import format_formula
 from tmd.veil.corpus import Corpus
 
 _DATA = ("words.txt", "senses.txt", "wordnet_verbs.txt")
@@ -340,16 +339,11 @@ def _written(entry: Declared) -> str:
     return f"{entry.pattern}: {' '.join(entry.condition.split())}"
 
 
-def _condition(row: GoalRow) -> str:
-    written = " ".join(format_formula(row.condition).split())
-    return re.sub(rf"\((\S+){MARK}(\w+)([^()]*)\)", r"(\2 (\1\3))", written)
-
-
 def _of_tried(verb: str, tried: Tried) -> tuple[str, Location | None]:
     row = tried.row
     how = row.source if row.location is not None else f"{row.source}, {row.probability:.2f}: {row.evidence}"
     why = "" if tried.verb == verb else f" of '{tried.verb}', {tried.why};"
-    return f"{row.pattern}: {_condition(row)}  ({(why + ' ' + how).strip()})", row.location
+    return f"{row.pattern}: {condition_text(row.condition)}  ({(why + ' ' + how).strip()})", row.location
 
 
 def explanation_json(explanation: Explanation) -> dict[str, object]:
@@ -384,7 +378,7 @@ def _domain_json(meaning: InDomain) -> dict[str, object]:
                 "why": one.why,
                 "source": one.row.source,
                 "pattern": one.row.pattern,
-                "condition": _condition(one.row),
+                "condition": condition_text(one.row.condition),
                 "probability": one.row.probability,
                 "evidence": one.row.evidence,
                 **_place_json(one.row.location),

@@ -14,12 +14,14 @@ does not apply. Where a condition is there for some prepositions of a row only, 
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from tmd.diagnostics import Location, TmdError
 from tmd.goals.sources.table import (
     FIRST,
+    MARK,
     RELATION,
     WAS,
     GoalRow,
@@ -33,6 +35,7 @@ from tmd.pddl.model import Domain, Formula, hierarchy
 from tmd.pddl.reading.checking import check_condition
 from tmd.pddl.reading.formulas import read_condition
 from tmd.pddl.reading.syntax import Group, Node, Source, Word, nearest, parse, read_text, split_lines
+from tmd.pddl.writer import format_formula
 
 _OPERATORS = frozenset({"and", "or", "not", "imply", "=", WAS, FIRST})
 _QUANTIFIERS = ("forall", "exists")
@@ -141,6 +144,12 @@ def _same_pattern(one: GoalRow, other: GoalRow, domain: Domain) -> bool:
         if not any(a in kinds.ancestors(b) or b in kinds.ancestors(a) for a in left for b in right):
             return False
     return True
+
+
+def condition_text(condition: Formula) -> str:
+    """Return the condition of a row on one line, as it is written in a lexicon."""
+    written = " ".join(format_formula(condition).split())
+    return re.sub(rf"\((\S+){MARK}(\w+)([^()]*)\)", r"(\2 (\1\3))", written)
 
 
 class _Translation:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from functools import lru_cache
 from weakref import WeakKeyDictionary
 
-from tmd.goals.base import LeftOut, shared_meanings
+from tmd.goals.base import LeftOut, condition_text, shared_meanings
 from tmd.goals.sources.actions import rows_of_actions
 from tmd.goals.sources.table import ACTIONS, DECLARED, LEARNED, GoalTable, read_table
-from tmd.language.lexicon.lexicon import Lexicon
+from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import Domain
 
 SOURCES = (DECLARED, LEARNED, ACTIONS)
@@ -24,6 +24,20 @@ def declared_goals(lexicon: Lexicon, domain: Domain) -> GoalTable:
         TmdError: A row is wrong; with its place.
     """
     return _declared(lexicon, domain)[0]
+
+
+def declared_entries(lexicon: Lexicon, domain: Domain) -> tuple[Sequence[Declared], Sequence[Declared]]:
+    """Return the rows and the adjectives that are declared for a domain as text, those of base lexicons translated.
+
+    Raises:
+        TmdError: A row is wrong; with its place.
+    """
+    table = declared_goals(lexicon, domain)
+    written = {entry.location: entry for entry in lexicon.goals}
+    own = {entry.pattern: entry for entry in lexicon.attributes}
+    rows = [written.get(row.location) or Declared(row.pattern, condition_text(row.condition)) for row in table.rows]
+    adjectives = [own.get(name) or Declared(name, condition_text(said)) for name, said in table.attributes.items()]
+    return rows, adjectives
 
 
 def left_out(lexicon: Lexicon, domain: Domain) -> tuple[LeftOut, ...]:

@@ -14,7 +14,8 @@ from importlib import resources
 from itertools import islice, pairwise
 from string import Template
 
-from tmd.language.lexicon.lexicon import Lexicon
+from tmd.goals.tables import declared_entries
+from tmd.language.lexicon.lexicon import Declared, Lexicon
 from tmd.pddl.model import ActionSchema, Domain, GroundAtom, Instruction, TypedName, hierarchy, predicates_of
 from tmd.pddl.task import Bits
 from tmd.pddl.writer import format_effect, format_formula
@@ -256,7 +257,8 @@ def _words(text: str) -> list[str]:
 def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]:
     """Yield how this domain means words of the request: verbs, nouns, adjectives and groups."""
     words = _words(request)
-    rows = _verb_rows(words, lexicon)
+    declared, attributes = declared_entries(lexicon, domain)
+    rows = _verb_rows(words, lexicon, declared)
     if rows:
         yield (
             "Verbs. (was f) means that f held when the step began, (first f) that it held before the request. "
@@ -266,18 +268,18 @@ def _vocabulary(request: str, domain: Domain, lexicon: Lexicon) -> Iterable[str]
     nouns = list(_noun_senses(words, domain, lexicon))
     if nouns:
         yield from ("Nouns, the likeliest sense first.", *nouns)
-    adjectives = [f"  {r.pattern}: {' '.join(r.condition.split())}" for r in lexicon.attributes if r.pattern in words]
+    adjectives = [f"  {r.pattern}: {' '.join(r.condition.split())}" for r in attributes if r.pattern in words]
     if adjectives:
         yield from ("Adjectives.", *adjectives)
 
 
-def _verb_rows(words: Sequence[str], lexicon: Lexicon) -> list[str]:
+def _verb_rows(words: Sequence[str], lexicon: Lexicon, declared: Sequence[Declared]) -> list[str]:
     """Return the goal rows of the verbs among words, without long ones."""
     known = [found[0] for word in words if (found := lexicon.verb(word)) is not None]
     stems = {*known, *map(lexicon.canonical_verb, known)}
     rows = [
         f"  {row.pattern}: {' '.join(row.condition.split())}"
-        for row in lexicon.goals
+        for row in declared
         if " ".join(row.condition.split()) != "(and)"
         and any(verb.split("_")[0] in stems for verb in row.pattern.split()[0].split("|"))
     ]
