@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.lexicon.lexicon import Lexicon, pairs, section
 from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.tokens import Kind, Token
 from tmd.language.syntax.words import BREAKS, HEADS, IDLE, LINKS, NP, Words, mark
@@ -603,8 +603,8 @@ class Bracketer(Words):
             after.kind, after.text = K.DET, first_of("none_words")
             for word in self.tokens[at + 2 : at + 6]:
                 word.kind = K.N if word.kind is K.V and self.lexicon.is_noun(word.text) else word.kind
-        elif self.among(at + 1, "using_words") and self.among(at, "without_words"):
-            after.kind, after.stem = K.ING, (self.lexicon.verb(after.text) or (after.text,))[0]
+        elif after.text in pairs("using_verbs") and self.among(at, "without_words"):
+            after.kind, after.stem = K.ING, pairs("using_verbs")[after.text]
 
     def _manner(self, at: int) -> int:
         """Bracket "without spilling it"; "by pressing it" is a clause, which may be what was started or tried."""

@@ -195,6 +195,10 @@ class Attachment:
             receiver = draft.direct.pop()
             draft.landmarks.append(receiver)
             draft.relations.extend(Relation(TO, p.name, receiver.name) for p in phrases)
+        lacking = [p for p in phrases if p.said().quantifier is Quantifier.NONE]
+        if lacking and len(lacking) < len(phrases):  # "a coffee, no sugar"
+            phrases = [p for p in phrases if p not in lacking]
+            self._relate(first_of("without_words"), phrases, [p.without_denial() for p in lacking])
         draft.direct.extend(phrases)
         self.host, self._behind = phrases, ""
         self._of(phrases)
@@ -234,8 +238,7 @@ class Attachment:
         self.host = [*self.host, *also] if self.host else []
         if name in section("with_words") and targets and targets[0].said().quantifier is Quantifier.NONE:
             name = first_of("without_words")  # "with neither milk nor sugar"
-            for target in targets:
-                target.lead = tuple(w for w in target.lead if w not in section("none_words"))
+            targets = [target.without_denial() for target in targets]
         return name, targets
 
     def _next_host(self, preposition: Token, name: str, targets: list[Phrase], later: int) -> None:

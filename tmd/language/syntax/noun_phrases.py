@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 
 from lark import Tree
@@ -66,6 +66,10 @@ class Phrase:
     def whole(self) -> bool:
         """Whether it means all there is."""
         return self.name in section("whole_words")
+
+    def without_denial(self) -> Phrase:
+        """Return it without "no" and the like."""
+        return replace(self, lead=tuple(w for w in self.lead if w not in section("none_words")))
 
     def said(self) -> NounPhrase:
         """Return how it was said."""

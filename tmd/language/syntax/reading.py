@@ -108,7 +108,8 @@ class TextReading:
         if first.verb.stem in section("wishing"):
             first.verb.stem, first.verb.form = HAVE, IMPLIED
         if not (last.direct or last.landmarks) and trees(arguments, "denial"):
-            self.drafts.remove(last)
+            self.drafts.remove(last)  # "use neither the saw nor the drill"
+            self.forbidden[-1][1].spans.extend(last.spans)
         if last.verb.stem in section("mutual_verbs") and len(last.direct) == 2 and not last.relations:
             other = last.direct.pop()
             last.landmarks.append(other)
@@ -267,16 +268,21 @@ class TextReading:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
                 return
             drafts = saying.clauses(self._attach)
+            allowed = any(t.text in section("modals") for t in saying.helpers)
+            asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if not asked:
-                self.statements += [(len(self.drafts), draft) for draft in drafts]
-                places = spans([part])
-                span = Span(min(places).start, max(s.end for s in places))
-                self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
-                continue
-            for draft in drafts:
+                self._stated(part, drafts)
+            for draft in drafts if asked else ():
                 demand(draft, denied=opener.negated)
                 draft.spans += spans([node])
                 self._demanded(draft, conditions)
+
+    def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft]) -> None:
+        """Set a statement aside; pronouns may mean what it speaks of."""
+        self.statements += [(len(self.drafts), draft) for draft in drafts]
+        places = spans([part])
+        span = Span(min(places).start, max(s.end for s in places))
+        self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
         empty = not draft.landmarks and draft.result is None
