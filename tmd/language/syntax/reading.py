@@ -264,7 +264,7 @@ class TextReading:
         for part in trees(node.children, "part"):
             saying = Saying.of(part)
             asked = asked or saying.asks()
-            if opener.negated and self.drafts and saying.helpers and not (saying.verbs or saying.complement):
+            if opener.negated and self.drafts and saying.bare:
                 self._forbid(self.drafts[-1], node)  # "the cup goes there, the mug does not"
                 return
             drafts = saying.clauses(self._attach)

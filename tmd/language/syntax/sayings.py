@@ -57,6 +57,11 @@ class Saying:
         """Whether something follows its verb."""
         return any(isinstance(n, Tree) for n in self.rest)
 
+    @property
+    def bare(self) -> bool:
+        """Whether it has only an auxiliary: "the mug does not"."""
+        return bool(self.helpers) and not (self.verbs or self.complement)
+
     def asks(self) -> bool:
         """Tell whether it says what shall be: a duty, "belongs", "would like"."""
         words = [*self.verbs, *self.helpers]
