@@ -66,7 +66,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     """Return the clauses, and what must not be done, with their antecedents filled in."""
     scenes: list[_Scene] = []
     clauses: list[Clause] = []
-    statements = list(reading.statements)
+    statements = sorted([*reading.statements, *reading.forbidden], key=lambda said: said[0])
     for index, draft in enumerate(reading.drafts):
         while statements and statements[0][0] <= index:
             said = statements.pop(0)[1]

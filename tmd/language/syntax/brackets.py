@@ -75,7 +75,8 @@ class Bracketer(Words):
         self._inner: dict[Kind, Handler] = shared | {
             K.STOP: self._drop, K.TO: self._inner_to, K.NEG: self._inner_negation, K.ENSURE: self._drop,
             K.LET: self._inner_let, K.SUBJECT: self._inner_subject, K.AUX: self._inner_auxiliary,
-            K.DET: self._inner_determiner, K.N: self._inner_noun, K.COMMA: self._inner_joint, K.CC: self._inner_joint,
+            K.DET: self._inner_determiner, K.N: self._inner_noun, K.V: self._inner_verb,
+            K.COMMA: self._inner_joint, K.CC: self._inner_joint,
         }  # fmt: skip
 
     def run(self) -> list[Token]:
@@ -142,7 +143,10 @@ class Bracketer(Words):
 
     def _hosts_result(self) -> bool:
         """Tell whether what stands behind an object may be the state that it shall be in."""
-        return self._verb is None or self._verb.stem.partition("_")[0] in section("result_verbs")
+        if self._verb is None or self._verb.stem.partition("_")[0] in section("result_verbs"):
+            return True
+        # "bring the blind down and the curtain up"
+        return "_" in self._verb.stem and any(t.kind is K.CC for t in self.out[self._subject :])
 
     def _keep(self, at: int) -> int:
         self.out.append(self.tokens[at])
@@ -374,7 +378,7 @@ class Bracketer(Words):
         while self.follows(place, "(NP|P|ADV|MOD|EXC|TO|OF|CC|AUX)") and (
             self.kind(place) is not K.ADJ or self._leads(place)
         ):
-            things = things or self.kind(place) is K.N
+            things = things or self.kind(place) is K.N or self.among(place, "whole_words")
             place += 1
         return things and (self.kind(place) in (K.PARTICIPLE, K.ADJ) or self.among(place - 1, "end_states"))
 
@@ -520,7 +524,8 @@ class Bracketer(Words):
             if not (self._open or last in HEADS | {K.STATE, K.CC, K.V, K.P}):
                 return at + 1
             done = self._open and token.form == "ed" and last in (K.AUX, K.CC) and not self.among(at, "end_states")
-            token.kind = K.PARTICIPLE if done else K.STATE
+            needed = last is K.AUX and token.form == "ing" and self.out[-1].text in section("needing")
+            token.kind = K.PARTICIPLE if done else K.ING if needed else K.STATE
         return self._keep(at)
 
     def _leads(self, at: int) -> bool:
@@ -669,6 +674,12 @@ class Bracketer(Words):
             hosted = state and last in (K.AUX, K.V, K.FINITE, K.STATE, K.CC)
             if hosted or (last is K.AUX and not self.lexicon.is_noun(token.text)):
                 token.kind = K.STATE
+        return self._keep(at)
+
+    def _inner_verb(self, at: int) -> int:
+        """Keep a verb, but for what is a state behind a denied form of *be*: "it is not open"."""
+        if self._last() is K.AUX and self.out[-1].text in section("be") and self.kind(at - 1) is K.NEG:
+            self.tokens[at].kind = K.STATE
         return self._keep(at)
 
     def _inner_auxiliary(self, at: int) -> int:

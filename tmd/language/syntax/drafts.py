@@ -109,6 +109,10 @@ class ClauseDraft:
         places = {r.relation: r.target for r in other.relations if r.source in {p.name for p in other.direct}}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
+    def described(self) -> list[str]:
+        """Return what it speaks of, and its verb."""
+        return [*(p.name for p in self.mentions()), self.verb.stem]
+
     def none(self) -> bool:
         """Tell whether it speaks of none: *no cup*."""
         return any(p.said().quantifier is Quantifier.NONE for p in self.direct)

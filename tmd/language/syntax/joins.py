@@ -121,7 +121,7 @@ def _settings(words: Words) -> None:
     """Fold "on high", "to full", "the sound low": a setting without a noun says how."""
     tokens = words.tokens
     for at, token in enumerate(tokens[:-1]):
-        behind = token.kind in (K.N, K.NUM, K.PRON, K.ADV) or words.among(at, "pure_particles")
+        behind = token.kind in (K.N, K.NUM, K.PRON) or words.among(at, "pure_particles")
         if behind and words.among(at + 1, "settings") and words.follows(at + 2, "IDLE* BREAK"):
             tokens[at + 1].kind, tokens[at + 1].form = K.MOD, SETTING
         place = at + 1 + (tokens[at + 1].kind is K.DET)

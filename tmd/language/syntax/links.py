@@ -66,7 +66,7 @@ class Linker(Words):
 
     def _inner(self, before: Kind, after: Kind, end: int) -> Kind | None:
         """Classify a link inside of a subordinate clause."""
-        if after in (K.END, K.SEP) or before in OPENERS:
+        if after in (K.END, K.SEP, K.EXC) or before in OPENERS:
             return None
         if before in VERBAL and after in VERBAL:
             return K.VCC
@@ -103,8 +103,15 @@ class Linker(Words):
             return K.CONJ if after is K.STATE else K.SEP if after in NP else None
         if before not in HEADS or after not in NP:
             return None
-        apart = self.follows(end, "NP+ STATE BREAK") or (self._fronted and self._verbless(end))
+        apart = self._state_of_its_own(end) or (self._fronted and self._verbless(end))
         return K.SEP if apart else K.CONJ
+
+    def _state_of_its_own(self, at: int) -> bool:
+        """Tell whether a thing with its state follows: "… in the chest, and the lid closed"; not "leave both open"."""
+        unit = self._unit()
+        shared = any(t.kind is K.V and t.stem in section("result_verbs") for t in unit)
+        shared = shared and not any(t.kind in (K.STATE, K.P) for t in unit)
+        return self.follows(at, "NP+ STATE BREAK") and not shared
 
     def _before_verb(self, before: Kind, after: Kind, *, joined: bool) -> Kind | None:
         if self._fronted:

@@ -136,8 +136,9 @@ def _choose(phrases: list[Phrase]) -> None:
     """Make phrases alternatives; "neither" denies all of them."""
     none = [w for w in phrases[0].lead if w in section("none_words")]
     for phrase in phrases:
-        phrase.either = tuple(p.name for p in phrases)
-        if none and phrase is not phrases[0]:
+        if not none:
+            phrase.either = tuple(p.name for p in phrases)
+        elif phrase is not phrases[0]:
             phrase.lead = (*none, *phrase.lead)
 
 

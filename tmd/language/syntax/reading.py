@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
-from tmd.language.clause import BE, HAVE, TO, WHERE, WITH, Condition, Mood, Relation, Span
+from tmd.language.clause import BE, HAVE, OF, TO, WHERE, WITH, Condition, Mood, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import DUTY, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
@@ -116,6 +116,8 @@ class TextReading:
             last.relations.append(Relation(WITH, last.direct[0].name, other.name))
         if before is not None and last.verb.stem in section("pro_verbs"):
             _repeat(last, before)
+        if last.verb.stem in section("light_verbs"):
+            _treat(last)
 
     def _attach(
         self,
@@ -199,13 +201,14 @@ class TextReading:
         denied = _NOT * opener.negated
         by_name = {p.name: p for p in said.landmarks}
         where, state = opener.text in section("where_words"), said.verb.stem == BE
-        holds = bool(named) and (state or said.verb.stem in section("holding"))
         targets = [(denied + r.relation, by_name[r.target]) for r in said.relations if r.target in by_name]
-        if where or holds:
-            targets = [(WHERE if where else WITH, p) for p in named]
+        if where or named:
+            owning = WITH if state or said.verb.stem in section("holding") else OF
+            targets = [(WHERE if where else owning, p) for p in named]
         elif state and said.result is not None:
             noun.attributes.append(denied + said.result)
-            return
+        elif not targets:  # it tells which one is meant, and must not be lost
+            noun.attributes.append("_".join([opener.text, *said.described()]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.further[phrase.name] = phrase.said()
@@ -331,6 +334,15 @@ class TextReading:
                 draft.conditions = [replace(c, carried=True) for c in before.conditions if c.word in section("guards")]
                 draft.fronted = True
             before = draft
+
+
+def _treat(draft: ClauseDraft) -> None:
+    """Read "give it a scrub" as "scrub it"."""
+    deeds = [p.name.rpartition("_")[2] for p in draft.direct]
+    receivers = {r.target for r in draft.relations if r.relation == TO}
+    if receivers and not section("treatments").isdisjoint(deeds):
+        draft.verb.stem, draft.direct = deeds[0], [p for p in draft.landmarks if p.name in receivers]
+        draft.landmarks, draft.relations = [], []
 
 
 def _is_pronoun(group: Tree[Leaf]) -> bool:

@@ -160,24 +160,25 @@ def demand(draft: ClauseDraft, *, denied: bool) -> None:
     elif verb.stem == BE:
         _demand_state(draft, denied=denied, none=none)
     elif verb.stem in section("going"):
-        verb.stem = BE if none else PUT
+        whither = any(r.relation in section("bringing") for r in draft.relations)
+        verb.stem = BE if none else BRING if whither else PUT
     elif denied:
         draft.mood = Mood.AVOID
 
 
 def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
-    verb, exists = draft.verb, draft.verb.form == EXISTS
+    verb, result = draft.verb, draft.result or ""
     if verb.lead:
         verb.stem, draft.result = verb.lead[0], None  # "should be washed"
         draft.mood = Mood.AVOID if denied or none else None
     elif denied and not none:
         for phrase in draft.direct:
             phrase.lead = (first_of("none_words"), *phrase.lead)
-    elif none or exists:
+    elif none or verb.form == EXISTS:
         return
-    elif draft.result in pairs("state_verbs"):
-        verb.stem, draft.result = pairs("state_verbs")[draft.result or ""], None
-    elif draft.places() and not draft.result:
+    elif result in pairs("state_verbs") or result in section("verbs"):
+        verb.stem, draft.result = pairs("state_verbs").get(result, result), None  # "the floor should be clean"
+    elif draft.places() and not result:
         verb.stem = PUT
     elif any(t.form == SETTING for t in draft.folds):
         verb.stem = SET
