@@ -8,10 +8,12 @@ from dataclasses import dataclass, field, replace
 from lark import Tree
 
 from tmd.language.clause import (
+    BE,
     EXCEPT,
     OF,
     PERSONS,
     TO,
+    WITH,
     Clause,
     Condition,
     Mood,
@@ -22,7 +24,7 @@ from tmd.language.clause import (
 )
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
-from tmd.language.syntax.joins import first_of
+from tmd.language.syntax.joins import SETTING, first_of
 from tmd.language.syntax.links import CHOICE
 from tmd.language.syntax.noun_phrases import Phrase, also_of, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
@@ -108,6 +110,21 @@ class ClauseDraft:
         self.landmarks += other.landmarks
         places = {r.relation: r.target for r in other.relations if r.source in {p.name for p in other.direct}}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
+
+    def set_to(self) -> bool:
+        """Tell whether it says what a thing is set to."""
+        return any(token.form == SETTING for token in self.folds)
+
+    def owning(self) -> str:
+        """Return the relation of a noun to what it has or acts on, by what a relative clause says; empty for others."""
+        if self.verb.stem == BE:
+            return WITH if self.result is None else ""
+        return WITH if self.verb.stem in section("holding") else OF
+
+    def placed(self, denied: str) -> list[tuple[str, Phrase]]:
+        """Return its relations with what they lead to, as a noun takes them over; ``denied`` stands before each."""
+        by_name = {p.name: p for p in self.landmarks}
+        return [(denied + r.relation, by_name[r.target]) for r in self.relations if r.target in by_name]
 
     def described(self) -> list[str]:
         """Return what it speaks of, and its verb."""

@@ -82,7 +82,7 @@ class Phrase:
             self.name,
             self._quantifier(words, quantity),
             number_of(quantity) if quantity else 2 if both else None,
-            self.determined and section("indefinite").isdisjoint(self.lead),
+            self.determined and (section("indefinite") | section("none_words")).isdisjoint(self.lead),
             self.plural,
             tuple(dict.fromkeys([*self._adjectives(), *self.attributes])),
             self.either,

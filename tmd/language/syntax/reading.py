@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
-from tmd.language.clause import BE, HAVE, OF, TO, WHERE, WITH, Condition, Mood, Relation, Span
+from tmd.language.clause import BE, HAVE, TO, WHERE, WITH, Condition, Mood, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import DUTY, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
@@ -198,24 +198,23 @@ class TextReading:
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
         named = [p for p in said.direct if not p.pronoun]
-        denied = _NOT * opener.negated
-        by_name = {p.name: p for p in said.landmarks}
-        where, state = opener.text in section("where_words"), said.verb.stem == BE
-        targets = [(denied + r.relation, by_name[r.target]) for r in said.relations if r.target in by_name]
-        if where or named:
-            owning = WITH if state or said.verb.stem in section("holding") else OF
-            targets = [(WHERE if where else owning, p) for p in named]
-        elif state and said.result is not None:
-            noun.attributes.append(denied + said.result)
-        elif not targets:  # it tells which one is meant, and must not be lost
-            noun.attributes.append("_".join([opener.text, *said.described()]))
+        relation = WHERE if opener.text in section("where_words") else said.owning()
+        if relation == WHERE or (named and relation):
+            targets = [(relation, p) for p in named]
+        else:
+            targets = said.placed(_NOT * opener.negated)
+            state = said.verb.stem == BE and said.result is not None and not named
+            if state:
+                noun.attributes.append(_NOT * opener.negated + (said.result or ""))
+            elif named or not targets:  # it tells which one is meant, and must not be lost
+                noun.attributes.append("_".join([opener.text, *said.described()]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
             draft.further[phrase.name] = phrase.said()
 
     def _forbid(self, draft: ClauseDraft | None, node: Tree[Leaf]) -> None:
         """Record what a denial forbids: a clause of its own, or the verb before it with other arguments."""
-        before = len(self.drafts)
+        before = self._number(draft, next(leaves(node)))
         for part in trees(node.children, "part"):
             saying = Saying.of(part)
             deed = any(t.kind is Kind.V for t in leaves(part))
@@ -225,6 +224,11 @@ class TextReading:
                 item.mood, item.spans = Mood.AVOID, spans([node])
                 item.verb.form = IMPLIED if not deed and draft is not None else item.verb.form
                 self.forbidden.append((before, item))
+
+    def _number(self, draft: ClauseDraft | None, opener: Token) -> int:
+        """Return how many clauses are done before a denial: those before its own, where it stands in front."""
+        place = next((i for i, d in enumerate(self.drafts) if d is draft), len(self.drafts))
+        return place if draft is None or opener.span < draft.verb.span else len(self.drafts)
 
     def _contrasted(self, draft: ClauseDraft, saying: Saying) -> ClauseDraft:
         """Return a clause with what stands in place of its objects, or of its place: "…, not the mug"."""

@@ -75,7 +75,8 @@ class Saying:
         """Return what it says."""
         if self._only_states():
             return [self._state(attach)]
-        verbs = [v for v in self.verbs if v.text not in section("loosely")]
+        left = any(v.text in section("loosely") for v in self.verbs)  # "left lying on the table"
+        verbs = [] if left else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
         if verbs:
@@ -178,10 +179,10 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
         return
     elif result in pairs("state_verbs") or result in section("verbs"):
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None  # "the floor should be clean"
-    elif draft.places() and not result:
+    elif draft.set_to():
+        verb.stem, draft.result = SET, None
+    elif not result and draft.places():
         verb.stem = PUT
-    elif any(t.form == SETTING for t in draft.folds):
-        verb.stem = SET
 
 
 def name_verb(draft: ClauseDraft) -> None:
@@ -194,7 +195,7 @@ def name_verb(draft: ClauseDraft) -> None:
         verb.stem = BRING
     elif draft.result is not None:
         verb.stem = BE
-    elif any(t.form == SETTING for t in draft.folds):
+    elif draft.set_to():
         verb.stem = SET
 
 
