@@ -153,14 +153,14 @@ REFUSED = [
         "Put the table on the shelf.",
         0,
         Kind.IMPOSSIBLE,
-        "table1: it is not of the type item",
+        "table1 is not of the class 'item'",
     ),
     (
         "04_tea/pantry1",
         "Put the counter in the sink.",
         0,
         Kind.IMPOSSIBLE,
-        "counter1: it is not of the type item",
+        "counter1 is not of the class 'item'",
     ),
     ("01_blocks/yard1", "Put the red block on the red block.", 0, Kind.IMPOSSIBLE, "cannot be done here"),
     (
@@ -316,12 +316,6 @@ def test_what_is_excepted_stays_where_it_is() -> None:
     assert "(at coffee_pod1 counter1 on)" not in end(cleared)
 
 
-def test_what_was_there_at_first_is_what_was_there() -> None:
-    cleared = said("kitchen", "kitchen1", "Clear the table. Whatever is on it can go on a counter.")
-    assert {"(at cup1 counter1 on)", "(at cup1 counter2 on)"} & set(end(cleared))
-    assert not any(atom.startswith("(at ") and atom.endswith(" table1 on)") for atom in end(cleared))
-
-
 def test_another_flavour_is_another_thing() -> None:
     refused = said("kitchen", "kitchen3", "Pour some raspberry milk into the glass.")
     assert refused.refused is not None and "nothing here is called 'raspberry milk'" in refused.reason
@@ -370,15 +364,8 @@ def test_a_condition_is_looked_at_once() -> None:
     assert "(at book1 table1 on)" in end(said("02_table", "corner1", text))
 
 
-def test_to_put_something_where_another_thing_is() -> None:
-    state = end(said("03_drawer", "study2", "Put the pen in with the key."))
-    assert "(at pen1 cabinet1_top_drawer in)" in state  # rather than (holding pr2 pen1)
-
-
 # environment, text, the goals of the steps: forms of speech that come to the same as plain requests
 SAID_OTHERWISE = [
-    ("02_table/corner1", "However, the book should end up on the table.", ["(at book1 table1 on)"]),
-    ("02_table/corner1", "The book happens to be on the floor; put it on the table.", ["(at book1 table1 on)"]),
     (
         "03_drawer/study2",
         "Both drawers shut, please.",
@@ -690,12 +677,6 @@ def test_what_holds_a_substance_is_where_that_is_said_to_be() -> None:
     assert "(at beer_bottle3 snack_table1 on)" in end(said("living_room", "room4", text))
     text = "If there is milk in the fridge, put it on the table."
     assert "(at milk1 table1 on)" in end(said("kitchen", "kitchen1", text))
-
-
-def test_where_another_thing_is_may_be_said_in_many_words() -> None:
-    text = "Put the pen in the same drawer as the key and close it."
-    facts = end(said("03_drawer", "study2", text))
-    assert "(at pen1 cabinet1_top_drawer in)" in facts and "(opened cabinet1_top_drawer)" not in facts
 
 
 def test_what_is_poured_somewhere_for_nothing_is_not_poured() -> None:

@@ -126,6 +126,16 @@ class ClauseDraft:
         by_name = {p.name: p for p in self.landmarks}
         return [(denied + r.relation, by_name[r.target]) for r in self.relations if r.target in by_name]
 
+    def each(self) -> list[ClauseDraft]:
+        """Return a clause for each of its objects."""
+        names = {p.name for p in self.direct}
+        others = [r for r in self.relations if r.source not in names]
+        own = ([r for r in self.relations if r.source == p.name] for p in self.direct)
+        return [
+            replace(self, direct=[p], relations=[*others, *said], verb=replace(self.verb))
+            for p, said in zip(self.direct, own, strict=True)
+        ]
+
     def described(self) -> list[str]:
         """Return what it speaks of, and its verb."""
         return [*(p.name for p in self.mentions()), self.verb.stem]
@@ -246,7 +256,8 @@ class Attachment:
         if inner and name in section("contents_places"):
             return  # "a mug with milk in it"
         paired, self._paired = self._paired, False
-        self._relate(name, self.host if paired or self._hosted(name, targets) else [], targets)
+        hosts = self.host if paired or self._hosted(name, targets) else []
+        self._relate(name, hosts, self._without(hosts, targets) if name in section("with_words") else targets)
         self._paired = paired and name in section("origins")  # where it goes is still to come
         if not self._paired:
             self._next_host(preposition, name, targets, later)
@@ -261,6 +272,13 @@ class Attachment:
             name = first_of("without_words")  # "with neither milk nor sugar"
             targets = [target.without_denial() for target in targets]
         return name, targets
+
+    def _without(self, hosts: Sequence[Phrase], targets: list[Phrase]) -> list[Phrase]:
+        """Relate what shall not be there: "with sugar but no milk"; return the others."""
+        lacking = [p for p in targets if p.said().quantifier is Quantifier.NONE]
+        if lacking:
+            self._relate(first_of("without_words"), hosts, [p.without_denial() for p in lacking])
+        return [p for p in targets if p not in lacking]
 
     def _next_host(self, preposition: Token, name: str, targets: list[Phrase], later: int) -> None:
         placing = self.draft.verb.stem in section("placing")

@@ -160,7 +160,7 @@ def _sentences(tokens: list[Token]) -> None:
         if token.kind is K.STOP and token.text[:1] in ".!?":
             number, last = number + 1, None
         if token.kind is K.STOP and token.text == ":" and last is not None:
-            last.heading = any(t.kind is K.V for t in tokens[at + 1 :])
+            last.heading = any(t.kind in (K.V, K.N) for t in tokens[at + 1 :])
         otherwise = otherwise or token.text in section("otherwise_words")
         if token.kind in (K.V, K.LET):
             token.sentence, token.otherwise, otherwise, last = number, otherwise, False, token

@@ -172,7 +172,7 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     if texts[0] in section("other_words") and len(texts) == 1:
         return Phrase(one, start, False, True, lead=(*said, *texts))
     if texts[0] in section("ordinals") and len(texts) == 1:
-        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
+        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=(*said, *texts))
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):

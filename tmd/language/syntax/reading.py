@@ -292,6 +292,10 @@ class TextReading:
         self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
+        if draft.none() and len(draft.direct) > 1:
+            for single in draft.each():
+                self._demanded(single, conditions)
+            return
         empty = not draft.landmarks and draft.result is None
         vague = draft.verb.stem == HAVE and all(p.pronoun for p in draft.direct)
         if empty and (draft.verb.stem == BE or vague):
