@@ -148,12 +148,18 @@ class Grounder:
         profiles = self.world.profiles
         parts = tuple(part for _, part in profiles.parts.get(name, ()))
         own = {name, *parts}
-        edges = [pair for pair, predicates in sorted(profiles.links.items()) if not self._tells_nothing(predicates)]
+        edges = self.links
         linked = dict.fromkeys(head for tail, head in edges if tail in own and head not in own)
         linked = linked or dict.fromkeys(tail for tail, head in edges if head in own and tail not in own)
         whole = profiles.wholes.get(name)
         siblings = tuple(p for _, p in profiles.parts.get(whole, ()) if p != name) if whole else ()
         return parts, tuple(linked), (whole,) if whole else (), siblings
+
+    @cached_property
+    def links(self) -> tuple[tuple[str, str], ...]:
+        """Pairs of things that the environment links for good: a knob and its burner."""
+        links = sorted(self.world.profiles.links.items())
+        return tuple(pair for pair, predicates in links if not self._tells_nothing(predicates))
 
     def _tells_nothing(self, predicates: Iterable[str]) -> bool:
         """Return whether only predicates that hold of everything with itself, or may change, join two things.

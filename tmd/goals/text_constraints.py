@@ -147,7 +147,7 @@ class ConstraintReader:
         """Return things, their parts, and the parts of others that work them: a tap, and its handle."""
         profiles = self.reader.world.profiles
         own = {other for name in names for other in (name, *self.reader.grounder.relatives(name, 0))}
-        return own | {tail for tail, head in profiles.links if head in own and tail in profiles.wholes}
+        return own | {tail for tail, head in self.reader.grounder.links if head in own and tail in profiles.wholes}
 
     def leaves_a_trace(self, verb: str) -> bool:
         """Return whether the domain says what a verb leaves behind; nobody sees afterwards that something was used."""

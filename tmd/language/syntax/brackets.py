@@ -440,7 +440,7 @@ class Bracketer(Words):
         """Take back what a speaker corrects: "on the bench, no wait, in the shed": a place, a thing or a deed."""
         begin = self.past(at + 1, "(LINKS|IDLE)*")
         place, thing = self.follows(begin, "P|TO"), self.kind(begin) in NP
-        start = len(self.out)
+        start = len(self.out) - (self._last() is K.SEP)
         while start and (self.out[start - 1].kind in LINKS or self.out[start - 1].text in section("none_words")):
             start -= 1
         until = {K.P, K.TO} if place else NP if thing else {K.SEP}
