@@ -107,7 +107,7 @@ class TextReading:
         """Read verbs that mean less, or more, than themselves: wishes, "swap", "do the same", "use neither"."""
         if first.verb.stem in section("wishing"):
             first.verb.stem, first.verb.form = HAVE, IMPLIED
-        if not (last.direct or last.landmarks) and trees(arguments, "denial"):
+        if self.forbidden and not (last.direct or last.landmarks) and trees(arguments, "denial"):
             self.drafts.remove(last)  # "use neither the saw nor the drill"
             self.forbidden[-1][1].spans.extend(last.spans)
         if last.verb.stem in section("mutual_verbs") and len(last.direct) == 2 and not last.relations:
@@ -164,8 +164,11 @@ class TextReading:
         verbs = [next((t for t in leaves(p) if t.kind in (Kind.V, Kind.ING)), None) for p in parts]
         if opener not in pairs("order_words") or not verbs or not all(v is not None and v.form == "ing" for v in verbs):
             return False
+        places = [i for i, d in enumerate(self.drafts) if d is draft]
+        if not places:
+            return False  # a clause of a condition is no step
         events = [d for part in parts for d in self._said(part)]
-        at = next(i for i, d in enumerate(self.drafts) if d is draft) + (pairs("order_words")[opener] == _LATER)
+        at = places[0] + (pairs("order_words")[opener] == _LATER)
         for event in events:
             event.host, event.verb.sentence = draft, draft.verb.sentence
         self.drafts[at:at] = events

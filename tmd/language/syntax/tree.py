@@ -46,15 +46,20 @@ Node = Tree[Leaf] | Leaf
 
 def parse_tokens(tokens: list[Token]) -> Tree[Leaf]:
     """Parse the terminals of the grammar. A token that cannot follow is noted and left out. Linear."""
-    parser = _parser().parse_interactive("")
+    parser, fed = _parser().parse_interactive(""), []
     for token in tokens:
         leaf = Leaf(token.kind.value, token.text)
         leaf.source = token
         try:
             parser.feed_token(leaf)
+            fed.append(token)
         except UnexpectedInput:
             token.note = token.note or UNEXPECTED
-    tree: Tree[Leaf] = parser.feed_token(LarkToken("$END", ""))
+    try:
+        tree: Tree[Leaf] = parser.feed_token(LarkToken("$END", ""))
+    except UnexpectedInput:
+        fed[-1].note = UNEXPECTED  # "the small" at the end of a text, and no noun
+        return parse_tokens(fed[:-1])
     return tree
 
 
