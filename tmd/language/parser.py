@@ -16,6 +16,7 @@ from tmd.language.clause import Clause, Parsed, Skipped, Span
 from tmd.language.lexicon.lexicon import Lexicon, builtin, section, sections, slips
 from tmd.language.syntax.antecedents import resolve
 from tmd.language.syntax.brackets import Bracketer
+from tmd.language.syntax.frames import Frames
 from tmd.language.syntax.joins import join
 from tmd.language.syntax.links import Linker
 from tmd.language.syntax.phrases import rewrite
@@ -60,6 +61,7 @@ def parse(text: str, lexicon: Lexicon | None = None, trace: list[str] | None = N
         return Parsed(text, (), strange(text))
     tokens = tag(kept, words, trace)
     decide(tokens, words, trace)
+    tokens = Frames(tokens, words).run()
     tokens, dropped = rewrite(tokens, words, trace)
     bracketer = Bracketer(join(tokens, words), words)
     reading = TextReading(text).read(parse_tokens(Linker(bracketer.run()).run()))

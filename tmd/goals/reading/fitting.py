@@ -116,7 +116,7 @@ class Fitting:
             # "the mug in the sink on the shelf": what holds already tells which mug, the rest where it shall go
             said = [p for p in said if not self.referents.tells_which(unit.direct, *p, reading)] or said[-1:]
         if said:
-            return [(relation, target) for relation, target in said if relation == said[0][0]]
+            return [(relation, target) for relation, target in said if relation == said[-1][0]]
         elided = self._elided(slot, unit, reading)
         return [(elided, None)] if elided else []
 

@@ -179,8 +179,8 @@ class Referents:
 
     def tells_which(self, noun: str | None, relation: str, target: str, reading: ClauseReading) -> bool:
         """Return whether a relation of what is acted on holds now of one of its candidates."""
-        if not noun:
-            return False
+        if not noun or relation in section("arrivals") - section("static"):
+            return False  # "into the bowl" says where something goes
         if is_one(noun) and self._is_pronoun(noun):  # "the one in the sink goes on the shelf", of mugs
             noun = next(iter(reading.clause.antecedents.get(noun, ())), noun)
         referent = Referent(noun, self.nouns.things(noun, reading.state))
@@ -331,7 +331,7 @@ class Referents:
         likely = self.nouns.things(noun, reading.state, place=place, types=types)
         context = Context(self, reading, noun, phrase, types, relations, place, likely)
         things = choose(THINGS, context.fitting(likely), context)
-        constants = choose(SUBSTANCES, self._constants(noun, phrase, types, reading), context)
+        constants = choose(SUBSTANCES, self._constants(context), context)
         objects = tuple(n for n in things if not self.nouns.is_constant(n))
         if not objects and constants:
             few = self.nouns.too_few(phrase, constants, reading.state)
@@ -396,18 +396,19 @@ class Referents:
         left = self._places_now(referent, context.reading) if context.place else ()
         return referent.only([n for n in referent.names if n not in left] or referent.names)
 
-    def _constants(
-        self, noun: str, phrase: NounPhrase, types: tuple[str, ...], reading: ClauseReading
-    ) -> tuple[str, ...]:
-        """Return the constants that a noun names; *everything* is what is in the things that were spoken of.
+    def _constants(self, context: Context) -> tuple[str, ...]:
+        """Return the constants that a noun names; *everything* is what is in something.
 
-        *Cook the noodles with an egg and serve everything in the bowl.*
+        That is what it is said to be in, or else what was spoken of: *Cook the noodles with an egg and serve
+        everything in the bowl.*
         """
+        noun, types, reading = context.noun, context.types, context.reading
         if is_noun(noun, "everything"):
-            names = self.nouns.contained(reading.memory.recent, types, reading.state)
+            said = (self.nouns.contained(names, types, reading.state) for names in context.targets("inside"))
+            names = next(filter(None, said), ()) or self.nouns.contained(reading.memory.recent, types, reading.state)
         else:
             names = self.nouns.constants(noun, types, reading.state)
-        spoken_of = noun in reading.memory.bound and phrase.quantifier is not Quantifier.OTHER
+        spoken_of = noun in reading.memory.bound and context.phrase.quantifier is not Quantifier.OTHER
         return self._by_now(names, types, reading) if spoken_of else names
 
     def _places_now(self, places: Referent, reading: ClauseReading) -> tuple[str, ...]:
@@ -510,7 +511,7 @@ class Referents:
     ) -> Referent:
         now = self.described(referent, relation, names, reading)
         # what stands on nothing has no burner under it
-        tells = relation in table("inverse") or is_relation(relation, "locating")
+        tells = relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
         return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent
 
     def _any_one(self, noun: str, reading: ClauseReading) -> bool:

@@ -47,11 +47,20 @@ Places: TypeAlias = Sequence[tuple[Slot, str, str | None]]
 
 @dataclass(frozen=True, slots=True)
 class _Option:
-    """The goal with one meaning of a pronoun; ``held`` if it holds already."""
+    """The goal with one meaning of a pronoun.
+
+    Attributes:
+        goal: The goal, and the row that it was read by.
+        meant: The meanings of the nouns.
+        held: It held before the text and holds now.
+        done: It holds by now, and did not before the text.
+        is_object: The meaning is an object that was spoken of, and no noun.
+    """
 
     goal: tuple[Formula, GoalRow]
     meant: dict[str, tuple[str, ...]]
     held: bool
+    done: bool
     is_object: bool
 
 
@@ -252,8 +261,9 @@ class RowReader:
             if isinstance(tried, Refusal):
                 failure = failure or tried
                 continue
-            held = self.grounder.truth(tried[0], reading.state) and bool(atoms_of(tried[0]))
-            found.append(_Option(tried, reading.meant, held, is_object))
+            now = self.grounder.truth(tried[0], reading.state) and bool(atoms_of(tried[0]))
+            held = now and self.grounder.truth(tried[0], reading.memory.first)
+            found.append(_Option(tried, reading.meant, held, now and not held, is_object))
             if self._settles(found, reading):
                 break
         if not found:
@@ -275,12 +285,12 @@ class RowReader:
         return option.is_object and not option.goal[1].looks_back and any(other.held for other in found)
 
     def _best(self, found: Sequence[_Option], reading: ClauseReading) -> _Option:
-        """Return rather what is not so already, and of that what was done meanwhile: what was opened is closed."""
+        """Return rather what was not so all along, and of that what was done meanwhile: what was opened is closed."""
         if reading.awaited and found[-1].held:
             return found[-1]
         fresh = [option for option in found if not option.held and not self._is_late(option, found)]
         nouns = [option for option in fresh if not option.is_object]
-        undone = (option for option in nouns if self._undoes(option.goal[0], reading))
+        undone = (option for option in nouns if option.done or self._undoes(option.goal[0], reading))
         locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
         return next(undone, None) or next(locking, None) or next(iter(fresh), found[0])
 

@@ -73,6 +73,8 @@ class Linker(Words):
         if before is K.STATE and after is K.STATE:
             return K.CONJ
         predicate = self._open[-1]
+        if after is K.SUB and predicate:
+            return None  # "the box belongs there, with the lid shut"
         if before in HEADS and after in NP:
             if not predicate:
                 return None if self._place_in_front() else K.CONJ  # "apart from the red cup, all the cups"

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from lark import Tree
 
-from tmd.language.clause import BE, BRING, HAVE, PUT, SET, WITH, Mood, Quantifier, Relation, Span
+from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.joins import SETTING, first_of
@@ -79,9 +79,10 @@ class Saying:
         verbs = [] if left else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
-        if verbs:
+        received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
+        if verbs and not (received and trees(self.rest, "group")):
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
-        owned = self._helped("having") and trees(self.rest, "group")
+        owned = (received or self._helped("having")) and trees(self.rest, "group")
         return [self._owned(attach) if owned else self._state(attach)]
 
     def _only_states(self) -> bool:
@@ -147,6 +148,7 @@ class Saying:
         draft.landmarks += contents
         owner = draft.direct[-1].name if draft.direct else None
         draft.relations += [Relation(WITH, owner, p.name) for p in contents]
+        draft.relations += [Relation(OF, p.name, part.name) for p in contents for part in p.of]
         return draft
 
 
@@ -181,7 +183,7 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
         verb.stem, draft.result = pairs("state_verbs").get(result, result), None  # "the floor should be clean"
     elif draft.set_to():
         verb.stem, draft.result = SET, None
-    elif not result and draft.places():
+    elif not result and draft.places() and not any(r.relation == WITH for r in draft.relations):
         verb.stem = PUT
 
 

@@ -158,7 +158,7 @@ def tokenise(text: str) -> list[Token]:
         timed = token.text in section("after_its") and len(tokens) > 1 and tokens[-2].text in section("before_its")
         if timed or (token.text in section("its_places") and tokens):
             tokens[-1:] = _cut(tokens[-1], pairs("its"))  # as people write it: "when its done"
-        tokens += _cut(token, pairs("copulas"))
+        tokens += _cut(token, pairs("two_words"))
     _enumeration(tokens, text)
     _capitals(tokens, text)
     _articles(tokens, text)

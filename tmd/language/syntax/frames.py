@@ -1,0 +1,138 @@
+"""Set aside the frames of indirect requests: "would it be possible for you to open it" asks to open it.
+
+A frame begins a sentence with a subject or an auxiliary, names no thing, and ends at the verb that counts: behind *to*,
+behind "if you could", or with -ing behind "would you mind".
+Conditions that are only polite ("if it is no trouble") are set aside as well. Where a thing is the subject ("I'd be glad if the window
+were open"), what follows is a demand.
+"""
+
+from __future__ import annotations
+
+from tmd.language.lexicon.lexicon import Lexicon, section
+from tmd.language.syntax.joins import first_of
+from tmd.language.syntax.tokens import Kind, Token
+from tmd.language.syntax.words import IDLE, NP, Words
+
+K = Kind
+_LONGEST = 18
+"""Tokens of a frame, at most."""
+_DEEDS = (K.V, K.ENSURE)
+
+
+class Frames(Words):
+    """One pass over the decided words of a text."""
+
+    def __init__(self, tokens: list[Token], lexicon: Lexicon) -> None:
+        """Take decided words."""
+        super().__init__(tokens)
+        self._lexicon = lexicon
+
+    def run(self) -> list[Token]:
+        """Return the words that are in no frame."""
+        kept: list[Token] = []
+        at = 0
+        while at < len(self.tokens):
+            end = self._end(at) if not at or self.follows(at - 1, "STOP|COMMA|CC") else at
+            end = self._courtesy(at) if end == at else end
+            if end == at:
+                kept.append(self.tokens[at])
+                end += 1
+            at = end
+        return kept
+
+    def _end(self, begin: int) -> int:
+        """Return where the frame that begins at a place ends; the place itself where none does."""
+        start = self.past(begin, "IDLE*")
+        if not self.follows(start, "SUBJECT|AUX|NEG") and not self.among(start, "singular_pronouns"):
+            return begin
+        for place in range(start + 1, min(start + _LONGEST, len(self.tokens))):
+            if self.follows(place, "STOP|COMMA"):
+                break
+            end = self._counts(start, place)
+            if end:
+                return end if self._asks(start, place, end) else self._denied(start, end) or begin
+            if self._is_deed(place) or self._is_thing(place):
+                break
+        return begin
+
+    def _is_thing(self, at: int) -> bool:
+        token = self.tokens[at]
+        return token.kind is K.N and (self._lexicon.is_noun(token.text) or self._lexicon.names_thing(token.text))
+
+    def _is_deed(self, at: int) -> bool:
+        """Tell whether a verb stands at a place that is itself what is asked for, or tells what has been done."""
+        token = self.tokens[at]
+        if token.kind not in (K.V, K.FINITE, K.ING):
+            return False
+        known = token.stem in section("verbs") or token.stem in self._lexicon.goal_verbs
+        return token.form == "ed" or (known and token.stem not in section("framing"))
+
+    def _counts(self, start: int, at: int) -> int:
+        """Return the place of the verb that counts where a frame leads to it at ``at``; 0 elsewhere."""
+        verb = self.peek(at)
+        if self.kind(at) is K.TO and (self.tokens[at].form == "inf" or self.kind(verb) is K.ENSURE):
+            verb = self.peek(verb + 1) if self.stem_among(verb, "knowing") and self.kind(verb + 1) is K.PURP else verb
+            return verb if self.kind(verb) in _DEEDS else 0
+        advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
+        if advised or self.among(at, "frame_joints"):
+            verb = self.past(at + 1, "(SUBJECT|PRON|AUX|IDLE|MOD)*")
+            asked = advised or (self.among(at + 1, "subjects", "persons") and not self.among(at + 1, "singular_pronouns"))
+            if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base")):
+                return verb
+            glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
+            if glad and self.kind(at + 1) in NP and not self.among(at + 1, "subjects", "persons"):
+                self.tokens[at].kind = K.ENSURE
+                return at
+        return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
+
+    def _made_deed(self, at: int, form: str) -> bool:
+        """Make "putting" of "would you mind putting" what is asked for, if it is a verb in this form."""
+        token = self.tokens[min(at, len(self.tokens) - 1)]
+        known = self._lexicon.verb(token.text)
+        if known is None or known[1] != form:
+            return False
+        token.kind, token.stem, token.form = K.V, known[0], "base"
+        return True
+
+    def _before(self, at: int) -> int:
+        """Return the place of the word before ``at`` that says something."""
+        before = at - 1
+        while before > 0 and self.kind(before) in IDLE:
+            before -= 1
+        return before
+
+    def _courtesy(self, at: int) -> int:
+        """Return where a condition ends that is only polite: "if that is possible", "when you have a moment"."""
+        if self.kind(at) is not K.SUB or not self.among(at, "courteous"):
+            return at
+        end = self.first(at, "STOP|COMMA|V (DET|PRON|N)")
+        inner = range(at + 1, end)
+        about = self.among(at + 1, "singular_pronouns", "subjects", "persons")
+        words = {word for i in inner for word in (*self.tokens[i].text.split(), self.tokens[i].stem)}
+        said = not words.isdisjoint(section("courtesies"))
+        if not (about and said) or any(self._is_thing(i) for i in inner):
+            return at
+        return end + (self.kind(end) is K.COMMA)
+
+    def _denied(self, start: int, end: int) -> int:
+        """Make a prohibition of "I don't want you to"; return the place of its denial, 0 for other frames."""
+        frame = range(start, end)
+        wished = self.among(start, "speakers") and any(self.stem_among(i, "wishing") for i in frame)
+        denied = sum(self.kind(i) is K.NEG for i in frame) == 1 and any(self.among(i, "persons") for i in frame)
+        if not (wished and denied and self.kind(end - 1) is K.TO):
+            return 0
+        self.tokens[end - 1].kind, self.tokens[end - 1].text = K.NEG, first_of("negations")
+        return end - 1
+
+    def _asks(self, start: int, at: int, end: int) -> bool:
+        """Tell whether a frame asks for what follows, and does not state or deny it."""
+        frame = range(start, end)
+        denied = [i for i in frame if self.kind(i) is K.NEG]
+        question = self.first(at, "STOP")
+        asked = question < len(self.tokens) and "?" in self.tokens[question].text
+        if denied and not (asked and all(self.among(i, "frame_negations") for i in denied)):
+            return False
+        modal = any(self.among(i, "frame_modals", "frame_negations") or self.tokens[i].text.endswith(("'d", "'ll")) for i in frame)
+        wished = self.among(start, "speakers", "self_forms")
+        wished = wished and any(self.stem_among(i, "framing", "advising") for i in frame)
+        return modal or wished or (asked and self.kind(start) is K.AUX)
