@@ -93,7 +93,7 @@ class ConstraintReader:
 
     def _not_left_so(self, goal: ClauseGoal, state: Bits) -> Iterator[Formula]:
         """Yield the contrary of each literal of a goal, to hold in the end."""
-        some = any(cube.positive for cube in goal.cubes)
+        some = any(cube.positive or cube.negative & state for cube in goal.cubes)
         for atom, bit, stands in self._signed(goal):
             # "noodles in the bowl, not in the pot": the pot need not have the milk that spoils them
             if stands or state & bit or not some:

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 
-from tmd.language.lexicon.lexicon import data_text
+from tmd.language.lexicon.lexicon import data_text, pairs
 
 NEGATED = "not_"
 """The mark of a state or relation that does not hold, as the parser writes it."""
@@ -91,6 +91,12 @@ def is_noun(noun: str, kind: str) -> bool:
 def is_idle(adjective: str) -> bool:
     """Return whether an adjective never tells which thing is meant: *a nice cup*, *only the cup*."""
     return adjective in words_of("idle_adjectives")
+
+
+def position(noun: str) -> int | None:
+    """Return which of what was spoken of *the first one* or *the latter* is; ``None`` for other nouns."""
+    place = pairs("places_in_order").get(noun.removesuffix(f"_{ONE}")) if is_one(noun) else None
+    return int(place) if place is not None else None
 
 
 def is_one(noun: str) -> bool:

@@ -36,7 +36,7 @@ from tmd.planning.result import Answer, Filled, GaveUp, Planner, Unreachable
 from tmd.readers.interface import CandidateGoal, Dialogue, PlanConstraints, Question, QuestionOption, Step
 from tmd.veil.library import tidy
 
-_MOST_FURTHER_STEPS = 4
+_MOST_FURTHER_STEPS = 8
 """Maximum number of further steps to keep what earlier steps reached: to open a door again, and to close it."""
 _MOST_READINGS = 4
 """Maximum number of different readings of a request that are followed at a time, each with a beam of its own."""
@@ -394,10 +394,8 @@ class GoalPass(ForwardPass):
                 yield aim, least
                 continue
             answer = self.planner.fill(state, aim)
-            if isinstance(least, Filled):
-                if isinstance(answer, Filled) and len(answer.plan) <= len(least.plan) + _MOST_FURTHER_STEPS:
-                    yield aim, answer
-            else:
+            dear = isinstance(answer, Filled) and isinstance(least, Filled)
+            if not (dear and len(answer.plan) > len(least.plan) + _MOST_FURTHER_STEPS):
                 yield aim, answer
         yield last, least
 
@@ -405,7 +403,8 @@ class GoalPass(ForwardPass):
         """Return whether keeping earlier goals costs no more steps than people would take for it."""
         if self._far_answers.get((state, tuple(least))) is answer:
             return True
-        bare = self._far(state, least)
+        quick = self.planner.fill(state, least)
+        bare = quick if isinstance(quick, Filled) else self._far(state, least)
         return not isinstance(bare, Filled) or len(answer.plan) <= len(bare.plan) + _MOST_FURTHER_STEPS
 
     def _far(self, state: Bits, aim: Sequence[Cube]) -> Answer:

@@ -6,6 +6,7 @@ before it lead to.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -18,9 +19,9 @@ from tmd.goals.sources.table import GoalTable
 from tmd.goals.tables import SOURCES, goal_tables
 from tmd.goals.text_constraints import ConstraintReader
 from tmd.goals.words import BE, is_condition, is_relation, is_verb, words_of
-from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier
-from tmd.language.lexicon.lexicon import Lexicon
-from tmd.language.parser import parse
+from tmd.language.clause import PERSONS, Clause, Condition, Mood, Parsed, Quantifier, Skipped
+from tmd.language.lexicon.lexicon import Lexicon, singular
+from tmd.language.parser import NO_VERB, parse
 from tmd.language.syntax.brackets import REMINDER
 from tmd.pddl.ground_formula import TRUE
 from tmd.pddl.model import Instruction
@@ -151,8 +152,8 @@ class RuleDialogue(ClauseDialogue):
 
     def _begin(self, parsed: Parsed, state: Bits) -> Refusal | None:
         """Read the constraints, and order the steps."""
-        unread = [piece for piece in parsed.skipped if piece.reason == REMINDER]
-        if unread and not self._goals.nouns.guess:
+        unread = [piece for piece in parsed.skipped if piece.reason == REMINDER or self._names_thing(piece, state)]
+        if unread and parsed.clauses and not self._goals.nouns.guess:
             message = f"'{' '.join(unread[0].text.split())}' {REMINDER}"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "say what shall be done with it")
         memory = Memory(first=state)
@@ -163,6 +164,13 @@ class RuleDialogue(ClauseDialogue):
         self.memory = _Progress(replace(memory, left=constraints.left))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
         return None
+
+    def _names_thing(self, piece: Skipped, state: Bits) -> bool:
+        """Return whether a piece that belongs to no verb names something that is here."""
+        words = [singular(word) for word in re.findall(r"[a-z]+", piece.text.lower())]
+        nouns = self._goals.nouns
+        named = (word for word in words if nouns.lexicon.names_thing(word))
+        return piece.reason == NO_VERB and any(nouns.things(n, state) or nouns.substances(n) for n in named)
 
     def goals(self, step: Step, state: Bits, memory: object) -> StepGoals | Refusal:
         """Return the goal of a step that begins in ``state``."""
@@ -291,16 +299,19 @@ def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:
 def bindings_of(meant: Mapping[str, tuple[str, ...]], cube: Cube, reader: GoalReader, memory: Memory) -> Memory:
     """Return what later clauses remember of a clause whose goal was reached as ``cube``."""
     atoms = reader.world.task.names(cube.positive | cube.negative)
+    gained = reader.world.task.names(cube.positive)
     mentioned = dict.fromkeys(a for atom in atoms for a in atom.args)
+    kept = {a for atom in gained for a in atom.args}
     is_constant = reader.nouns.is_constant
     bound = dict(memory.bound)
     recent: dict[str, None] = {}
     # "heat it in the microwave, and add the noodles": to what was heated; where it was done comes after that
-    for noun, names in sorted(meant.items(), key=lambda said: " " in said[0]):
+    # what something was poured from comes last: "pour coffee from the pot into the cup, and add milk"
+    for noun, names in sorted(meant.items(), key=lambda said: (" " in said[0], kept.isdisjoint(said[1]))):
         chosen = _chosen(names, mentioned, reader)
         containers: dict[str, None] = {}
         if all(map(is_constant, chosen)):
-            vessels = (a.args[0] for a in atoms if set(a.args[1:]) & set(chosen))
+            vessels = (a.args[0] for a in gained if set(a.args[1:]) & set(chosen))
             containers = dict.fromkeys(v for v in vessels if not is_constant(v))
         bound.pop(noun, None)
         bound[noun] = Bound(chosen, tuple(containers))

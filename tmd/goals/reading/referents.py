@@ -10,7 +10,7 @@ from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS, Context, choose
-from tmd.goals.reading.noun_phrases import Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.reading.noun_phrases import Bound, Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.words import (
     IT,
@@ -22,6 +22,7 @@ from tmd.goals.words import (
     is_one,
     is_pronoun,
     is_relation,
+    position,
     table,
     the_word,
     words_of,
@@ -254,8 +255,14 @@ class Referents:
             mixed = self._brought_together(types, reading) if plain and is_noun(noun, "everything") else ()
             return [Referent(noun, mixed, definite=True), *found] if mixed else found
         if noun in clause.antecedents and clause.together.get(noun, 1) > 1:
-            return [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
-        return self._meant_by_pronoun(noun, types, reading)
+            found = [self._together(clause.antecedents[noun][: clause.together[noun]], noun, types, reading)]
+        else:
+            found = self._meant_by_pronoun(noun, types, reading)
+        phrase = clause.phrase(noun)
+        if phrase.quantifier in (Quantifier.SOME, Quantifier.NUMBER) and not is_one(noun):  # "one of them"
+            mode, number = mode_of(phrase, group=False, thing=True)
+            found = [replace(referent, mode=mode, number=number, definite=False) for referent in found]
+        return found
 
     def _meant_by_pronoun(self, noun: str, types: tuple[str, ...], reading: ClauseReading) -> list[Referent]:
         options = self.antecedents(noun, reading)
@@ -301,6 +308,13 @@ class Referents:
         relations = self.relations_of(pronoun, reading.clause)
         plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
         within = antecedent in reading.clause.phrases and antecedent not in reading.taken
+        bound = reading.memory.bound.get(antecedent)
+        order = position(pronoun)
+        if order is not None and bound is not None:  # "take both cans, and put the first on the table"
+            names = bound.names if order < len(bound.names) else bound.names[:1]
+            return Referent(antecedent, names[order:][:1] or names, definite=True)
+        if said.quantifier is Quantifier.OTHER and said.plural and bound is not None and bound.containers:
+            return self._left_over(antecedent, bound, types, reading)
         if said.quantifier is Quantifier.OTHER and within:  # "from the table with the mug to the other one"
             first = self.targets(antecedent, reading)
             whole = self._named(antecedent, NounPhrase(antecedent), types, [], reading)
@@ -309,6 +323,13 @@ class Referents:
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
         return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
+
+    def _left_over(
+        self, antecedent: str, bound: Bound, types: tuple[str, ...], reading: ClauseReading
+    ) -> Referent:
+        """Return *the rest* of a substance of which some was poured: what it came from."""
+        whole = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
+        return whole.only(n for n in whole.names if n not in bound.containers)
 
     def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         all_of_them = the_word("nouns", "plural")
@@ -510,6 +531,9 @@ class Referents:
         self, referent: Referent, relation: str, names: tuple[str, ...], reading: ClauseReading, whole: Referent
     ) -> Referent:
         now = self.described(referent, relation, names, reading)
+        if relation in table("inverse"):  # "the stove under the kettle" is a burner of it
+            parts = [part for name in now for part in self.grounder.relatives(name, 0)]
+            now = self.nouns.related_now(parts, relation, names, reading.moments) or now
         # what stands on nothing has no burner under it
         tells = relation in table("inverse") or is_relation(relation, "locating") or referent.mode is Mode.ALL
         return referent.only(now) if now or tells or self.described(whole, relation, names, reading) else referent

@@ -18,7 +18,7 @@ from tmd.goals.reading.referents import ANY_TYPE, Referents, is_none
 from tmd.goals.reading.requirements import Requirements
 from tmd.goals.reasons import forms, why_impossible
 from tmd.goals.sources.table import ACTIONS, RELATION, GoalRow, GoalTable, Slot
-from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said
+from tmd.goals.words import ends_as, is_noun, is_one, is_relation, relations_said, the_word
 from tmd.language.clause import NounPhrase, Quantifier
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.ground_formula import (
@@ -264,7 +264,7 @@ class RowReader:
             now = self.grounder.truth(tried[0], reading.state) and bool(atoms_of(tried[0]))
             held = now and self.grounder.truth(tried[0], reading.memory.first)
             found.append(_Option(tried, reading.meant, held, now and not held, is_object))
-            if self._settles(found, reading):
+            if reading.awaited if held else (is_object and not self._is_late(found[-1], found)):
                 break
         if not found:
             assert failure is not None
@@ -272,13 +272,6 @@ class RowReader:
         best = self._best(found, reading)
         reading.meant = best.meant
         return best.goal
-
-    def _settles(self, found: Sequence[_Option], reading: ClauseReading) -> bool:
-        """Return whether what a pronoun means is settled by the last of its options."""
-        last = found[-1]
-        if last.held:
-            return reading.awaited
-        return (last.is_object and not self._is_late(last, found)) or self._undoes(last.goal[0], reading)
 
     def _is_late(self, option: _Option, found: Sequence[_Option]) -> bool:
         """Return whether an object comes after a noun of which the goal holds already: that was meant then."""
@@ -290,9 +283,24 @@ class RowReader:
             return found[-1]
         fresh = [option for option in found if not option.held and not self._is_late(option, found)]
         nouns = [option for option in fresh if not option.is_object]
-        undone = (option for option in nouns if option.done or self._undoes(option.goal[0], reading))
+        undone = [option for option in nouns if option.done or self._undoes(option.goal[0], reading)]
         locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
-        return next(undone, None) or next(locking, None) or next(iter(fresh), found[0])
+        return self._outermost(undone, reading) or next(locking, None) or next(iter(fresh), found[0])
+
+    def _outermost(self, options: Sequence[_Option], reading: ClauseReading) -> _Option | None:
+        """Return the first option, or one that holds what it is about: the fridge that the tub was put back in."""
+        if not options or options[0].done:
+            return options[0] if options else None
+        best = options[0]
+        for option in options[1:]:
+            inner = self._about(best, reading)
+            if self.nouns.related_now(inner, the_word("relations", "inside"), self._about(option, reading), reading.moments):
+                best = option
+        return best
+
+    def _about(self, option: _Option, reading: ClauseReading) -> tuple[str, ...]:
+        """Return the things that a pronoun means by an option."""
+        return tuple(n for n in option.meant.get(reading.pronoun or "", ()) if not self.nouns.is_constant(n))
 
     def _locks(self, formula: Formula, reading: ClauseReading) -> bool:
         """Return whether what is asked for would have prevented what was done: to close what something was put in."""

@@ -17,7 +17,7 @@ import yaml
 
 from tmd.diagnostics import Location, TmdError
 from tmd.files import bundled, real
-from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, PhraseRow, SharedPredicate, section, singular
+from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, PhraseRow, SharedPredicate, TYPO_LENGTH, section, singular
 from tmd.yaml_nodes import compose
 
 KEYS = (
@@ -111,6 +111,7 @@ def read_lexicon(path: Path | str | None, kinds: Iterable[str] = ()) -> Lexicon:
     between = section("particles") | section("prepositions")
     return replace(
         lexicon,
+        names=frozenset(word for words in named for word in words if len(word) >= TYPO_LENGTH),
         kinds=frozenset(words[-1] for words in named) - section("static"),  # "on" is a relation, and no thing
         compounds=frozenset(words for words in named if between & {*words[:-1]} and words[-1] not in between),
     )

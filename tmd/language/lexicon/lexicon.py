@@ -15,7 +15,7 @@ from importlib.resources import files
 
 from tmd.diagnostics import Location
 
-_TYPO_LENGTH = 4
+TYPO_LENGTH = 4
 """Shorter words are never corrected."""
 _TYPO_RATIO = 0.83
 """Least :func:`difflib.SequenceMatcher.ratio` of a correction."""
@@ -134,6 +134,7 @@ class Lexicon:
         base: What verbs and adjectives mean by the base lexicons that it includes.
         included: The files of these base lexicons, in order.
         places: Where a word of a section was declared: ``("verb_synonyms", "get")``.
+        names: The words in names of types and constants of the domain that are long enough for slips.
         kinds: Last words of names of types and constants of the domain: nouns, be they verbs as well.
         compounds: Such names with a particle inside: their words together are one noun ("the volume down button").
         phrases: Turns of phrase of the domain.
@@ -150,6 +151,7 @@ class Lexicon:
     base: Base = field(default_factory=Base)
     included: tuple[str, ...] = ()
     places: Mapping[tuple[str, str], Location] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
     kinds: frozenset[str] = frozenset()
     compounds: frozenset[tuple[str, ...]] = frozenset()
     phrases: tuple[PhraseRow, ...] = ()
@@ -253,11 +255,13 @@ class Lexicon:
         Only words that are in no list are corrected, and only to a word with the same first letter that is
         alike enough (:data:`_TYPO_RATIO`).
         """
-        if len(word) < _TYPO_LENGTH:
+        if len(word) < TYPO_LENGTH:
             return None
         group = self._by_initial.get(word[0], ())
         if self.knows(word):
             return self._doer_slip(word, group)
+        if (named := self._named_by(word)) is not None:
+            return named
         swaps = _swaps(word)
         if swapped := [*swaps.intersection(group)] or [*swaps & _english()]:
             return min(swapped)
@@ -268,6 +272,13 @@ class Lexicon:
         near = near or difflib.get_close_matches(word, nouns, 1, _NOUN_TYPO_RATIO)
         # "soapy" is not a slip of "soap": letters get lost at the end, endings are not made up
         return near[0] if near and not word.startswith(near[0]) else None
+
+    def _named_by(self, word: str) -> str | None:
+        """Return the word in a name of the domain that a word of no list is a slip of, or the beginning of."""
+        alike = sorted(name for name in self.names if name[0] == word[0])
+        begun = [name for name in alike if name.startswith(word)]
+        near = difflib.get_close_matches(word, alike, 1, _NOUN_TYPO_RATIO)
+        return begun[0] if len(begun) == 1 else next(iter(near), None)
 
     def _doer_slip(self, word: str, group: tuple[str, ...]) -> str | None:
         """Return the noun that a word stands for which is known only since it ends in -er: "wraper" is a wrapper."""
@@ -282,7 +293,7 @@ class Lexicon:
         listed = (section(name) for name in sections()["correctable"])
         words = self._own_nouns.union(self.verbs, *listed)
         for word in sorted(words):
-            if "_" not in word and len(word) >= _TYPO_LENGTH:
+            if "_" not in word and len(word) >= TYPO_LENGTH:
                 table.setdefault(word[0], []).append(word)
         return {initial: tuple(group) for initial, group in table.items()}
 

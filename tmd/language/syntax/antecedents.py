@@ -11,7 +11,7 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from tmd.language.clause import PERSONS, TO, Clause, Condition
-from tmd.language.lexicon.lexicon import section
+from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
 from tmd.language.syntax.reading import TextReading
@@ -75,8 +75,9 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
         scenes += [_alone(c) for condition in conditions if condition.word != TO for c in condition.clauses]
-        hosts = [_scene(draft.host, draft.host.clause(reading.text))] if draft.host is not None else []
-        clause = _resolved(clause, draft, [*scenes, *hosts])
+        hosts = [draft.host] if draft.host is not None else []
+        hosts += [d for d in reading.drafts if d.host is draft and d.verb.span < draft.verb.span]  # "before closing it"
+        clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
@@ -93,6 +94,7 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         ranked, count = _rank(pronoun, draft, scenes, before)
         if is_one(pronoun):
             ranked, count = _one(pronoun, ranked, clause, draft, before), 1
+            ranked = _in_order(pronoun, scenes) or ranked
         elif is_singular(pronoun) and not before.isdisjoint(section("insides")):
             ranked = tuple(dict.fromkeys((*_vessels(pronoun, clause, draft), *ranked)))
         if ranked:
@@ -132,6 +134,13 @@ def _one(
     return names if plain else tuple(dict.fromkeys(name.rpartition("_")[2] for name in names))
 
 
+def _in_order(pronoun: str, scenes: Sequence[_Scene]) -> tuple[str, ...]:
+    """Return what *the former* or *the second* means of several things that were spoken of together."""
+    place = pairs("places_in_order").get(pronoun.partition("_")[0])
+    group = _group(list(scenes[-_REACH:][::-1]), set()) if place is not None else ()
+    return (group[int(place)],) if place is not None and 1 < len(group) > int(place) else ()
+
+
 def _own(pronoun: str, clause: Clause, draft: ClauseDraft, before: Collection[str], *, apart: bool) -> list[str]:
     """Return what a clause spoke of before *one*, likeliest first; where ``apart``, only what was told apart."""
     alike = {r.target for r in clause.relations if r.relation in before}
@@ -146,7 +155,9 @@ def resolve_alone(clause: Clause, before: Sequence[Clause]) -> Clause:
     places = [name for name in clause.objects if is_pronoun(name)]
     telling = {n for c in before for n, said in c.phrases.items() if said.attributes or said.plural}
     told = sorted(names, key=lambda name: name not in telling)
-    antecedents = {name: tuple(told if is_one(name) else names) for name in places if names}
+    kinds = list(dict.fromkeys(name.rpartition("_")[2] for name in told))
+    ranked = {name: (told if name in section("one_words") else kinds) if is_one(name) else names for name in places}
+    antecedents = {name: tuple(found) for name, found in ranked.items() if found}
     return replace(clause, antecedents=antecedents, together=dict.fromkeys(antecedents, 1))
 
 

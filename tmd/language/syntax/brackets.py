@@ -324,6 +324,8 @@ class Bracketer(Words):
 
     def _unneeded(self, at: int, deed: int) -> bool:
         """Tell whether a negation says that a deed need not be done: "no need to wash it", "don't bother"."""
+        if self.stem_among(deed, "caring"):
+            return True  # "I don't care if it is old"
         helped = self.kind(deed - 1) is K.TO and any(self.among(i, "unneeded") for i in range(at, deed))
         idle = self.stem_among(deed, "unneeded") and self.follows(deed + 1, "IDLE* (TO|INF|STOP|COMMA)")
         return self.among(at, "needless") or helped or idle
@@ -468,7 +470,7 @@ class Bracketer(Words):
         token = self.tokens[at]
         if token.text == ":" and self._verb is None and self._named() and self.kind(at + 1) is K.V:
             return at + 1  # "the radio: put it in the crate"
-        token.kind = K.SEP
+        token.kind, token.form = K.SEP, ALSO if self._too(at + 1) else ""
         self.out.append(token)
         self._begin()
         return at + 1
@@ -502,13 +504,18 @@ class Bracketer(Words):
         """Mark "and so does the mug", "and the mug too"; return where reading goes on, ``at`` for any other joint."""
         begin = at + 1 + (self.kind(at + 1) is K.CC)
         does = self.follows(begin, "(ADV|PURP) AUX NP")
-        end = self.past(begin, "NP*")
-        too = end > begin and self.among(end, "also_words") and self.follows(end + 1, "BREAK")
-        if not (does or too):
+        if not (does or self._too(begin)):
             return at
         self.tokens[at].form = ALSO
         self.out.append(self.tokens[at])
         return begin + 2 * does
+
+    def _too(self, at: int) -> bool:
+        """Tell whether a noun phrase with "too" or "also" stands from a place on, and nothing else."""
+        begin = self.past(at, "IDLE*")
+        end = self.past(begin, "NP+")
+        ahead = any(self.among(i, "also_words") for i in range(at, begin)) and self.kind(end) in BREAKS
+        return end > begin and (ahead or (self.among(end, "also_words") and self.follows(end + 1, "IDLE* BREAK")))
 
     def _noun(self, at: int) -> int:
         """Keep a noun, but for a name that is called: "Dave, take"."""
@@ -544,7 +551,9 @@ class Bracketer(Words):
         ends = self.follows(at + 1, "IDLE* (BREAK|SUB|V|EXC|MOD|PURP|REL)")
         if self._open:
             return ends and self._last() in HEADS | {K.AUX, K.STATE, K.CC, K.FINITE}
-        return ends and self._hosts_result() and self._last() in HEADS | {K.STATE, K.CC}
+        placed = self._verb is not None and self._verb.stem in section("placing")
+        hosts = self._hosts_result() or (self.among(at, "switch_states") and not placed)
+        return ends and hosts and self._last() in HEADS | {K.STATE, K.CC}
 
     def _participle(self, at: int) -> int:
         if not (self._last() in HEADS and self._hosts_result() and self.follows(at + 1, "IDLE* (BREAK|SUB|MOD)")):
@@ -569,6 +578,8 @@ class Bracketer(Words):
         """Emit "let X do" as LET, the noun phrase and the verb; any other "let" is a verb."""
         token, end = self.tokens[at], self.past(at + 1, "(NP|IDLE|OF)*")
         verb = end + (self.kind(end) is K.TO)
+        if self.among(end - 1, "persons") and self.among(end, "getting"):
+            return end  # "let me have a tea"
         if self.kind(verb) is not K.V or self.tokens[verb].form != "base" or self.among(at, "leaving"):
             token.kind, token.form, token.strength = K.V, "base", 3
             return self._deed(at)
@@ -602,7 +613,9 @@ class Bracketer(Words):
         if at + 1 >= len(self.tokens):
             return
         after = self.tokens[at + 1]
-        if self.among(at + 1, "there_words") and self.kind(at + 2) is not K.AUX and self._last() is not K.V:
+        top = self.among(at + 1, "top_words") and self.follows(at + 2, "IDLE* BREAK")
+        there = self.among(at + 1, "there_words") and self.kind(at + 2) is not K.AUX and self._last() is not K.V
+        if top or there:
             after.kind, after.text = K.PRON, first_of("singular_pronouns")
         elif after.kind is K.NEG:
             after.kind, after.text = K.DET, first_of("none_words")

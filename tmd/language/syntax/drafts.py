@@ -108,7 +108,8 @@ class ClauseDraft:
     def take_places(self, other: ClauseDraft) -> None:
         """Put what it acts on where another clause puts its things."""
         self.landmarks += other.landmarks
-        places = {r.relation: r.target for r in other.relations if r.source in {p.name for p in other.direct}}
+        moved, named = {p.name for p in other.direct}, {p.name for p in other.landmarks}
+        places = {r.relation: r.target for r in other.relations if r.source in moved and r.target in named}
         self.relations += [Relation(r, p.name, target) for r, target in places.items() for p in self.direct]
 
     def set_to(self) -> bool:
@@ -212,6 +213,9 @@ class Attachment:
             self._group(phrases_of(node))
         elif node.data == "place" and groups:
             self._place(next(leaves(node)), groups[0], later)
+        elif node.data == "place" and self.draft.verb.form == IMPLIED:
+            place = next(leaves(node))  # "both boxes in": in what was spoken of
+            self._relate(place.text, [], [Phrase(first_of("singular_pronouns"), place.span.start, False, True)])
         elif node.data == "exception" and groups:
             self._exception(phrases_of(groups[0]))
         elif node.data == "state":

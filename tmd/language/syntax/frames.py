@@ -77,7 +77,7 @@ class Frames(Words):
         if advised or self.among(at, "frame_joints"):
             verb = self.past(at + 1, "(SUBJECT|PRON|AUX|IDLE|MOD)*")
             asked = advised or (self.among(at + 1, "subjects", "persons") and not self.among(at + 1, "singular_pronouns"))
-            if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base")):
+            if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base") or self._made_deed(verb, "ed")):
                 return verb
             glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
             if glad and self.kind(at + 1) in NP and not self.among(at + 1, "subjects", "persons"):
@@ -135,4 +135,5 @@ class Frames(Words):
         modal = any(self.among(i, "frame_modals", "frame_negations") or self.tokens[i].text.endswith(("'d", "'ll")) for i in frame)
         wished = self.among(start, "speakers", "self_forms")
         wished = wished and any(self.stem_among(i, "framing", "advising") for i in frame)
-        return modal or wished or (asked and self.kind(start) is K.AUX)
+        kindly = self.among(start, "infinitive_be")
+        return modal or wished or kindly or (asked and self.kind(start) is K.AUX)

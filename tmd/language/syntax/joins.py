@@ -26,8 +26,8 @@ def join(tokens: list[Token], lexicon: Lexicon) -> list[Token]:
     _partitives(Words(tokens))
     for token in tokens:
         token.kind = K.CC if token.kind is K.NEG and token.text in section("choices") else token.kind  # "nor"
-    tokens = _numbered(Words(tokens))
     _settings(Words(tokens))
+    tokens = _numbered(Words(tokens))
     _exceptions(Words(tokens))
     _Particles(tokens, lexicon).run()
     _sentences(tokens)
@@ -82,7 +82,7 @@ def _partitives(words: Words) -> None:
         token = words.tokens[at]
         if of.kind is not K.P or of.text not in section("of_words"):
             continue
-        listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET)
+        listed = words.among(at, "partitives") and token.kind in (K.N, K.PRON, K.DET, K.ADJ)
         if listed or (token.kind is K.NUM and words.kind(at - 1) is not K.N):
             of.kind, token.kind = K.FILLER, K.DET
             if words.follows(at + 2, "DET NUM"):
@@ -157,7 +157,7 @@ def _sentences(tokens: list[Token]) -> None:
     number, otherwise = 0, False
     last: Token | None = None
     for at, token in enumerate(tokens):
-        if token.kind is K.STOP and token.text[:1] in ".!?":
+        if token.kind is K.STOP and token.text[:1] in ".!?;":
             number, last = number + 1, None
         if token.kind is K.STOP and token.text == ":" and last is not None:
             last.heading = any(t.kind in (K.V, K.N) for t in tokens[at + 1 :])
@@ -180,6 +180,8 @@ class _Particles(Words):
                 if not self._several_words(at):
                     self._particle(at)
             elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and not self.stem_among(at, "belonging"):
+                if verb.kind is K.FINITE and self.among(at - 1, "addressee") and self._particle(at):
+                    continue
                 match = self.kind(at + 1) in (K.P, K.ADV) and self._match(verb.stem, at + 1)
                 if match is not None and match is not False and not self.follows(at + 2, "IDLE* NP"):
                     self._absorb(verb, [self.tokens[at + 1]], f"{verb.stem}_{self.tokens[at + 1].text}")

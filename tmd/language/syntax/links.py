@@ -54,11 +54,11 @@ class Linker(Words):
             link.form = CHOICE
             if after is K.V:
                 self.tokens[end].form = CHOICE
-        if any(t.form == ALSO for t in links):
-            link.form = ALSO
         joined = any(t.kind is K.CC for t in links)
         kind = self._inner(before, after, end) if self._open else self._outer(before, after, end, joined=joined)
         if kind is not None:
+            if any(t.form == ALSO or t.text in section("then_words") for t in links):
+                link.form = ALSO
             link.kind = kind
             self.out.append(link)
             self._fronted = self._fronted or kind is K.SEP
@@ -89,7 +89,7 @@ class Linker(Words):
     def _outer(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
         """Classify a link between the parts of a unit."""
         if after in (K.V, K.LET):
-            return self._before_verb(before, after, joined=joined)
+            return self._before_verb(before, after, end, joined=joined)
         if not self._fronted and after is K.SUB and self._condition_of_next(end):
             self._fronted = True
             return K.SEP
@@ -103,9 +103,13 @@ class Linker(Words):
         """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
         if before is K.STATE:
             return K.CONJ if after is K.STATE else K.SEP if after in NP else None
+        if before is K.END and after in NP and not self._fronted and self.follows(end, "(NP|OF)+ P"):
+            self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
+            return K.SEP
         if before not in HEADS or after not in NP:
             return None
-        apart = self._state_of_its_own(end) or (self._fronted and self._verbless(end))
+        then = not self._fronted and self.among(end - 1, "then_words") and not self.among(end, "other_words")
+        apart = then or self._state_of_its_own(end) or (self._fronted and self._verbless(end))
         return K.SEP if apart else K.CONJ
 
     def _state_of_its_own(self, at: int) -> bool:
@@ -113,11 +117,12 @@ class Linker(Words):
         unit = self._unit()
         shared = any(t.kind is K.V and t.stem in section("result_verbs") for t in unit)
         shared = shared and not any(t.kind in (K.STATE, K.P) for t in unit)
-        return self.follows(at, "NP+ STATE BREAK") and not shared
+        return self.follows(at, "NP+ (STATE|MOD) BREAK") and not shared
 
-    def _before_verb(self, before: Kind, after: Kind, *, joined: bool) -> Kind | None:
+    def _before_verb(self, before: Kind, after: Kind, end: int, *, joined: bool) -> Kind | None:
         if self._fronted:
-            return K.SEP if joined and self._named() else None
+            said = joined or self.kind(end + 1) is not K.PRON  # "the cup on the shelf, wash it"
+            return K.SEP if said and self._named(joined=joined) else None
         shares = before is K.V and self.out[-1].form != ALONE and self.out[-1].stem not in section("intransitive")
         return K.VCC if shares and after is K.V else K.SEP
 
@@ -133,11 +138,15 @@ class Linker(Words):
         unit = self._unit()
         return bool(unit) and unit[0].kind in (K.P, K.EXC)
 
-    def _named(self) -> bool:
-        """Tell whether the open unit names something: "a glass of milk, and shut the fridge"."""
-        behind = False
+    def _named(self, *, joined: bool) -> bool:
+        """Tell whether the open unit asks for something: "a glass of milk, and shut the fridge".
+
+        Where nothing joins it to what follows, it says where or how something shall be: "eggs in the pot, boil".
+        """
+        behind = named = False
         for token in self._unit():
-            if token.kind in HEADS and not behind:
+            named = named or (token.kind in HEADS and not behind)
+            if named and (joined or token.kind in (K.P, K.STATE, K.MOD)):
                 return True
             behind = token.kind in (K.P, K.EXC) or (behind and token.kind in NP | {K.OF, K.CONJ})
         return False

@@ -94,7 +94,8 @@ class Phrase:
         return [w for w in self.lead if w not in _determiners() | section("other_words") and not is_number(w)]
 
     def _quantifier(self, words: tuple[str, ...], quantity: str) -> Quantifier:
-        one_of = self.plural and self.lead[:1] != () and number_of(self.lead[0]) == 1
+        several = self.plural or self.name in section("plural_pronouns")
+        one_of = several and self.lead[:1] != () and number_of(self.lead[0]) == 1
         rows = (
             (Quantifier.NONE, not section("none_words").isdisjoint((*self.lead, self.name))),
             (Quantifier.ALL, self.whole or not section("all_words").isdisjoint(words)),
@@ -172,7 +173,9 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     if texts[0] in section("other_words") and len(texts) == 1:
         return Phrase(one, start, False, True, lead=(*said, *texts))
     if texts[0] in section("ordinals") and len(texts) == 1:
-        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=(*said, *texts))
+        return Phrase(f"{texts[0]}_{one}", start, False, True, lead=said)
+    if texts[0] in section("rest_words") and len(texts) == 1 and said:
+        return Phrase(one, start, True, True, lead=(*said, sections()["other_words"][0]))
     written = "_".join(texts)
     quantity = next((t.text for t in reversed(lead) if t.kind is Kind.NUM), "")
     if last.text in section("one_words"):

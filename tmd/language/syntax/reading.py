@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
 from tmd.language.clause import BE, HAVE, TO, WHERE, WITH, Condition, Mood, Relation, Span
-from tmd.language.lexicon.lexicon import pairs, section
-from tmd.language.syntax.brackets import DUTY, STATEMENT
+from tmd.language.lexicon.lexicon import pairs, section, sections
+from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
 from tmd.language.syntax.joins import first_of
 from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, phrases_of
@@ -47,14 +48,17 @@ class TextReading:
 
     def read(self, tree: Tree[Leaf]) -> TextReading:
         """Read the tree of a text."""
-        units = [unit for unit in tree.children if isinstance(unit, Tree)]
-        self.alone = len(units) == 1
-        for unit in units:
+        self.alone = len(trees(tree.children, "unit")) == 1
+        goes_on = False
+        for unit in tree.children:
+            if isinstance(unit, Leaf):
+                goes_on = unit.source.form == ALSO
+                continue
             actions = trees(unit.children, "clause", "letting")
             front = [n for n in unit.children if n not in actions]
             for index, action in enumerate(actions):
                 self._clause(action, [] if index else front)
-            if not actions:
+            if not actions and not (goes_on and self._gapped(front)):
                 self._verbless(front)
         self._carry()
         return self
@@ -148,10 +152,18 @@ class TextReading:
                 self._relative(draft, node)
             elif node.data in _DENIALS:
                 self._forbid(draft, node)
+            elif next(leaves(node)).text in section("because"):
+                self._explained(draft, node)
             elif node.data == "purpose" or not (self._ordered(draft, node) or _only_when(node)):
                 draft.conditions.append(self._condition(node))
                 draft.fronted = draft.fronted or (fronted and node.data == "condition")
                 draft.written.append((str(node.data), draft.conditions[-1].text))
+
+    def _explained(self, draft: ClauseDraft, node: Tree[Leaf]) -> None:
+        """Set a reason aside; pronouns may mean what it speaks of."""
+        before = self._number(draft, next(leaves(node)))
+        for part in trees(node.children, "part"):
+            self._stated(part, self._said(part), before, REASON)
 
     def _said(self, part: Tree[Leaf]) -> list[ClauseDraft]:
         return Saying.of(part).clauses(self._attach)
@@ -161,13 +173,17 @@ class TextReading:
     def _ordered(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
         """Read "after labelling it" and "before putting it away" as instructions, in their order."""
         opener, parts = next(leaves(node)).text, trees(node.children, "part")
-        verbs = [next((t for t in leaves(p) if t.kind in (Kind.V, Kind.ING)), None) for p in parts]
-        if opener not in pairs("order_words") or not verbs or not all(v is not None and v.form == "ing" for v in verbs):
+        verbs = [next((t for t in leaves(p) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None) for p in parts]
+        deeds = all(v is not None and (v.form == "ing" or _is_yours(p)) for v, p in zip(verbs, parts, strict=True))
+        if opener not in pairs("order_words") or not verbs or not deeds:
             return False
         places = [i for i, d in enumerate(self.drafts) if d is draft]
         if not places:
             return False  # a clause of a condition is no step
         events = [d for part in parts for d in self._said(part)]
+        others = section("noticed") | section("knowing") | section("leaving") | section("intransitive")
+        if any(event.verb.stem == BE or event.verb.stem in others for event in events):
+            return False
         at = places[0] + (pairs("order_words")[opener] == _LATER)
         for event in events:
             event.host, event.verb.sentence = draft, draft.verb.sentence
@@ -192,7 +208,6 @@ class TextReading:
         ahead = [p for p in draft.mentions() if p.place < opener.span.start]
         if not ahead:
             return
-        draft.relative = True
         noun = described(draft, ahead, node)
         for part in trees(node.children, "part"):
             for said in self._said(part):
@@ -200,6 +215,7 @@ class TextReading:
 
     @staticmethod
     def _describe(draft: ClauseDraft, noun: Phrase, opener: Token, said: ClauseDraft) -> None:
+        draft.relative = draft.relative or said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
         if relation == WHERE or (named and relation):
@@ -281,18 +297,18 @@ class TextReading:
             allowed = any(t.text in section("modals") for t in saying.helpers)
             asked = asked or (allowed and any(draft.none() for draft in drafts))  # "nothing may be touched"
             if not asked:
-                self._stated(part, drafts)
+                self._stated(part, drafts, len(self.drafts), STATEMENT)
             for draft in drafts if asked else ():
                 demand(draft, denied=opener.negated)
                 draft.spans += spans([node])
                 self._demanded(draft, conditions)
 
-    def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft]) -> None:
+    def _stated(self, part: Tree[Leaf], drafts: Sequence[ClauseDraft], before: int, note: str) -> None:
         """Set a statement aside; pronouns may mean what it speaks of."""
-        self.statements += [(len(self.drafts), draft) for draft in drafts]
+        self.statements += [(before, draft) for draft in drafts]
         places = spans([part])
         span = Span(min(places).start, max(s.end for s in places))
-        self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=STATEMENT))
+        self.skipped.append(Token(Kind.SKIP, self.text[span.start : span.end], span, note=note))
 
     def _demanded(self, draft: ClauseDraft, conditions: Sequence[Node]) -> None:
         if draft.none() and len(draft.direct) > 1:
@@ -312,7 +328,12 @@ class TextReading:
     def _named(self, nodes: list[Node]) -> None:
         """Read "TV on", "lid on the pot", "two scoops of ice cream": the verb was not said."""
         before = self.drafts[-1] if self.drafts else None
-        if before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
+        counted = [p for n in trees(nodes, "group") for p in phrases_of(n)]
+        if before is not None and before.direct and all(p.name in section("both_words") for p in counted):
+            for phrase in before.direct:  # "lights off, both"
+                phrase.lead = (*(p.name for p in counted), *phrase.lead)
+            before.spans += spans(nodes)
+        elif before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
             before.direct += [p for n in trees(nodes, "group") for p in phrases_of(n)]  # "TV on, channel two"
             before.spans += spans(nodes)
         elif self._orders(nodes):
@@ -327,13 +348,22 @@ class TextReading:
             else:
                 self.drafts.append(draft)
 
+    def _gapped(self, nodes: list[Node]) -> bool:
+        """Read "then the mug" and "the mug too" with the verb, and the place, of the clause before."""
+        if not self.drafts or not about_things(nodes) or trees(nodes, *_ASIDES, *_DENIALS):
+            return False
+        draft = self._contrasted(self.drafts[-1], Saying(Tree("part", nodes), [], [], [], []))
+        draft.verb.sentence, draft.verb.form = self.drafts[-1].verb.sentence, self.drafts[-1].verb.form
+        self.drafts.append(draft)
+        return True
+
     def _orders(self, nodes: Sequence[Node]) -> bool:
         """Tell whether what is only named is asked for: with a state or a place, a number, politely, or by itself."""
         if any(is_a(n, "state", "place", "exception") or isinstance(n, Leaf) for n in nodes):
             return True
         lead = next(leaves(nodes[0])).text
         counted = lead in section("indefinite") or is_number(lead)
-        polite = not section("polite").isdisjoint(self.text.lower().replace(",", " ").replace(".", " ").split())
+        polite = not section("polite").isdisjoint(re.findall(r"[a-z]+", self.text.lower()))
         return counted or polite or (self.alone and sum(1 for n in nodes for _ in leaves(n)) > 1)
 
     def _carry(self) -> None:
@@ -354,6 +384,13 @@ def _treat(draft: ClauseDraft) -> None:
     if receivers and not section("treatments").isdisjoint(deeds):
         draft.verb.stem, draft.direct = deeds[0], [p for p in draft.landmarks if p.name in receivers]
         draft.landmarks, draft.relations = [], []
+
+
+def _is_yours(part: Tree[Leaf]) -> bool:
+    """Tell whether a part says what the one who is asked does: "after you take it out"."""
+    saying = Saying.of(part)
+    subject = [t.text for n in saying.subject for t in leaves(n)]
+    return subject == [sections()["addressee"][0]] and bool(saying.verbs) and saying.complement
 
 
 def _is_pronoun(group: Tree[Leaf]) -> bool:
