@@ -161,7 +161,9 @@ class RuleDialogue(ClauseDialogue):
         if isinstance(constraints, Refusal):
             return constraints
         self.steps = steps_of(parsed, use=not self._constraints.leaves_a_trace(USE))
-        self.memory = _Progress(replace(memory, left=constraints.left))
+        kept = (noun for clause in parsed.clauses if clause.mood is Mood.KEEP for noun in clause.objects)
+        spoken = tuple(dict.fromkeys(n for noun in kept for n in self._goals.nouns.things(noun, state)[:1]))
+        self.memory = _Progress(replace(memory, left=constraints.left, recent=spoken))
         self.constraints = PlanConstraints(constraints.never, constraints.kept, constraints.untouched)
         return None
 

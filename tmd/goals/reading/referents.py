@@ -221,6 +221,10 @@ class Referents:
         verb = reading.clause.verb
         return any(ends_as(name, "back") for name in (verb, self.lexicon.canonical_verb(verb)))
 
+    def going_back(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """Return what a noun means that goes where it was: "pour the milk, and put the milk in the fridge"."""
+        return self._were_there(noun, noun, reading) if noun in reading.clause.direct else ()
+
     def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
         """Return what a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
         clause, memory = reading.clause, reading.memory
@@ -228,19 +232,17 @@ class Referents:
             return [(noun, False)]
         nouns = list(clause.antecedents.get(noun, ()))
         if self.puts_back(reading):  # "pour some milk in the bowl and put it back in the fridge": it was in the fridge
-            nouns.sort(key=lambda name: not self._was_there(name, noun, reading))
+            nouns.sort(key=lambda name: not self._were_there(name, noun, reading))
         seen = {n for name in nouns if name in memory.bound for n in memory.bound[name].names}
         return [*((name, False) for name in nouns), *((name, True) for name in memory.recent if name not in seen)]
 
-    def _was_there(self, antecedent: str, pronoun: str, reading: ClauseReading) -> bool:
-        """Return whether what was spoken of was, before anything was done, where the pronoun shall be put."""
+    def _were_there(self, antecedent: str, pronoun: str, reading: ClauseReading) -> tuple[str, ...]:
+        """Return what was spoken of and was, before anything was done, where the pronoun shall be put."""
         moments = replace(reading.moments, now=reading.memory.first)
-        things = self.nouns.things(antecedent, reading.state)
-        return any(
-            is_relation(relation, "place")
-            and self.nouns.related_now(things, relation, self.targets(place, reading), moments)
-            for relation, place in self.relations_of(pronoun, reading.clause)
-        )
+        things = self.nouns.things(antecedent, reading.memory.first)
+        places = [(r, p) for r, p in self.relations_of(pronoun, reading.clause) if is_relation(r, "place")]
+        found = (self.nouns.related_now(things, r, self.targets(place, reading), moments) for r, place in places)
+        return next(filter(None, found), ())
 
     def referents(
         self, noun: str, row: GoalRow, slot: Slot, relations: Sequence[tuple[str, str]], reading: ClauseReading
@@ -425,7 +427,8 @@ class Referents:
         """
         noun, types, reading = context.noun, context.types, context.reading
         if is_noun(noun, "everything"):
-            said = (self.nouns.contained(names, types, reading.state) for names in context.targets("inside"))
+            inside = (t for r, t in self.relations_of(noun, reading.clause) if is_relation(r, "inside"))
+            said = (self.nouns.contained(self.targets(t, reading), types, reading.state) for t in inside)
             names = next(filter(None, said), ()) or self.nouns.contained(reading.memory.recent, types, reading.state)
         else:
             names = self.nouns.constants(noun, types, reading.state)

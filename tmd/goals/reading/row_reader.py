@@ -178,8 +178,12 @@ class RowReader:
         """Return what shall hold of all that the verb acts on, and the last row that says so."""
         formulas: list[Formula] = []
         used: GoalRow | None = None
-        for unit in self.referents.units(reading):
+        units = self.referents.units(reading)
+        for unit in units:
             found = self._unit(rows, unit, reading)
+            if isinstance(found, Refusal) and len(units) > 1 and self._is_vacuous(unit, found, reading):
+                reading.notes.append(found.message)  # "every door and every lid that is open", where no lid is
+                continue
             if isinstance(found, Refusal):
                 found = self._measured(rows, unit, reading) or found
             if isinstance(found, Refusal):
@@ -191,6 +195,13 @@ class RowReader:
         either = any(clause.phrase(name).either for name in clause.direct)
         none = all(is_none(n, clause) for n in clause.direct or ("",))
         return disjunction(formulas) if either or none else conjunction(formulas), used
+
+    def _is_vacuous(self, unit: Unit, refusal: Refusal, reading: ClauseReading) -> bool:
+        """Return whether all things of a kind in some state are meant, and none of the kind is."""
+        phrase = reading.clause.phrase(unit.direct or "")
+        known = self.nouns.things(unit.direct or "", reading.state)
+        every = phrase.quantifier is Quantifier.ALL and bool(phrase.attributes)
+        return every and bool(known) and refusal.kind is RefusalKind.NO_SUCH_THING
 
     def _as_at_first(self, formula: Formula, reading: ClauseReading) -> Formula:
         """Return of several places where a thing may be put *back* the one where it was: *back on its burner*."""
@@ -283,24 +294,25 @@ class RowReader:
             return found[-1]
         fresh = [option for option in found if not option.held and not self._is_late(option, found)]
         nouns = [option for option in fresh if not option.is_object]
-        undone = [option for option in nouns if option.done or self._undoes(option.goal[0], reading)]
+        if nouns and nouns[0].done:
+            return nouns[0]
+        undone = [option for option in nouns if self._undoes(option.goal[0], reading)]
         locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
         return self._outermost(undone, reading) or next(locking, None) or next(iter(fresh), found[0])
 
     def _outermost(self, options: Sequence[_Option], reading: ClauseReading) -> _Option | None:
         """Return the first option, or one that holds what it is about: the fridge that the tub was put back in."""
-        if not options or options[0].done:
-            return options[0] if options else None
-        best = options[0]
+        best = options[0] if options else None
         for option in options[1:]:
-            inner = self._about(best, reading)
-            if self.nouns.related_now(inner, the_word("relations", "inside"), self._about(option, reading), reading.moments):
+            assert best is not None
+            inner = self._about(best)
+            if self.nouns.related_now(inner, the_word("relations", "inside"), self._about(option), reading.moments):
                 best = option
         return best
 
-    def _about(self, option: _Option, reading: ClauseReading) -> tuple[str, ...]:
+    def _about(self, option: _Option) -> tuple[str, ...]:
         """Return the things that a pronoun means by an option."""
-        return tuple(n for n in option.meant.get(reading.pronoun or "", ()) if not self.nouns.is_constant(n))
+        return tuple(n for names in option.meant.values() for n in names if not self.nouns.is_constant(n))
 
     def _locks(self, formula: Formula, reading: ClauseReading) -> bool:
         """Return whether what is asked for would have prevented what was done: to close what something was put in."""

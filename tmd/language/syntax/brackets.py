@@ -315,6 +315,8 @@ class Bracketer(Words):
         if self.stem_among(deed, "forgetting"):
             thing = self.kind(deed + 1) in NP
             return self._skip(at, self._clause_end(deed), REMINDER) if thing else deed + 1
+        if self.stem_among(deed, "stopping") and self.kind(deed + 1) is K.ING:
+            return deed + 1  # "don't stop stirring"
         end = self._negation_end(deed)
         if self._unneeded(at, deed):
             return self._skip(at, end, UNNEEDED)
@@ -597,6 +599,9 @@ class Bracketer(Words):
         self._name_target(at)
         if self.among(at, "with_words") and (end := self._absolute_end(at)):
             return self._bracket(token, K.SUB, at + 1, end)
+        if self.kind(at + 1) is K.ING and self.among(at, "replacing"):
+            self.tokens[at + 1].kind = K.V  # "instead of putting it here"
+            return self._bracket(token, K.NEG, at + 1, self._clause_end(at + 1))
         if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
             return self._manner(at)
         if self.kind(at + 1) is K.ING and self._verb is not None and self._verb.stem in section("stopping"):

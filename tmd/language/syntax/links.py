@@ -106,6 +106,8 @@ class Linker(Words):
         if before is K.END and after in NP and not self._fronted and self.follows(end, "(NP|OF)+ P"):
             self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
             return K.SEP
+        if before is K.P and after in NP:
+            return K.SEP  # "lid on, kettle in the sink"
         if before not in HEADS or after not in NP:
             return None
         then = not self._fronted and self.among(end - 1, "then_words") and not self.among(end, "other_words")

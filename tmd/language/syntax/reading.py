@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from lark import Tree
 
-from tmd.language.clause import BE, HAVE, TO, WHERE, WITH, Condition, Mood, Relation, Span
+from tmd.language.clause import BE, EXCEPT, HAVE, TO, WHERE, WITH, Condition, Mood, Quantifier, Relation, Span
 from tmd.language.lexicon.lexicon import pairs, section, sections
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
@@ -218,7 +218,7 @@ class TextReading:
         draft.relative = draft.relative or said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
-        if relation == WHERE or (named and relation):
+        if (relation == WHERE and named) or (named and relation):
             targets = [(relation, p) for p in named]
         else:
             targets = said.placed(_NOT * opener.negated)
@@ -238,11 +238,29 @@ class TextReading:
             saying = Saying.of(part)
             deed = any(t.kind is Kind.V for t in leaves(part))
             own = trees(part.children, "predicate") and (deed or draft is None or saying.complement)
+            if not own and draft is not None and self._excepted(draft, part):
+                continue
             found = saying.clauses(self._attach) if own else [self._contrasted(draft, saying)] if draft else []
             for item in found:
                 item.mood, item.spans = Mood.AVOID, spans([node])
                 item.verb.form = IMPLIED if not deed and draft is not None else item.verb.form
                 self.forbidden.append((before, item))
+
+    def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
+        """Read "the cups, but not the one on the shelf" as an exception of what is said of several things."""
+        several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
+        denied = [p for n in trees(part.children, "group") for p in phrases_of(n)]
+        alike = all(p.name in section("one_words") for p in denied)
+        if not (several and denied and alike):
+            return False
+        draft.relations += [Relation(EXCEPT, host.name, p.name) for host in several for p in denied]
+        draft.landmarks += denied
+        for place in trees(part.children, "place"):
+            targets = [p for n in trees(place.children, "group") for p in phrases_of(n)]
+            draft.relations += [Relation(next(leaves(place)).text, p.name, t.name) for p in denied for t in targets]
+            draft.landmarks += targets
+        draft.spans += spans([part])
+        return True
 
     def _number(self, draft: ClauseDraft | None, opener: Token) -> int:
         """Return how many clauses are done before a denial: those before its own, where it stands in front."""
@@ -256,8 +274,8 @@ class TextReading:
         if not about_things(nodes):
             copy.direct = list(draft.direct)
         self._attach(copy, nodes)
-        if not trees(nodes, "place"):
-            copy.take_places(draft)
+        if not trees(nodes, "place") or all(p.name in section("one_words") for p in copy.direct):
+            copy.take_places(draft)  # "…, but not the one on the shelf"
         return copy
 
     # requests that are no imperatives
