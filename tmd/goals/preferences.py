@@ -137,7 +137,8 @@ def _holder_by_now(names: Names, c: Context) -> Names:
 
 
 def _going_back(names: Names, c: Context) -> Names:
-    back = set(c.referents.going_back(c.noun, c.reading)) if c.phrase.definite and len(names) > 1 else set()
+    one = c.phrase.definite and c.phrase.quantifier is Quantifier.PLAIN and not c.phrase.plural
+    back = c.referents.going_back(c.noun, c.reading) if one and len(names) > 1 else ()
     return tuple(n for n in names if n in back)
 
 

@@ -35,9 +35,11 @@ class Commitment:
 def commitments_of(cube: Cube, clause: int, task: Task) -> tuple[Commitment, ...]:
     """Return a commitment for each literal of a goal that was reached as ``cube``.
 
-    Predicates that pass by themselves, such as ``near``, are not kept.
+    Predicates that pass by themselves, such as ``near``, are not kept. Those that only turn into others of their kind,
+    as contents do when they are cooked, are.
     """
-    passing = passing_predicates(task.problem.domain)
+    domain = task.problem.domain
+    passing = passing_predicates(domain) - {predicate for _, predicate, _ in transformations(domain)}
     found = []
     for literal, atom in _literals(cube, task):
         if atom.predicate in passing:

@@ -394,8 +394,8 @@ class GoalPass(ForwardPass):
                 yield aim, least
                 continue
             answer = self.planner.fill(state, aim)
-            dear = isinstance(answer, Filled) and isinstance(least, Filled)
-            if not (dear and len(answer.plan) > len(least.plan) + _MOST_FURTHER_STEPS):
+            both = isinstance(answer, Filled) and isinstance(least, Filled)
+            if not both or _steps(answer) <= _steps(least) + _MOST_FURTHER_STEPS:
                 yield aim, answer
         yield last, least
 
@@ -572,6 +572,11 @@ def _why_lost(refusal: Refusal | None, energy: float | None, best: float) -> str
     if energy > best:
         return f"energy {energy - best:+.4g}"
     return "it costs more in the end"
+
+
+def _steps(answer: Answer) -> int:
+    """Return the length of a plan; 0 where there is none."""
+    return len(answer.plan) if isinstance(answer, Filled) else 0
 
 
 def _step_goal(target: Target) -> StepGoal:

@@ -40,8 +40,7 @@ def _literals_within(condition: Formula) -> list[tuple[Atom, int]]:
 def passing_predicates(domain: Domain) -> frozenset[str]:
     """Return the predicates that some action deletes for every object at once, such as ``near``.
 
-    A deletion that is limited to objects related to an argument of the action does not count: a knob's own burner. Nor
-    does one that puts another fact of the same predicate in its place.
+    A deletion that is limited to objects related to an argument of the action does not count: a knob's own burner.
     """
     constants = {c.name for c in domain.constants}
     found = set()
@@ -51,11 +50,6 @@ def passing_predicates(domain: Domain) -> frozenset[str]:
             own = [t for t in effect.atom.terms if t not in constants]
             if effect.positive or not own or not all(t in quantified for t in own):
                 continue
-            if any(
-                e.positive and e.condition == effect.condition and e.atom.predicate == effect.atom.predicate
-                for e in action.effects
-            ):
-                continue  # raw food turns into cooked food
             given = {p.name for p in action.parameters}
             related = (atom for atom, negated in _literals_within(effect.condition) if not negated)
             if not any(set(atom.terms) & quantified and set(atom.terms) & given for atom in related):

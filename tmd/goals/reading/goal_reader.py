@@ -87,7 +87,11 @@ class GoalReader:
     def _own_verbs(self, clause: Clause) -> list[str]:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""
         verb = clause.verb
-        own = [*(table("verbs")["setting"] if clause.setting and is_verb(verb, "setting") else ()), verb, *self._synonyms(verb)]
+        own = [
+            *(table("verbs")["setting"] if clause.setting and is_verb(verb, "setting") else ()),
+            verb,
+            *self._synonyms(verb),
+        ]
         plain, _, particle = verb.partition("_")
         going = tuple(words_of("relations", "going"))
         goes = any(r.source in clause.direct and relations_said(r.relation, going) for r in clause.relations)

@@ -326,9 +326,7 @@ class Referents:
             return self._antecedent(antecedent, IT, types, reading)
         return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
 
-    def _left_over(
-        self, antecedent: str, bound: Bound, types: tuple[str, ...], reading: ClauseReading
-    ) -> Referent:
+    def _left_over(self, antecedent: str, bound: Bound, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         """Return *the rest* of a substance of which some was poured: what it came from."""
         whole = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
         return whole.only(n for n in whole.names if n not in bound.containers)
@@ -428,8 +426,8 @@ class Referents:
         noun, types, reading = context.noun, context.types, context.reading
         if is_noun(noun, "everything"):
             inside = (t for r, t in self.relations_of(noun, reading.clause) if is_relation(r, "inside"))
-            said = (self.nouns.contained(self.targets(t, reading), types, reading.state) for t in inside)
-            names = next(filter(None, said), ()) or self.nouns.contained(reading.memory.recent, types, reading.state)
+            places = (*context.targets("inside"), reading.memory.recent, *(self.targets(t, reading) for t in inside))
+            names = next(filter(None, (self.nouns.contained(p, types, reading.state) for p in places)), ())
         else:
             names = self.nouns.constants(noun, types, reading.state)
         spoken_of = noun in reading.memory.bound and context.phrase.quantifier is not Quantifier.OTHER

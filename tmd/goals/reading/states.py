@@ -6,10 +6,11 @@ from collections.abc import Iterator, Sequence
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, text_of, words
+from tmd.goals.grounder import Moments
 from tmd.goals.reading.noun_phrases import Bound, Mode, Referent
 from tmd.goals.reading.referents import ANY_TYPE, Referents
 from tmd.goals.sources.table import GoalRow, Slot
-from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb
+from tmd.goals.words import BE, IT, NEGATED, is_pronoun, is_relation, is_verb, the_word
 from tmd.language.clause import PERSONS
 from tmd.pddl.ground_formula import FALSE, TRUE, conjunction, disjunction
 from tmd.pddl.model import Atom, Formula, GroundAtom
@@ -70,6 +71,10 @@ class States:
         if is_verb(clause.verb, "leaving"):
             so = not (clause.result or "").startswith(NEGATED)
             fitting = [each for each in fitting if self.grounder.truth(each[0], reading.state) == so] or fitting
+            inner, then = fitting[0][1].names, Moments(reading.memory.first, reading.memory.first)
+            inside = the_word("relations", "inside")
+            held = (each for each in fitting[1:] if self.nouns.related_now(inner, inside, each[1].names, then))
+            return next(held, fitting[0])  # "take the milk out of the fridge and leave it open"
         return fitting[0]
 
     def _substance(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:

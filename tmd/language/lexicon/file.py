@@ -17,7 +17,16 @@ import yaml
 
 from tmd.diagnostics import Location, TmdError
 from tmd.files import bundled, real
-from tmd.language.lexicon.lexicon import Base, Declared, Lexicon, PhraseRow, SharedPredicate, TYPO_LENGTH, section, singular
+from tmd.language.lexicon.lexicon import (
+    TYPO_LENGTH,
+    Base,
+    Declared,
+    Lexicon,
+    PhraseRow,
+    SharedPredicate,
+    section,
+    singular,
+)
 from tmd.yaml_nodes import compose
 
 KEYS = (

@@ -75,15 +75,21 @@ class Frames(Words):
             return verb if self.kind(verb) in _DEEDS else 0
         advised = self.stem_among(at - 1, "advising") and self.among(at, "persons")
         if advised or self.among(at, "frame_joints"):
-            verb = self.past(at + 1, "(SUBJECT|PRON|AUX|IDLE|MOD)*")
-            asked = advised or (self.among(at + 1, "subjects", "persons") and not self.among(at + 1, "singular_pronouns"))
-            if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base") or self._made_deed(verb, "ed")):
-                return verb
-            glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
-            if glad and self.kind(at + 1) in NP and not self.among(at + 1, "subjects", "persons"):
-                self.tokens[at].kind = K.ENSURE
-                return at
+            return self._joined(start, at, advised=advised)
         return at if self.stem_among(self._before(at), "mind") and self._made_deed(at, "ing") else 0
+
+    def _joined(self, start: int, at: int, *, advised: bool) -> int:
+        """Return the place of the verb behind "if you could", or of "if" before what shall be; 0 for others."""
+        verb = self.past(at + 1, "(SUBJECT|PRON|AUX|IDLE|MOD)*")
+        person = self.among(at + 1, "subjects", "persons")
+        asked = advised or (person and not self.among(at + 1, "singular_pronouns"))
+        if asked and (self.kind(verb) in _DEEDS or self._made_deed(verb, "base") or self._made_deed(verb, "ed")):
+            return verb
+        glad = any(self.among(i, "welcome", "glad") or self.stem_among(i, "wishing") for i in range(start, at))
+        if not glad or person or self.kind(at + 1) not in NP:
+            return 0
+        self.tokens[at].kind = K.ENSURE
+        return at
 
     def _made_deed(self, at: int, form: str) -> bool:
         """Make "putting" of "would you mind putting" what is asked for, if it is a verb in this form."""
@@ -132,7 +138,7 @@ class Frames(Words):
         asked = question < len(self.tokens) and "?" in self.tokens[question].text
         if denied and not (asked and all(self.among(i, "frame_negations") for i in denied)):
             return False
-        modal = any(self.among(i, "frame_modals", "frame_negations") or self.tokens[i].text.endswith(("'d", "'ll")) for i in frame)
+        modal = any(self.among(i, "frame_modals", "frame_negations") for i in frame)
         wished = self.among(start, "speakers", "self_forms")
         wished = wished and any(self.stem_among(i, "framing", "advising") for i in frame)
         kindly = self.among(start, "infinitive_be")
