@@ -56,6 +56,11 @@ PREPOSITIONS: Mapping[str, tuple[str, ...]] = table("prepositions")
 """Each preposition of a pattern, with the words that it stands for; the first is the most usual."""
 
 
+def ranked(section: str, key: str) -> tuple[str, ...]:
+    """Return the words of a row of a table, in their order."""
+    return tuple(table(section)[key])
+
+
 def the_word(section: str, key: str) -> str:
     """Return the only word of a row of a table."""
     return table(section)[key][0]

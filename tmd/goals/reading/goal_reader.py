@@ -14,7 +14,7 @@ from tmd.goals.reading.row_reader import RowReader
 from tmd.goals.reading.states import States
 from tmd.goals.reasons import nearest_verbs
 from tmd.goals.sources.table import ACTIONS, GoalTable
-from tmd.goals.words import BE, family, is_relation, is_verb, relations_said, table, the_word, words_of
+from tmd.goals.words import BE, family, is_relation, is_verb, ranked, relations_said, the_word, words_of
 from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.pddl.task import Bits
@@ -87,11 +87,9 @@ class GoalReader:
     def _own_verbs(self, clause: Clause) -> list[str]:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""
         verb = clause.verb
-        own = [
-            *(table("verbs")["setting"] if clause.setting and is_verb(verb, "setting") else ()),
-            verb,
-            *self._synonyms(verb),
-        ]
+        own = [verb, *self._synonyms(verb)]
+        if clause.setting and is_verb(verb, "setting"):  # "set it to low" is to turn it, where no row is for "set"
+            own = [*ranked("verbs", "setting"), *own]
         plain, _, particle = verb.partition("_")
         going = tuple(words_of("relations", "going"))
         goes = any(r.source in clause.direct and relations_said(r.relation, going) for r in clause.relations)

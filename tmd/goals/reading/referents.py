@@ -10,7 +10,7 @@ from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseReading, Unit, words
 from tmd.goals.grounder import Grounder, Moments
 from tmd.goals.preferences import AS_BEFORE, NOT_LEFT, SUBSTANCES, THINGS, Context, choose
-from tmd.goals.reading.noun_phrases import Bound, Memory, Mode, Nouns, Referent, mode_of
+from tmd.goals.reading.noun_phrases import Memory, Mode, Nouns, Referent, mode_of
 from tmd.goals.sources.table import GoalRow, GoalTable, Slot, slot_types
 from tmd.goals.words import (
     IT,
@@ -309,27 +309,29 @@ class Referents:
         said = reading.clause.phrase(pronoun)
         relations = self.relations_of(pronoun, reading.clause)
         plain = said.definite and said.quantifier is Quantifier.PLAIN and not (said.attributes or relations)
-        within = antecedent in reading.clause.phrases and antecedent not in reading.taken
         bound = reading.memory.bound.get(antecedent)
         order = position(pronoun)
         if order is not None and bound is not None:  # "take both cans, and put the first on the table"
             names = bound.names if order < len(bound.names) else bound.names[:1]
             return Referent(antecedent, names[order:][:1] or names, definite=True)
-        if said.quantifier is Quantifier.OTHER and said.plural and bound is not None and bound.containers:
-            return self._left_over(antecedent, bound, types, reading)
-        if said.quantifier is Quantifier.OTHER and within:  # "from the table with the mug to the other one"
-            first = self.targets(antecedent, reading)
-            whole = self._named(antecedent, NounPhrase(antecedent), types, [], reading)
-            if first and set(first) < set(whole.names):
-                return whole.only(n for n in whole.names if n not in first)
+        other = self._other_one(antecedent, said, types, reading) if said.quantifier is Quantifier.OTHER else None
+        if other is not None:
+            return other
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
         return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
 
-    def _left_over(self, antecedent: str, bound: Bound, types: tuple[str, ...], reading: ClauseReading) -> Referent:
-        """Return *the rest* of a substance of which some was poured: what it came from."""
-        whole = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
-        return whole.only(n for n in whole.names if n not in bound.containers)
+    def _other_one(
+        self, antecedent: str, said: NounPhrase, types: tuple[str, ...], reading: ClauseReading
+    ) -> Referent | None:
+        """Return *the rest* of what was poured as what it came from, and *the other* as none that the clause names."""
+        bound = reading.memory.bound.get(antecedent)
+        gone = bound.containers if bound is not None and said.plural else ()
+        if not gone and antecedent in reading.clause.phrases and antecedent not in reading.taken:
+            gone = self.targets(antecedent, reading)  # "from the table with the mug to the other one"
+        whole = self._named(antecedent, NounPhrase(antecedent, definite=said.plural), types, [], reading)
+        left = [n for n in whole.names if n not in gone]
+        return whole.only(left) if gone and (left or said.plural) else None
 
     def _together(self, nouns: Sequence[str], pronoun: str, types: tuple[str, ...], reading: ClauseReading) -> Referent:
         all_of_them = the_word("nouns", "plural")

@@ -272,10 +272,8 @@ class RowReader:
             if isinstance(tried, Refusal):
                 failure = failure or tried
                 continue
-            now = self.grounder.truth(tried[0], reading.state) and bool(atoms_of(tried[0]))
-            held = now and self.grounder.truth(tried[0], reading.memory.first)
-            found.append(_Option(tried, reading.meant, held, now and not held, is_object))
-            if reading.awaited if held else (is_object and not self._is_late(found[-1], found)):
+            found.append(self._option(tried, reading, is_object=is_object))
+            if self._settles(found, reading):
                 break
         if not found:
             assert failure is not None
@@ -283,6 +281,16 @@ class RowReader:
         best = self._best(found, reading)
         reading.meant = best.meant
         return best.goal
+
+    def _option(self, goal: tuple[Formula, GoalRow], reading: ClauseReading, *, is_object: bool) -> _Option:
+        now = self.grounder.truth(goal[0], reading.state) and bool(atoms_of(goal[0]))
+        held = now and self.grounder.truth(goal[0], reading.memory.first)
+        return _Option(goal, reading.meant, held, now and not held, is_object)
+
+    def _settles(self, found: Sequence[_Option], reading: ClauseReading) -> bool:
+        """Return whether what a pronoun means is settled by the last of its options."""
+        last = found[-1]
+        return reading.awaited if last.held else last.is_object and not self._is_late(last, found)
 
     def _is_late(self, option: _Option, found: Sequence[_Option]) -> bool:
         """Return whether an object comes after a noun of which the goal holds already: that was meant then."""
@@ -296,9 +304,13 @@ class RowReader:
         nouns = [option for option in fresh if not option.is_object]
         if nouns and nouns[0].done:
             return nouns[0]
+        return self._reversed(nouns, reading) or next(iter(fresh), found[0])
+
+    def _reversed(self, nouns: Sequence[_Option], reading: ClauseReading) -> _Option | None:
+        """Return an option that undoes what was done meanwhile, or would have prevented it."""
         undone = [option for option in nouns if self._undoes(option.goal[0], reading)]
         locking = (option for option in nouns if len(nouns) > 1 and self._locks(option.goal[0], reading))
-        return self._outermost(undone, reading) or next(locking, None) or next(iter(fresh), found[0])
+        return self._outermost(undone, reading) or next(locking, None)
 
     def _outermost(self, options: Sequence[_Option], reading: ClauseReading) -> _Option | None:
         """Return the first option, or one that holds what it is about: the fridge that the tub was put back in."""

@@ -11,8 +11,7 @@ from collections.abc import Callable
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, pairs, section
 from tmd.language.syntax.joins import first_of
-from tmd.language.syntax.tokens import Kind, Token
-from tmd.language.syntax.words import BREAKS, HEADS, IDLE, LINKS, NP, Words, mark
+from tmd.language.syntax.tokens import BREAKS, HEADS, IDLE, LINKS, NP, Kind, Token, Words, mark
 
 K = Kind
 ALSO = "also"
@@ -599,10 +598,7 @@ class Bracketer(Words):
         self._name_target(at)
         if self.among(at, "with_words") and (end := self._absolute_end(at)):
             return self._bracket(token, K.SUB, at + 1, end)
-        if self.kind(at + 1) is K.ING and self.among(at, "replacing"):
-            self.tokens[at + 1].kind = K.V  # "instead of putting it here"
-            return self._bracket(token, K.NEG, at + 1, self._clause_end(at + 1))
-        if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
+        if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words", "replacing"):
             return self._manner(at)
         if self.kind(at + 1) is K.ING and self._verb is not None and self._verb.stem in section("stopping"):
             return at + 1  # "refrain from opening it"
@@ -632,8 +628,9 @@ class Bracketer(Words):
     def _manner(self, at: int) -> int:
         """Bracket "without spilling it"; "by pressing it" is a clause, which may be what was started or tried."""
         self.tokens[at + 1].kind = K.V
-        if self.among(at, "without_words"):
-            return self._bracket(self.tokens[at], K.WITHOUT, at + 1, self._clause_end(at + 1))
+        if not self.among(at, "by_words"):
+            kind = K.NEG if self.among(at, "replacing") else K.WITHOUT  # "instead of putting it here"
+            return self._bracket(self.tokens[at], kind, at + 1, self._clause_end(at + 1))
         if self._verb is not None and self.out[-1] is self._verb and self._verb.stem in section("lead_verbs"):
             self.out.pop()
         return at + 1

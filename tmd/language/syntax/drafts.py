@@ -26,7 +26,7 @@ from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.brackets import ALSO, RELATIVE
 from tmd.language.syntax.joins import SETTING, first_of
 from tmd.language.syntax.links import CHOICE
-from tmd.language.syntax.noun_phrases import Phrase, also_of, phrases_of
+from tmd.language.syntax.noun_phrases import Phrase, also_of, named_in, phrases_of
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, trees
 
@@ -104,6 +104,18 @@ class ClauseDraft:
     def places(self) -> list[Relation]:
         """Return the relations that say where something shall be."""
         return [r for r in self.relations if r.relation in section("static") | section("arrivals")]
+
+    def add(self, phrases: Sequence[Phrase], places: Sequence[Span]) -> None:
+        """Add what was named behind a state: "TV on, channel two"; "lights off, both" says how many."""
+        both = [p.name for p in phrases if p.name in section("both_words")]
+        for phrase in self.direct:
+            phrase.lead = (*both, *phrase.lead)
+        self.direct += [p for p in phrases if p.name not in both]
+        self.spans += places
+
+    def owns(self) -> bool:
+        """Tell whether it says what something has."""
+        return any(r.relation == WITH for r in self.relations)
 
     def take_places(self, other: ClauseDraft) -> None:
         """Put what it acts on where another clause puts its things."""
@@ -372,7 +384,7 @@ class Attachment:
 
 
 def _targets(node: Node) -> list[Phrase]:
-    return [p for g in trees(node.children, "group") for p in phrases_of(g)] if isinstance(node, Tree) else []
+    return named_in(node.children) if isinstance(node, Tree) else []
 
 
 def _tells(phrases: list[Phrase]) -> bool:

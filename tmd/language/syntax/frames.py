@@ -1,17 +1,15 @@
 """Set aside the frames of indirect requests: "would it be possible for you to open it" asks to open it.
 
 A frame begins a sentence with a subject or an auxiliary, names no thing, and ends at the verb that counts: behind *to*,
-behind "if you could", or with -ing behind "would you mind".
-Conditions that are only polite ("if it is no trouble") are set aside as well. Where a thing is the subject ("I'd be glad if the window
-were open"), what follows is a demand.
+behind "if you could", or with -ing behind "would you mind". Where a thing is the subject ("I'd be glad if the window
+were open"), what follows is a demand. Conditions that are only polite ("if it is no trouble") are set aside as well.
 """
 
 from __future__ import annotations
 
 from tmd.language.lexicon.lexicon import Lexicon, section
 from tmd.language.syntax.joins import first_of
-from tmd.language.syntax.tokens import Kind, Token
-from tmd.language.syntax.words import IDLE, NP, Words
+from tmd.language.syntax.tokens import IDLE, NP, Kind, Token, Words
 
 K = Kind
 _LONGEST = 18

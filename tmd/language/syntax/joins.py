@@ -8,8 +8,7 @@ from __future__ import annotations
 
 from tmd.language.clause import Span
 from tmd.language.lexicon.lexicon import Lexicon, pairs, section, sections, singular
-from tmd.language.syntax.tokens import Kind, Token, fold
-from tmd.language.syntax.words import HEADS, IDLE, NP, Words
+from tmd.language.syntax.tokens import HEADS, IDLE, NP, Kind, Token, Words, fold
 
 K = Kind
 SETTING = "setting"
@@ -180,11 +179,15 @@ class _Particles(Words):
                 if not self._several_words(at):
                     self._particle(at)
             elif verb.kind in (K.PARTICIPLE, K.FINITE, K.ING) and not self.stem_among(at, "belonging"):
-                if verb.kind is K.FINITE and self.among(at - 1, "addressee") and self._particle(at):
-                    continue
-                match = self.kind(at + 1) in (K.P, K.ADV) and self._match(verb.stem, at + 1)
-                if match is not None and match is not False and not self.follows(at + 2, "IDLE* NP"):
-                    self._absorb(verb, [self.tokens[at + 1]], f"{verb.stem}_{self.tokens[at + 1].text}")
+                self._next_particle(at)
+
+    def _next_particle(self, at: int) -> None:
+        """Join a verb of a clause with the particle right behind it."""
+        if self.among(at - 1, "addressee") and self._particle(at):
+            return  # "before you switch the light off"
+        match = self._match(self.tokens[at].stem, at + 1) if self.kind(at + 1) in (K.P, K.ADV) else None
+        if match is not None and not self.follows(at + 2, "IDLE* NP"):
+            self._absorb(self.tokens[at], [self.tokens[at + 1]], f"{self.tokens[at].stem}_{self.tokens[at + 1].text}")
 
     def _match(self, stem: str, at: int) -> bool | None:
         return self.lexicon.particle(stem, self.tokens[at].text) if at < len(self.tokens) else None

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from tmd.language.lexicon.lexicon import section
 from tmd.language.syntax.brackets import ALONE, ALSO
-from tmd.language.syntax.tokens import Kind, Token
-from tmd.language.syntax.words import HEADS, LINKS, NP, OPENERS, VERBAL, Words
+from tmd.language.syntax.tokens import HEADS, LINKS, NP, OPENERS, VERBAL, Kind, Token, Words
 
 K = Kind
 CHOICE = "choice"
@@ -101,17 +100,19 @@ class Linker(Words):
 
     def _between_things(self, before: Kind, after: Kind, end: int) -> Kind | None:
         """Classify a link between things or states: "a cup and a mug", "TV on, lamp off"."""
-        if before is K.STATE:
-            return K.CONJ if after is K.STATE else K.SEP if after in NP else None
-        if before is K.END and after in NP and not self._fronted and self.follows(end, "(NP|OF)+ P"):
+        if before is K.STATE and after is K.STATE:
+            return K.CONJ
+        if after not in NP:
+            return None
+        if before is K.END and not self._fronted and self.follows(end, "(NP|OF)+ P"):
             self.tokens[end - 1].form = ALSO  # "the book where the pen is, and the cup on the shelf"
             return K.SEP
-        if before is K.P and after in NP:
+        if before in (K.P, K.STATE):
             return K.SEP  # "lid on, kettle in the sink"
-        if before not in HEADS or after not in NP:
+        if before not in HEADS:
             return None
         then = not self._fronted and self.among(end - 1, "then_words") and not self.among(end, "other_words")
-        apart = then or self._state_of_its_own(end) or (self._fronted and self._verbless(end))
+        apart = then or self._state_of_its_own(end) or self._verbless(end)
         return K.SEP if apart else K.CONJ
 
     def _state_of_its_own(self, at: int) -> bool:
@@ -164,7 +165,7 @@ class Linker(Words):
 
     def _verbless(self, at: int) -> bool:
         """Tell whether two parts without verbs are joined: "milk in the cup, sugar in the bowl"."""
-        said = [t for t in self._unit() if t.kind in (K.P, K.STATE)]
+        said = [t for t in self._unit() if t.kind in (K.P, K.STATE)] if self._fronted else []
         together = bool(said) and said[-1].text in section("with_words")  # "a tea with milk and sugar in a mug"
         return bool(said) and not together and self.follows(at, "(NP|OF|MOD|EXC|ADV)* (P|STATE)")
 

@@ -186,7 +186,12 @@ def _head(words: list[Token], lead: list[Token]) -> Phrase:
     return Phrase(name, start, name != written, pronoun, quantity, lead=said)
 
 
+def named_in(nodes: Sequence[Node]) -> list[Phrase]:
+    """Return the phrases of the groups among some nodes."""
+    return [phrase for group in trees(nodes, "group") for phrase in phrases_of(group)]
+
+
 def about_things(nodes: Sequence[Node]) -> bool:
     """Tell whether some of the nodes is a group that names more than a person."""
-    names = (p.name for n in trees(nodes, "group") for p in phrases_of(n))
+    names = (phrase.name for phrase in named_in(nodes))
     return any(name not in PERSONS and name not in section("subjects") for name in names)

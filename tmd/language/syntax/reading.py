@@ -13,7 +13,7 @@ from tmd.language.lexicon.lexicon import pairs, section, sections
 from tmd.language.syntax.brackets import ALSO, DUTY, REASON, STATEMENT
 from tmd.language.syntax.drafts import Attachment, ClauseDraft
 from tmd.language.syntax.joins import first_of
-from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, phrases_of
+from tmd.language.syntax.noun_phrases import Phrase, about_things, is_number, named_in, phrases_of
 from tmd.language.syntax.sayings import Saying, demand, described, name_verb
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
@@ -173,16 +173,11 @@ class TextReading:
     def _ordered(self, draft: ClauseDraft, node: Tree[Leaf]) -> bool:
         """Read "after labelling it" and "before putting it away" as instructions, in their order."""
         opener, parts = next(leaves(node)).text, trees(node.children, "part")
-        verbs = [next((t for t in leaves(p) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None) for p in parts]
-        deeds = all(v is not None and (v.form == "ing" or _is_yours(p)) for v, p in zip(verbs, parts, strict=True))
-        if opener not in pairs("order_words") or not verbs or not deeds:
+        places = [i for i, d in enumerate(self.drafts) if d is draft]  # a clause of a condition is no step
+        if opener not in pairs("order_words") or not parts or not places or not all(map(_is_deed, parts)):
             return False
-        places = [i for i, d in enumerate(self.drafts) if d is draft]
-        if not places:
-            return False  # a clause of a condition is no step
         events = [d for part in parts for d in self._said(part)]
-        others = section("noticed") | section("knowing") | section("leaving") | section("intransitive")
-        if any(event.verb.stem == BE or event.verb.stem in others for event in events):
+        if not section("no_steps").isdisjoint(event.verb.stem for event in events):
             return False
         at = places[0] + (pairs("order_words")[opener] == _LATER)
         for event in events:
@@ -218,14 +213,13 @@ class TextReading:
         draft.relative = draft.relative or said.verb.stem == BE
         named = [p for p in said.direct if not p.pronoun]
         relation = WHERE if opener.text in section("where_words") else said.owning()
-        if (relation == WHERE and named) or (named and relation):
+        if named and relation:
             targets = [(relation, p) for p in named]
         else:
             targets = said.placed(_NOT * opener.negated)
-            state = said.verb.stem == BE and said.result is not None and not named
-            if state:
-                noun.attributes.append(_NOT * opener.negated + (said.result or ""))
-            elif named or not targets:  # it tells which one is meant, and must not be lost
+            if said.verb.stem == BE and said.result is not None and not named:
+                noun.attributes.append(_NOT * opener.negated + said.result)
+            elif relation != WHERE and (named or not targets):  # it tells which one is meant, and must not be lost
                 noun.attributes.append("_".join([opener.text, *said.described()]))
         for relation, phrase in targets:
             draft.relations.append(Relation(relation, noun.name, phrase.name))
@@ -249,14 +243,13 @@ class TextReading:
     def _excepted(self, draft: ClauseDraft, part: Tree[Leaf]) -> bool:
         """Read "the cups, but not the one on the shelf" as an exception of what is said of several things."""
         several = [p for p in draft.direct if p.plural or p.said().quantifier is Quantifier.ALL]
-        denied = [p for n in trees(part.children, "group") for p in phrases_of(n)]
-        alike = all(p.name in section("one_words") for p in denied)
-        if not (several and denied and alike):
+        denied = named_in(part.children)
+        if not (several and denied and section("one_words").issuperset(p.name for p in denied)):
             return False
         draft.relations += [Relation(EXCEPT, host.name, p.name) for host in several for p in denied]
         draft.landmarks += denied
         for place in trees(part.children, "place"):
-            targets = [p for n in trees(place.children, "group") for p in phrases_of(n)]
+            targets = named_in(place.children)
             draft.relations += [Relation(next(leaves(place)).text, p.name, t.name) for p in denied for t in targets]
             draft.landmarks += targets
         draft.spans += spans([part])
@@ -346,14 +339,8 @@ class TextReading:
     def _named(self, nodes: list[Node]) -> None:
         """Read "TV on", "lid on the pot", "two scoops of ice cream": the verb was not said."""
         before = self.drafts[-1] if self.drafts else None
-        counted = [p for n in trees(nodes, "group") for p in phrases_of(n)]
-        if before is not None and before.direct and all(p.name in section("both_words") for p in counted):
-            for phrase in before.direct:  # "lights off, both"
-                phrase.lead = (*(p.name for p in counted), *phrase.lead)
-            before.spans += spans(nodes)
-        elif before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
-            before.direct += [p for n in trees(nodes, "group") for p in phrases_of(n)]  # "TV on, channel two"
-            before.spans += spans(nodes)
+        if before is not None and before.elliptic and all(is_a(n, "group") for n in nodes):
+            before.add(named_in(nodes), spans(nodes))
         elif self._orders(nodes):
             start = next(leaves(nodes[0])).span.start
             verb = Token(Kind.V, HAVE, Span(start, start), stem=HAVE, form=IMPLIED)
@@ -404,8 +391,11 @@ def _treat(draft: ClauseDraft) -> None:
         draft.landmarks, draft.relations = [], []
 
 
-def _is_yours(part: Tree[Leaf]) -> bool:
-    """Tell whether a part says what the one who is asked does: "after you take it out"."""
+def _is_deed(part: Tree[Leaf]) -> bool:
+    """Tell whether a part says what the one who is asked does: "after taking it out", "before you take it out"."""
+    verb = next((t for t in leaves(part) if t.kind in (Kind.V, Kind.ING, Kind.FINITE)), None)
+    if verb is None or verb.form == "ing":
+        return verb is not None
     saying = Saying.of(part)
     subject = [t.text for n in saying.subject for t in leaves(n)]
     return subject == [sections()["addressee"][0]] and bool(saying.verbs) and saying.complement

@@ -14,7 +14,7 @@ from tmd.language.clause import BE, BRING, HAVE, OF, PUT, SET, WITH, Mood, Quant
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.joins import SETTING, first_of
-from tmd.language.syntax.noun_phrases import Phrase, about_things, phrases_of
+from tmd.language.syntax.noun_phrases import Phrase, about_things, named_in
 from tmd.language.syntax.tokens import IMPLIED, Kind, Token
 from tmd.language.syntax.tree import Leaf, Node, is_a, leaves, spans, trees
 
@@ -79,11 +79,15 @@ class Saying:
         verbs = [] if left else self.verbs
         if verbs and verbs[-1].kind is Kind.PARTICIPLE and self._passive():
             return [self._done(verb, attach) for verb in verbs if verb.kind is Kind.PARTICIPLE]
-        received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
-        if verbs and not (received and trees(self.rest, "group")):
+        owned = self._owns(verbs)
+        if verbs and not owned:
             return [self._event(v, attach) for v in verbs if v.kind is not Kind.ING or len(verbs) == 1]
-        owned = (received or self._helped("having")) and trees(self.rest, "group")
         return [self._owned(attach) if owned else self._state(attach)]
+
+    def _owns(self, verbs: Sequence[Token]) -> bool:
+        """Tell whether a thing has, or shall have, something: "the cup gets some milk"."""
+        received = bool(verbs) and verbs[-1].stem in section("receiving") and about_things(self.subject)
+        return bool(trees(self.rest, "group")) and (received or (self._helped("having") and not verbs))
 
     def _only_states(self) -> bool:
         """Tell whether its verb adds nothing to a state: "stays open", "you see a cup"."""
@@ -144,7 +148,7 @@ class Saying:
             attach(draft, self.rest, ())
             return draft
         attach(draft, self.subject, ())
-        contents = [p for n in trees(self.rest, "group") for p in phrases_of(n)]
+        contents = named_in(self.rest)
         draft.landmarks += contents
         owner = draft.direct[-1].name if draft.direct else None
         draft.relations += [Relation(WITH, owner, p.name) for p in contents]
@@ -179,11 +183,18 @@ def _demand_state(draft: ClauseDraft, *, denied: bool, none: bool) -> None:
             phrase.lead = (first_of("none_words"), *phrase.lead)
     elif none or verb.form == EXISTS:
         return
-    elif result in pairs("state_verbs") or result in section("verbs"):
-        verb.stem, draft.result = pairs("state_verbs").get(result, result), None  # "the floor should be clean"
+    else:
+        _demand_plainly(draft, result)
+
+
+def _demand_plainly(draft: ClauseDraft, result: str) -> None:
+    """Give a verb to a state that shall be: "the floor should be clean", "the cup should be on the shelf"."""
+    verb = draft.verb
+    if result in pairs("state_verbs") or result in section("verbs"):
+        verb.stem, draft.result = pairs("state_verbs").get(result, result), None
     elif draft.set_to():
         verb.stem, draft.result = SET, None
-    elif not result and draft.places() and not any(r.relation == WITH for r in draft.relations):
+    elif not result and draft.places() and not draft.owns():
         verb.stem = PUT
 
 
