@@ -199,7 +199,7 @@ class DomainKit:
             fault: Goes wrong once on the way: ``slip``, ``stuck``, ``moved`` or ``missed``.
             video: Where a film goes, an MP4 or GIF file.
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
-            trajectory: Where joints, base and things are recorded: a .jsonl, .csv, .mcap or .yaml (MoveIt) file.
+            trajectory: Where joints, base and things are recorded: a .jsonl or .mcap (ROS 2) file.
             rate: Samples of that a second of simulated time.
             robot: ``pr2`` or ``tiago_pro``.
             urdf: Another PR2 or TIAGo Pro than the packaged one.

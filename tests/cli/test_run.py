@@ -204,7 +204,7 @@ WRONG = {
         ExitCode.USAGE,
         [*KITCHEN, *TEXT, "--trajectory", "out.bag"],
         "",
-        r"error: .*'out\.bag' does not end in \.jsonl or \.csv or \.mcap or \.yaml",
+        r"error: .*'out\.bag' does not end in \.jsonl or \.mcap",
     ),
     "no-mcap": (
         ExitCode.MISSING_TOOL,

@@ -78,9 +78,9 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
-    type=_File(".jsonl", ".csv", ".mcap", ".yaml"),
+    type=_File(".jsonl", ".mcap"),
     metavar="FILE",
-    help="Record joints, base and things: out.jsonl, .csv, .mcap (ROS 2) or .yaml (MoveIt).",
+    help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
 )
 @click.option(
     "--rate",
