@@ -84,8 +84,8 @@ def test_the_record(tmd: Tmd) -> None:
     ended = tmd(*KITCHEN, "--text", "Take the cup.", "--json")
     assert (ended.code, ended.err) == (ExitCode.OK, "")
     record = json.loads(ended.out)
-    keys = ["text", "domain", "environment", "mode", "seed", "fault", "planner", "plan"]
-    keys += ["version", "environment_file", "strip", "grounding", "steps", "faults"]
+    keys = ["text", "domain", "environment", "mode", "seed", "planner", "plan"]
+    keys += ["version", "environment_file", "strip", "grounding", "steps"]
     assert list(record) == [*keys, "status", "reason", "repairs", "seconds"]
     assert (record["text"], record["mode"], record["status"]) == ("Take the cup.", "kinematic", "done")
     assert [step["action"] for step in record["steps"]] == [step["action"] for step in record["plan"]]
@@ -149,17 +149,6 @@ def test_a_thing_out_of_reach_is_told_with_what_is_in_the_way(tmd: Tmd, tmp_path
         ended.out,
         re.MULTILINE,
     ), ended.out
-
-
-@pytest.mark.usefixtures("robot")
-def test_a_fault_is_told_and_overcome(tmd: Tmd, plan: Path) -> None:
-    plan.write_text(f"{PLAN}(grasp pot1)\n")
-    ended = tmd(*KITCHEN, "--plan", plan, "--fault", "slip")
-    assert ended.code == ExitCode.OK, ended.out
-    assert re.search(
-        r"^    !  fault: pot1 slipped out of the \w+ hand\n    3\. grasp\(pot1\) ", ended.out, re.MULTILINE
-    )
-    assert re.search(r"^recovered: everything that the plan is for holds, after \d", ended.out, re.MULTILINE)
 
 
 @pytest.mark.usefixtures("robot")
