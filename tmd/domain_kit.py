@@ -178,7 +178,6 @@ class DomainKit:
         seed: int = 0,
         planner: str = IN_PROCESS,
         repairs: int = 6,
-        fault: str | None = None,
         video: str | Path | None = None,
         strip: str | Path | None = None,
         trajectory: str | Path | None = None,
@@ -196,10 +195,9 @@ class DomainKit:
             seed: Random seed; 0 leaves all things exactly where they are said to be.
             planner: Replans where the state that was observed is not the predicted one.
             repairs: Maximum number of replannings.
-            fault: Goes wrong once on the way: ``slip``, ``stuck``, ``moved`` or ``missed``.
             video: Where a film goes, an MP4 or GIF file.
             strip: Where a sheet with one picture for each instruction goes, a PNG file.
-            trajectory: Where joints, base and things are recorded: a .jsonl, .csv, .mcap or .yaml (MoveIt) file.
+            trajectory: Where joints, base and things are recorded: a .jsonl or .mcap (ROS 2) file.
             rate: Samples of that a second of simulated time.
             robot: ``pr2`` or ``tiago_pro``.
             urdf: Another PR2 or TIAGo Pro than the packaged one.
@@ -217,7 +215,6 @@ class DomainKit:
 
         from tmd.export.trajectory import SUFFIXES, open_trajectory, recorders
         from tmd.files import check_writable
-        from tmd.robot.monitor.faults import InjectedFault
         from tmd.robot.monitor.listeners import Order
         from tmd.robot.pr2.urdf import packaged_robot
         from tmd.robot.run_plan import Filming, run_plan
@@ -254,7 +251,6 @@ class DomainKit:
                 filming=filming,
                 planner=planner,
                 repairs=repairs,
-                fault=InjectedFault(fault) if fault else None,
                 kinematic=kinematic,
                 seed=seed,
                 urdf=Path(urdf) if urdf else packaged_robot(robot),
@@ -269,7 +265,6 @@ class DomainKit:
             environment=room.name,
             mode="kinematic" if kinematic else "physics",
             seed=seed,
-            fault=fault,
             planner=planner,
             plan=tuple(map(OrderRecord.of, orders)),
             version=__version__,
@@ -277,7 +272,7 @@ class DomainKit:
             strip=Path(strip).name if strip else None,
             grounding=None,
         )
-        return RecordedRun(run.execution, RunRecord.of(asked, steps.done, run.faults, run.execution, run.sim_steps))
+        return RecordedRun(run.execution, RunRecord.of(asked, steps.done, run.execution, run.sim_steps))
 
     def survey_scene(
         self,

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
+from experiments.execution.faults import InjectedFault, opportunities
 from experiments.execution.record import Case
 from tmd.diagnostics import TmdError
 from tmd.pddl.plan_file import parse_instruction, read_plan
 from tmd.pddl.reading.syntax import read_text
-from tmd.robot.monitor.faults import InjectedFault, opportunities
 from tmd.robot.skills.skill_file import Skills
 from tmd.veil.corpus import Corpus
 

@@ -8,13 +8,20 @@ from typing import TypeAlias
 
 from tmd.diagnostics import TmdError
 from tmd.json_record import JsonRecord, json_value
-from tmd.records.run import FaultRecord, RanStep
+from tmd.records.run import RanStep
 
 Key: TypeAlias = tuple[str, str, str, int]
 
 FILE = "runs.jsonl"
 FAILED = "error"
 """The status of a run that ended by a fault of the program."""
+
+
+class FaultRecord(JsonRecord):
+    """A fault that came about, and its tick of the simulation."""
+
+    what: str
+    tick: int
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cache
 
+import numpy as np
+
+from experiments.execution.faults import FaultyPerformer, InjectedFault
 from experiments.execution.judge import Judge, summary
-from experiments.execution.record import FAILED, Case, Record, TimedStep
+from experiments.execution.record import FAILED, Case, FaultRecord, Record, TimedStep
 from experiments.execution.recorder import Recorder
 from experiments.execution.trace import Trace
 from tmd.diagnostics import TmdError
@@ -21,11 +24,11 @@ from tmd.pddl.reading.reader import with_goal
 from tmd.pddl.writer import format_formula
 from tmd.planning.backends import solve
 from tmd.planning.result import Solved
-from tmd.records.run import FaultRecord, RanStep
-from tmd.robot.monitor.faults import InjectedFault
+from tmd.records.run import RanStep
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.simulator import STEPS_PER_SECOND
+from tmd.robot.skills.performer import RobotPerformer
 from tmd.robot.skills.results import ExecutedStep
 from tmd.robot.skills.skill_file import Skills, load_skills
 from tmd.veil.corpus import Corpus
@@ -88,7 +91,13 @@ def _run(case: Case) -> Record:
     problem = world.task.problem
     case = planned(case)
     orders = [Order(parse_instruction(text)) for text in case.plan]
-    fault = InjectedFault(case.fault) if case.fault else None
+    faulty: list[FaultyPerformer] = []
+
+    def disturbed(robot: RobotPerformer) -> FaultyPerformer:
+        plan = [order.instruction for order in orders]
+        faulty.append(FaultyPerformer(robot, InjectedFault(case.fault), np.random.default_rng([case.seed, 1]), plan))
+        return faulty[0]
+
     trace = Trace()
     notes = _Notes(load_skills(folder))
     with SimulationSession(environment, folder, problem, kinematic=not case.physics, seed=case.seed) as session:
@@ -97,7 +106,9 @@ def _run(case: Case) -> Record:
         recorder = Recorder(session)
         ready, cpu, steps = time.perf_counter(), time.process_time(), session.sim.steps
         notes.restart()
-        execution = session.execute(orders, (notes, recorder), repairs=case.repairs, fault=fault)
+        execution = session.execute(
+            orders, (notes, recorder), repairs=case.repairs, wrap=disturbed if case.fault else None
+        )
         seconds, used, after = time.perf_counter() - ready, time.process_time() - cpu, session.sim.steps
         digest = trace.digest() if case.twice else ""
         verdict = Judge(recorder).judge(execution)
@@ -108,8 +119,8 @@ def _run(case: Case) -> Record:
         reason=execution.reason,
         repairs=execution.repairs,
         steps=tuple(notes.steps),
-        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in session.happenings),
-        fault_missing=session.fault_missing,
+        faults=tuple(FaultRecord(what=fault.text, tick=fault.tick) for each in faulty for fault in each.log),
+        fault_missing=faulty[0].missing() if faulty else "",
         lasting=tuple(map(str, execution.lasting)),
         goal=tuple(literal for literal in case.end_state if not holds(literal, execution.state)),
         setup=round(ready - begin, 3),

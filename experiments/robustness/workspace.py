@@ -56,7 +56,7 @@ _DIED = 99
 _Saved = Callable[[int, "Case", "Outcome"], None]
 _KEPT = ("tmd.language", "tmd.planning.search", "tmd.robot", "tmd.studio", "tmd.view.markup")
 _CACHES: list[Any] = []
-_LEFTOVER = re.compile(r"\.part$|\.unfinished\.|\.ordered\.")
+_LEFTOVER = re.compile(r"\.part$|\.unfinished\.")
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
 import os
 import random
-import shutil
 from collections.abc import Callable
 from pathlib import Path
 
@@ -71,14 +69,7 @@ FILES: dict[str, tuple[str, bytes, str]] = {
     "json": ("demonstrations.jsonl", b'{"id": \n', "json-syntax"),
     "json levels": ("demonstrations.jsonl", b"[" * 100_000 + b"\n", "nested-too-deeply"),
     "json digits": ("demonstrations.jsonl", b'{"id": ' + b"9" * 5_000 + b"}", "json-syntax"),
-    "planviz digits": ("domain.planviz.json", b"9" * 5_000, "json-syntax"),
     "json list": ("demonstrations.jsonl", b"[1]\n", "bad-demonstration"),
-    "planviz": ("planviz.json", b"[1, 2", "json-syntax"),
-    "planviz list": ("domain.planviz.json", b"[1, 2]", "bad-value"),
-    "planviz levels": ("domain.planviz.json", b"[" * 100_000, "nested-too-deeply"),
-    "planviz entries": ("domain.planviz.json", b'{"excludeActions": [1]}', "bad-value"),
-    "planviz pattern": ("domain.planviz.json", b'{"excludeActions": ["(a"]}', "bad-value"),
-    "planviz parameters": ("domain.planviz.json", b'{"ignoreActionParameters": [{"action": "a"}]}', "bad-value"),
 }  # fmt: skip
 
 
@@ -186,24 +177,10 @@ def test_damaged_text_never_crashes_the_checker(seed: int, cuts: int) -> None:
         assert 1 <= place.column <= len(lines[place.line - 1]) + 1
 
 
-def test_what_is_left_out_of_drawings_is_an_action_of_the_domain(tmp_path: Path) -> None:
-    shutil.copytree(ROOT / "domains" / "kitchen", tmp_path / "kitchen")
-    file = tmp_path / "kitchen" / "domain.planviz.json"
-    assert not found(file) and json.loads(file.read_text())["excludeActions"] == ["^find$"]
-    file.write_text('{"swimlanes": true,\n "excludeActions": ["^find$", "^fidn$"]}')
-    (told,) = found(file)
-    assert (told.code, told.location.line, told.location.column) == ("unknown-action", 2, 31)
-    slow = f"(:action {'a' * 60}b :parameters () :precondition (p) :effect (not (p)))"
-    domain = f"(define (domain kitchen) (:predicates (p)) {slow})"
-    (tmp_path / "kitchen" / "domain.pddl").write_text(domain)
-    file.write_text('{"excludeActions": ["^(a+)+$"]}')
-    assert not found(file)  # and at once
-
-
 @settings(max_examples=80, deadline=None)
 @given(st.binary(max_size=200))
 def test_any_bytes_in_any_file(tmp_path_factory: pytest.TempPathFactory, data: bytes) -> None:
     folder = tmp_path_factory.mktemp("any")
-    for name in ("domain.pddl", "objects.yaml", "demonstrations.jsonl", "domain.planviz.json"):
+    for name in ("domain.pddl", "objects.yaml", "demonstrations.jsonl"):
         (folder / name).write_bytes(data)
     assert all(d.location.line > 0 for d in found(folder))

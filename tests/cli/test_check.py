@@ -128,22 +128,3 @@ def test_a_verb_that_the_check_calls_served_is_ground(tmd: Tmd, drawer: Path, ve
     ended = tmd("ground", "--domain", drawer.parent, "--environment", environment, "--text", f"{verb} the key.")
     assert (ended.code == 0) is served
     assert ("polish(key1)" in ended.out) is served
-
-
-def test_what_editors_and_github_read(tmd: Tmd, file: Path) -> None:
-    file.write_text(GOOD.replace("(p ?x)))", "(q ?x)))").replace("(p ?x))\n", "(p ?x) (100%a,b))\n", 1))
-    told = json.loads(tmd("check", file, "--json").out)["diagnostics"]
-    ended = tmd("check", file, "--format", "sarif")
-    assert ended.code == 13
-    log = json.loads(ended.out)
-    (run,) = log["runs"]
-    rules = [rule["id"] for rule in run["tool"]["driver"]["rules"]]
-    places = [result["locations"][0]["physicalLocation"] for result in run["results"]]
-    assert log["version"] == "2.1.0" and [rules[r["ruleIndex"]] for r in run["results"]] == [d["code"] for d in told]
-    assert [p["region"] for p in places] == [{"startLine": d["line"], "startColumn": d["column"]} for d in told]
-    assert {p["artifactLocation"]["uri"] for p in places} == {file.as_uri()}
-    lines = tmd("check", file, "--format", "github").out.splitlines()
-    assert [line.split(" ")[0].strip(":") for line in lines] == [d["severity"] for d in told]
-    assert any("100%25a,b" in line.split("::")[2] for line in lines)
-    assert all(f"line={d['line']},col={d['column']},title={d['code']}::" in x for d, x in zip(told, lines, strict=True))
-    assert tmd("check", file, "--format", "sarif", "--json").code == 30

@@ -56,7 +56,7 @@ def grounded(tmp_path: Path, answered: str) -> Path:
 def run_of(grounded: Path, **more: object) -> dict[str, object]:
     """A record as ``tmd run`` makes them, of the plan that was grounded."""
     told = json.loads(grounded.read_text())
-    asked = {"text": TEXT, "domain": "02_table", "environment": "corner2", "mode": "physics", "seed": 3, "fault": None}
+    asked = {"text": TEXT, "domain": "02_table", "environment": "corner2", "mode": "physics", "seed": 3}
     return {
         **asked,
         "planner": "in-process",
@@ -100,7 +100,7 @@ def test_a_log_with_its_filmstrip(here: Tmd, tmp_path: Path, grounded: Path) -> 
     assert all(text in shown.text for text in ("stopped", "no hand fits", "(near pr2 table2)", "it is near"))
     assert len(shown.of_class("tile")) == 1 and "url(data:image/png;base64," in shown.text
     whole = tmp_path / "run.json"
-    whole.write_text(json.dumps({**run_of(grounded), "steps": STEPS, "faults": [], "status": "stopped",
+    whole.write_text(json.dumps({**run_of(grounded), "steps": STEPS, "status": "stopped",
                                  "reason": "no hand fits", "repairs": 0, "seconds": 1.5}))  # fmt: skip
     here("view", "run.json", "--strip", "cup.png")
     assert (tmp_path / "run.html").read_bytes() == (tmp_path / "cup.html").read_bytes()
@@ -117,7 +117,7 @@ def test_the_log_of_a_run_that_was_killed(here: Tmd, tmp_path: Path, grounded: P
 
 
 def test_a_run_of_a_plan_file_has_no_sentence(here: Tmd, tmp_path: Path, grounded: Path) -> None:
-    record = run_of(grounded, text=None, grounding=None) | {"steps": STEPS, "status": "done", "faults": []}
+    record = run_of(grounded, text=None, grounding=None) | {"steps": STEPS, "status": "done"}
     record |= {"reason": None, "repairs": 0, "seconds": 0.5}
     (tmp_path / "run.json").write_text(json.dumps(record))
     assert here("view", "run.json").code == ExitCode.OK

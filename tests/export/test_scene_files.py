@@ -12,6 +12,8 @@ import yaml
 from tmd.diagnostics import TmdError
 from tmd.export.directory import write_directory
 from tmd.export.scene_files import FORMATS, scene_files
+from tmd.robot.scene.scene import Scene
+from tmd.robot.sim.simulator import Simulator
 from tmd.world.environment import load_room
 from tmd.world.folder import DomainFolder
 
@@ -41,9 +43,24 @@ def written(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder / "out"
 
 
-def sdf_poses(path: Path) -> dict[str, tuple[float, ...]]:
-    models = ET.fromstring(path.read_bytes()).iter("model")
-    return {m.get("name", ""): tuple(float(w) for w in (m.findtext("pose") or "").split()) for m in models}
+def test_the_urdf_puts_the_objects_where_our_scene_has_them(written: Path) -> None:
+    room, kitchen = load_room(written.parent / "mine.yaml"), DomainFolder(ROOT / "domains" / "kitchen")
+    poses = urdf_positions(written / "scene.urdf")
+    assert set(poses) == {"room", "counter1", "drawer1", "fridge1", "mug1", "milk1"}
+    with Simulator() as sim:
+        scene = Scene(sim, room, kitchen, settle=240)
+        for name in scene.blueprints:
+            assert poses[name] == pytest.approx(scene.pose_of(name).position, abs=1e-4), name
+
+
+def urdf_positions(path: Path) -> dict[str, tuple[float, ...]]:
+    """Each object's place in the world."""
+    found: dict[str, tuple[float, ...]] = {}
+    for joint in ET.fromstring(path.read_bytes()).findall("joint"):
+        parent, child, origin = joint.find("parent"), joint.find("child"), joint.find("origin")
+        if parent is not None and parent.get("link") == "world" and child is not None and origin is not None:
+            found[child.get("link", "")] = tuple(map(float, origin.get("xyz", "").split()))
+    return found
 
 
 def test_mujoco_takes_the_scene_and_nothing_falls(written: Path) -> None:
@@ -53,11 +70,10 @@ def test_mujoco_takes_the_scene_and_nothing_falls(written: Path) -> None:
     data = mujoco.MjData(model)
     mujoco.mj_resetDataKeyframe(model, data, 0)
     mujoco.mj_forward(model, data)
-    poses = sdf_poses(written / "scene.sdf")
-    assert set(poses) == {"room", "counter1", "drawer1", "fridge1", "mug1", "milk1"}
+    poses = urdf_positions(written / "scene.urdf")
     start = {name: data.body(name).xpos.copy() for name in poses}
     for name, pose in poses.items():
-        assert start[name] == pytest.approx(pose[:3], abs=1e-4), name
+        assert start[name] == pytest.approx(pose, abs=1e-4), name
     assert data.joint("fridge1_door_joint").qpos[0] == pytest.approx(1.57, abs=0.01), "the door is open"
     for _ in range(round(1 / model.opt.timestep)):
         mujoco.mj_step(model, data)
@@ -72,29 +88,14 @@ def test_the_urdf_is_one_tree_that_an_independent_reader_takes(written: Path) ->
     assert {name for name, joint in scene.joint_map.items() if joint.type == "floating"} == {
         "world_mug1_joint", "world_milk1_joint",
     }  # fmt: skip
-    for name, pose in sdf_poses(written / "scene.sdf").items():
-        assert scene.get_transform(name, "world")[:3, 3] == pytest.approx(pose[:3], abs=1e-4), name
-
-
-def test_no_two_frames_of_an_sdf_model_have_one_name(written: Path) -> None:
-    """Gazebo's own parser (libsdformat 12.3) took scenes of all bundled kinds without an error; it refuses this."""
-    root = ET.fromstring((written / "scene.sdf").read_bytes())
-    for model in root.iter("model"):
-        names = [each.get("name") for kind in ("link", "joint") for each in model.findall(kind)]
-        assert len(set(names)) == len(names), model.get("name")
-        for joint in model.findall("joint"):
-            assert joint.findtext("child") in names
-            assert joint.findtext("parent") in (*names, "world")
+    for name, pose in urdf_positions(written / "scene.urdf").items():
+        assert scene.get_transform(name, "world")[:3, 3] == pytest.approx(pose, abs=1e-4), name
 
 
 def test_joints_that_are_not_at_zero_are_told(written: Path) -> None:
     told = yaml.safe_load((written / "initial_positions.yaml").read_text())["initial_positions"]
     assert set(told) >= {"drawer1_tray_joint", "fridge1_door_joint"}
-    fridge = next(
-        m for m in ET.fromstring((written / "scene.sdf").read_bytes()).iter("model") if m.get("name") == "fridge1"
-    )
-    door = next(link for link in fridge.findall("link") if link.get("name") == "door")
-    assert float((door.findtext("pose") or "").split()[5]) == pytest.approx(-told["fridge1_door_joint"], abs=1e-3)
+    assert told["fridge1_door_joint"] == pytest.approx(1.57, abs=0.01), "the door is open"
 
 
 def test_a_format_that_is_not_there_is_refused() -> None:

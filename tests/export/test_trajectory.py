@@ -1,15 +1,13 @@
-"""Recordings of runs: one motion as JSON Lines, CSV, MCAP and MoveIt's messages, in the forms that readers know."""
+"""Recordings of runs: one motion as JSON Lines and MCAP, in the forms that readers know."""
 
 from __future__ import annotations
 
-import csv
 import json
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 import pytest
-import yaml
 
 import tmd
 from tmd.diagnostics import TmdError
@@ -19,64 +17,6 @@ from tmd.records.trajectory import SampleLine, SceneLine
 pytest.importorskip("pybullet", reason="needs the extra robot")
 ROOT = Path(__file__).parents[2]
 PLAN = [tmd.Instruction("find", ("pot1",)), tmd.Instruction("moveto", ("pot1",))]
-ROBOT_TRAJECTORY = """trajectory_msgs/JointTrajectory joint_trajectory
-trajectory_msgs/MultiDOFJointTrajectory multi_dof_joint_trajectory
-================================================================================
-MSG: trajectory_msgs/JointTrajectory
-std_msgs/Header header
-string[] joint_names
-JointTrajectoryPoint[] points
-================================================================================
-MSG: trajectory_msgs/JointTrajectoryPoint
-float64[] positions
-float64[] velocities
-float64[] accelerations
-float64[] effort
-builtin_interfaces/Duration time_from_start
-================================================================================
-MSG: trajectory_msgs/MultiDOFJointTrajectory
-std_msgs/Header header
-string[] joint_names
-MultiDOFJointTrajectoryPoint[] points
-================================================================================
-MSG: trajectory_msgs/MultiDOFJointTrajectoryPoint
-geometry_msgs/Transform[] transforms
-geometry_msgs/Twist[] velocities
-geometry_msgs/Twist[] accelerations
-builtin_interfaces/Duration time_from_start
-================================================================================
-MSG: geometry_msgs/Transform
-Vector3 translation
-Quaternion rotation
-================================================================================
-MSG: geometry_msgs/Twist
-Vector3 linear
-Vector3 angular
-================================================================================
-MSG: geometry_msgs/Vector3
-float64 x
-float64 y
-float64 z
-================================================================================
-MSG: geometry_msgs/Quaternion
-float64 x
-float64 y
-float64 z
-float64 w
-================================================================================
-MSG: std_msgs/Header
-builtin_interfaces/Time stamp
-string frame_id
-================================================================================
-MSG: builtin_interfaces/Time
-int32 sec
-uint32 nanosec
-================================================================================
-MSG: builtin_interfaces/Duration
-int32 sec
-uint32 nanosec
-"""
-"""The definition of moveit_msgs/msg/RobotTrajectory with those that it is made of, as ROS 2 has them."""
 
 
 @pytest.fixture(scope="module")
@@ -115,18 +55,6 @@ def test_the_lines_say_where_everything_was(recorded: dict[str, Path]) -> None:
     assert all(later - earlier <= 0.2 + 1 / 15 for earlier, later in pairwise(driving))
 
 
-def test_the_rows_of_csv_are_the_same(recorded: dict[str, Path]) -> None:
-    with recorded[".csv"].open(newline="") as file:
-        rows = list(csv.DictReader(file))
-    lines = samples(recorded)
-    assert len(rows) == len(lines)
-    for row, line in zip(rows, lines, strict=True):
-        assert (float(row["time"]), row["instruction"]) == (line.time, line.instruction)
-        assert float(row["torso_lift_joint"]) == line.joints["torso_lift_joint"]
-        assert tuple(float(row[f"base.{axis}"]) for axis in ("x", "y", "theta")) == line.base
-        assert tuple(float(row[f"pot1.{a}"]) for a in ("x", "y", "z", "qx", "qy", "qz", "qw")) == line.objects["pot1"]
-
-
 def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
     reading = pytest.importorskip("mcap_ros2.reader", reason="needs the extra ros")
     found: dict[str, list[Any]] = {}
@@ -145,32 +73,8 @@ def test_mcap_is_read_back_as_ros_2_messages(recorded: dict[str, Path]) -> None:
     assert [message.data for _, message in found["/instruction"] if message.data] == ["find(pot1)", "moveto(pot1)"]
 
 
-def test_motions_have_the_form_of_moveits_message(recorded: dict[str, Path]) -> None:
-    dynamic = pytest.importorskip("mcap_ros2._dynamic", reason="needs the extra ros")
-    text = recorded[".yaml"].read_text()
-    find, drive = yaml.safe_load_all(text)
-    assert "# 1. find(pot1)\n" in text
-    encode = dynamic.serialize_dynamic("moveit_msgs/RobotTrajectory", ROBOT_TRAJECTORY)["moveit_msgs/RobotTrajectory"]
-    assert len(encode(find)) > 100, "the names and types of the fields are those of the definition"
-    decode = dynamic.generate_dynamic("moveit_msgs/RobotTrajectory", ROBOT_TRAJECTORY)["moveit_msgs/RobotTrajectory"]
-    again = decode(encode(drive))
-    assert again.joint_trajectory.joint_names == drive["joint_trajectory"]["joint_names"]
-    assert len(again.multi_dof_joint_trajectory.points) == len(drive["multi_dof_joint_trajectory"]["points"]) > 2
-    assert set(find["joint_trajectory"]["joint_names"]) == {"head_pan_joint", "head_tilt_joint"}
-    assert not find["multi_dof_joint_trajectory"]["points"], "the base stands still"
-    lines = samples(recorded)
-    last = drive["multi_dof_joint_trajectory"]["points"][-1]["transforms"][0]["translation"]
-    assert (last["x"], last["y"]) == lines[-1].base[:2]
-    for message in (find, drive):
-        for kind in ("joint_trajectory", "multi_dof_joint_trajectory"):
-            times = [
-                p["time_from_start"]["sec"] + p["time_from_start"]["nanosec"] / 1e9 for p in message[kind]["points"]
-            ]
-            assert all(later > earlier for earlier, later in pairwise(times))
-
-
 def test_a_file_of_another_kind_is_refused(tmp_path: Path) -> None:
     kitchen = tmd.load_domain("kitchen", domains=ROOT / "domains", problems=ROOT / "problems")
-    with pytest.raises(TmdError, match=r"ends in one of \.jsonl, \.csv, \.mcap, \.yaml"):
+    with pytest.raises(TmdError, match=r"ends in one of \.jsonl, \.mcap"):
         kitchen.run_plan(PLAN, "kitchen1", trajectory=tmp_path / "run.bag")
     assert json.dumps(sorted(path.name for path in tmp_path.iterdir())) == "[]"

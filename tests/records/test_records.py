@@ -32,7 +32,7 @@ STEP = {
 }  # fmt: skip
 END = {"event": "end", "status": "interrupted", "reason": None}
 PLAN = {
-    "event": "plan", "text": None, "domain": "d", "environment": "e", "mode": "physics", "seed": 0, "fault": None,
+    "event": "plan", "text": None, "domain": "d", "environment": "e", "mode": "physics", "seed": 0,
     "planner": "p", "plan": [{"action": "wait", "args": [], "clause": None, "latent": False}], "version": "0",
     "environment_file": None, "strip": None, "grounding": None,
 }  # fmt: skip

@@ -10,15 +10,14 @@ import pytest
 pytest.importorskip("pybullet", reason="needs the extra robot")
 
 from experiments.execution.__main__ import CLOSING, OPENING, main
+from experiments.execution.faults import InjectedFault, opportunities
 from experiments.execution.judge import Judge
-from experiments.execution.record import FAILED, Case, Record, append, read
+from experiments.execution.record import FAILED, Case, FaultRecord, Record, append, read
 from experiments.execution.recorder import Recorder
 from experiments.execution.report import claimed_falsely, masked, report, seen
 from experiments.execution.run import corpus, holds, run, skills_of
 from tmd.diagnostics import ExitCode, TmdError
 from tmd.pddl.model import GroundAtom, Instruction
-from tmd.records.run import FaultRecord
-from tmd.robot.monitor.faults import InjectedFault, opportunities
 from tmd.robot.monitor.inference import Basis, KnownEffect
 from tmd.robot.monitor.listeners import Title
 from tmd.robot.session import SimulationSession

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -26,7 +25,6 @@ from tmd.robot.monitor.listeners import Order, Recorder, Title
 from tmd.robot.monitor.observation import Mismatch
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import ExecutedStep, Execution, SkillStatus
-from tmd.robot.video.camera import View
 from tmd.robot.video.captions import Caption, caption_height, filmstrip, under
 from tmd.robot.video.film import Film, open_movie
 from tmd.robot.video.movie_file import MovieFile
@@ -139,14 +137,6 @@ def test_the_mug_is_seen_from_the_best_angle() -> None:
     assert len(changed) > 10
     middle = np.array([SIZE[1], SIZE[0]]) / 2
     assert np.all(np.abs(changed.mean(axis=0) - middle) < middle / 3)
-
-
-def test_a_view_turns_the_shorter_way() -> None:
-    one, other = View((0, 0, 0), math.radians(170), 0.5, 2.0), View((1, 0, 0), math.radians(-170), 0.5, 4.0)
-    half = one.towards(other, 0.5)
-    assert math.remainder(half.turn - math.pi, math.tau) == pytest.approx(0.0)
-    assert (half.target[0], half.distance) == (0.5, 3.0)
-    assert math.dist(half.eye, half.target) == pytest.approx(3.0)
 
 
 # files

@@ -11,6 +11,7 @@ import pytest
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.domain_kit import DomainKit
 from tmd.pddl.model import Instruction
+from tmd.records.trajectory import SampleLine
 from tmd.robot.pr2 import tiago_pro
 from tmd.robot.pr2.kinematics import Tree
 from tmd.robot.pr2.urdf import packaged_robot, prepare
@@ -92,12 +93,12 @@ def test_poses_are_solved_by_damped_least_squares(source: Path) -> None:
 def test_it_takes_a_cup(tmp_path: Path) -> None:
     kit = DomainKit(Roots(ROOT / "domains", ROOT / "problems").corpus(DomainFolder(ROOT / "domains" / "kitchen")))
     plan = [Instruction(name, ("cup1",)) for name in ("find", "moveto", "grasp")]
-    file = tmp_path / "run.csv"
+    file = tmp_path / "run.jsonl"
     run = kit.run_plan(plan, "kitchen1", kinematic=True, robot="tiago_pro", trajectory=file)
     assert run.execution.status == "done", run.execution.reason
     assert "(holding pr2 cup1)" in map(str, run.execution.steps[-1].state)
-    columns = file.read_text().splitlines()[0].split(",")
-    assert {"arm_left_1_joint", "gripper_right_finger_joint", "head_2_joint"} <= set(columns), "its own names"
+    sample = SampleLine.from_text(file.read_text().splitlines()[1], "run")
+    assert {"arm_left_1_joint", "gripper_right_finger_joint", "head_2_joint"} <= set(sample.joints), "its own names"
 
 
 def test_a_robot_without_hands_is_refused(source: Path, tmp_path: Path) -> None:

@@ -55,7 +55,7 @@ def test_a_file_without_end_is_not_read_to_its_end(tmd: Tmd, arguments: tuple[st
 def test_a_log_that_names_nothing(tmd: Tmd, tmp_path: Path, change: dict[str, object], told: str) -> None:
     plan = {
         "event": "plan", "text": "Take the pot.", "domain": "kitchen", "environment": "kitchen1", "mode": "kinematic",
-        "seed": 0, "fault": None, "planner": "in-process", "plan": [], "version": "0.1.0",
+        "seed": 0, "planner": "in-process", "plan": [], "version": "0.1.0",
         "environment_file": None, "strip": None, "grounding": None,
     }  # fmt: skip
     (tmp_path / "log.jsonl").write_text(json.dumps(plan | change) + "\n")

@@ -135,7 +135,7 @@ def test_names_and_texts_are_only_text() -> None:
             (PlannedStep(step.instruction, HOSTILE, HOSTILE),),
             plans=(plan,),
             refusals=(RejectedProposal(0, HOSTILE, HOSTILE),),
-            ran=Ran(HOSTILE, HOSTILE, steps=(done,), faults=(HOSTILE,)),
+            ran=Ran(HOSTILE, HOSTILE, steps=(done,)),
             made=((HOSTILE, HOSTILE),),
         )
     )

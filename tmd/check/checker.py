@@ -110,9 +110,7 @@ def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
     return found
 
 
-DATA_FILES = frozenset(
-    {"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "planviz.json", "demonstrations.jsonl"}
-)
+DATA_FILES = frozenset({"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "demonstrations.jsonl"})
 """The files of domains and problems that are no PDDL, beside environments."""
 _FIRST = ("domain.pddl", "objects.yaml")
 """What the other files of a folder are checked against."""
@@ -170,7 +168,7 @@ class Checker:
 
     def check_file(self, file: Path) -> None:
         """Check one file, by what it is."""
-        if file.suffix in (".yaml", ".yml", ".jsonl", ".json"):
+        if file.suffix in (".yaml", ".yml", ".jsonl"):
             self._data.check(file)
         else:
             self._pddl(file)
@@ -346,7 +344,7 @@ def _is_ours(path: Path) -> bool:
     """Whether a file of a directory is one that tmd reads; other YAML may lie there as well."""
     if path.suffix in (".yaml", ".yml"):
         return path.name in DATA_FILES or path.parent.name in ("environments", BASES)
-    return path.suffix == ".pddl" or path.name in DATA_FILES or path.name.endswith(".planviz.json")
+    return path.suffix == ".pddl" or path.name in DATA_FILES
 
 
 def _line(place: Location) -> str | None:

@@ -302,9 +302,8 @@ class DataFiles:
             "skills.yaml": self._skills,
             "templates.yaml": self._templates,
         }
-        others = {".jsonl": self._demonstrations, ".json": self._planviz}
         other = self._base_lexicon if file.parent.name == BASES else self._environment
-        check = known.get(file.name) or others.get(file.suffix, other)
+        check = self._demonstrations if file.suffix == ".jsonl" else known.get(file.name, other)
         self._try(check, file)
 
     def _try(self, check: Callable[[Path], object], file: Path) -> None:
@@ -417,11 +416,6 @@ class DataFiles:
         from tmd.evaluation.models.template_file import load_templates
 
         load_templates(self._folder(file))
-
-    def _planviz(self, file: Path) -> None:
-        from tmd.check.planviz import check_planviz
-
-        check_planviz(file, self._report(file))
 
     def _environment(self, file: Path) -> None:
         key = real(file)

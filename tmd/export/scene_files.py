@@ -1,7 +1,7 @@
-"""The robot's room of an environment for other simulators: URDF, SDF and MJCF, meshes and joint positions beside them.
+"""The robot's room of an environment for other simulators: URDF and MJCF, meshes and joint positions beside them.
 
-All three come from the same links: each object's, with its name before those of its links. The URDF is one tree under
-the link ``world``, furniture on fixed joints and things on floating ones. MJCF is what MuJoCo makes of that tree.
+The URDF is one tree under the link ``world``, furniture on fixed joints and things on floating ones; the names of links
+begin with the name of their object. MuJoCo compiles the MJCF from that tree.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ import yaml
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest
 from tmd.robot.assets.room import build_room
-from tmd.robot.pr2.kinematics import origin
 from tmd.robot.scene.scene import Scene
 from tmd.robot.sim.box_mesh import CUBE
 from tmd.robot.sim.pose import Pose, Vector
@@ -27,7 +26,7 @@ from tmd.robot.sim.simulator import Simulator
 from tmd.world.environment import Environment
 from tmd.world.folder import DomainFolder
 
-FORMATS = ("urdf", "sdf", "mjcf")
+FORMATS = ("urdf", "mjcf")
 WORLD, ROOM = "world", "room"
 _MESHES = "meshes"
 _SETTLED = 240
@@ -53,8 +52,8 @@ def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[s
         formats: Some of :data:`FORMATS`.
 
     Returns:
-        ``scene.urdf``, ``scene.sdf`` and ``scene.xml`` (MJCF) as far as they are asked for; ``meshes/`` for what is
-        not made of boxes and cylinders; ``initial_positions.yaml``, the joints that are not at 0.
+        ``scene.urdf`` and ``scene.xml`` (MJCF) as far as they are asked for; ``meshes/`` for what is not made of boxes
+        and cylinders; ``initial_positions.yaml``, the joints that are not at 0.
 
     Raises:
         MissingToolError: pybullet is not installed, or MuJoCo for MJCF.
@@ -78,8 +77,6 @@ def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[s
     urdf = _urdf(environment.name, parts)
     if "urdf" in formats:
         files["scene.urdf"] = _text(urdf)
-    if "sdf" in formats:
-        files["scene.sdf"] = _text(_sdf(environment.name, parts, positions))
     if "mjcf" in formats:
         files["scene.xml"] = _mjcf(urdf, meshes, positions)
     files |= {f"{_MESHES}/{name}": data for name, data in meshes.items()}
@@ -88,7 +85,7 @@ def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[s
     return files
 
 
-# ---------------------------------------------------------------------- what all have in common
+# ---------------------------------------------------------------------- what both have in common
 
 
 def _collect(parts: list[_Part]) -> dict[str, bytes]:
@@ -123,7 +120,7 @@ def _named(part: _Part, link: str) -> str:
 
 
 def _joint(owner: str, name: str) -> str:
-    """A joint's name in the scene, which is no link's: in SDF both are names of frames."""
+    """A joint's name in the scene, which differs from every link's."""
     return f"{owner}_{name}_joint"
 
 
@@ -176,139 +173,6 @@ def _urdf(name: str, parts: list[_Part]) -> ET.Element:
     return whole
 
 
-# ---------------------------------------------------------------------- SDF
-
-
-def _sdf(name: str, parts: list[_Part], positions: Mapping[str, float]) -> ET.Element:
-    """SDFormat 1.7: a world with a model for each object."""
-    whole = ET.Element("sdf", version="1.7")
-    world = ET.SubElement(whole, "world", name=name)
-    ET.SubElement(world, "gravity").text = "0 0 -9.81"
-    light = ET.SubElement(world, "light", name="sun", type="directional")
-    ET.SubElement(light, "direction").text = "-0.3 0.4 -1"
-    for part in parts:
-        model = ET.SubElement(world, "model", name=part.name)
-        ET.SubElement(model, "static").text = "false" if part.item or part.robot.find("joint") is not None else "true"
-        ET.SubElement(model, "pose").text = _words((*part.pose.position, *_angles(part.pose)))
-        carriers = {}
-        for joint in part.robot.findall("joint"):
-            parent, child = joint.find("parent"), joint.find("child")
-            assert parent is not None
-            assert child is not None
-            carriers[child.get("link", "")] = (joint, parent.get("link", ""))
-        frames: dict[str, Pose] = {}
-        for link in part.robot.findall("link"):
-            _sdf_link(model, part, link, _frame(part, link.get("name", ""), carriers, positions, frames))
-        for below, (carrier, above) in carriers.items():
-            _sdf_joint(model, carrier, above, below)
-        if not part.item and part.robot.find("joint") is not None:
-            fixed = ET.SubElement(model, "joint", name=f"{WORLD}_joint", type="fixed")
-            ET.SubElement(fixed, "parent").text = WORLD
-            ET.SubElement(fixed, "child").text = "root"
-    return whole
-
-
-def _frame(
-    part: _Part,
-    link: str,
-    carriers: Mapping[str, tuple[ET.Element, str]],
-    positions: Mapping[str, float],
-    known: dict[str, Pose],
-) -> Pose:
-    """Where a link is in its model, with its joints where they are at the start: SDF counts positions from there."""
-    if link in known:
-        return known[link]
-    if link not in carriers:
-        return Pose((0.0, 0.0, 0.0))
-    joint, parent = carriers[link]
-    pose = _frame(part, parent, carriers, positions, known) * Pose.from_matrix(origin(joint.find("origin")))
-    at, axis = positions.get(_joint(part.name, joint.get("name", "")), 0.0), _axis(joint)
-    if joint.get("type") == "prismatic":
-        pose = pose * Pose((axis[0] * at, axis[1] * at, axis[2] * at))
-    elif joint.get("type") in ("revolute", "continuous"):
-        pose = pose * Pose.about(axis, at)
-    known[link] = pose
-    return pose
-
-
-def _axis(joint: ET.Element) -> Vector:
-    found = joint.find("axis")
-    x, y, z = (float(word) for word in ("1 0 0" if found is None else found.get("xyz", "1 0 0")).split())
-    length = math.sqrt(x * x + y * y + z * z) or 1.0
-    return x / length, y / length, z / length
-
-
-def _sdf_link(model: ET.Element, part: _Part, link: ET.Element, pose: Pose) -> None:
-    name = link.get("name", "")
-    made = ET.SubElement(model, "link", name=name)
-    ET.SubElement(made, "pose").text = _words((*pose.position, *_angles(pose)))
-    inertial = link.find("inertial")
-    if inertial is not None:
-        mass, inertia = inertial.find("mass"), inertial.find("inertia")
-        told = ET.SubElement(made, "inertial")
-        place = Pose.from_matrix(origin(inertial.find("origin")))
-        ET.SubElement(told, "pose").text = _words((*place.position, *_angles(place)))
-        ET.SubElement(told, "mass").text = "1" if mass is None else mass.get("value", "1")
-        if inertia is not None:
-            tensor = ET.SubElement(told, "inertia")
-            for key in ("ixx", "ixy", "ixz", "iyy", "iyz", "izz"):
-                ET.SubElement(tensor, key).text = inertia.get(key, "0")
-    for kind in ("visual", "collision"):
-        for number, shape in enumerate(link.findall(kind)):
-            element = ET.SubElement(made, kind, name=f"{kind}{number}")
-            place = Pose.from_matrix(origin(shape.find("origin")))
-            ET.SubElement(element, "pose").text = _words((*place.position, *_angles(place)))
-            _sdf_geometry(element, shape)
-            if kind == "visual":
-                _sdf_colour(element, part, shape)
-
-
-def _sdf_geometry(element: ET.Element, shape: ET.Element) -> None:
-    geometry = ET.SubElement(element, "geometry")
-    found = next(iter(shape.find("geometry") or ()), None)
-    assert found is not None, "every shape has one"
-    made = ET.SubElement(geometry, found.tag)
-    if found.tag == "mesh":
-        ET.SubElement(made, "uri").text = found.get("filename", "")
-        ET.SubElement(made, "scale").text = found.get("scale", "1 1 1")
-        return
-    for key in ("size", "radius", "length"):
-        if found.get(key) is not None:
-            ET.SubElement(made, key).text = found.get(key)
-
-
-def _sdf_colour(element: ET.Element, part: _Part, shape: ET.Element) -> None:
-    named = shape.find("material")
-    if named is None:
-        return
-    colour = named.find("color")
-    if colour is None:
-        same = (each for each in part.robot.findall("material") if each.get("name") == named.get("name"))
-        colour = next((each.find("color") for each in same), None)
-    if colour is not None:
-        material = ET.SubElement(element, "material")
-        for key in ("ambient", "diffuse"):
-            ET.SubElement(material, key).text = colour.get("rgba", "")
-
-
-def _sdf_joint(model: ET.Element, joint: ET.Element, parent: str, child: str) -> None:
-    kind = joint.get("type", "fixed")
-    made = ET.SubElement(
-        model, "joint", name=f"{joint.get('name')}_joint", type="revolute" if kind == "continuous" else kind
-    )
-    ET.SubElement(made, "parent").text = parent
-    ET.SubElement(made, "child").text = child
-    if kind == "fixed":
-        return
-    axis = ET.SubElement(made, "axis")
-    ET.SubElement(axis, "xyz").text = _words(_axis(joint))
-    limit = joint.find("limit")
-    if limit is not None and kind != "continuous":
-        told = ET.SubElement(axis, "limit")
-        for key in ("lower", "upper", "effort", "velocity"):
-            ET.SubElement(told, key).text = limit.get(key, "0")
-
-
 # ---------------------------------------------------------------------- MJCF
 
 
@@ -322,7 +186,7 @@ def _mjcf(urdf: ET.Element, meshes: Mapping[str, bytes], positions: Mapping[str,
         import mujoco
     except ImportError as error:
         raise MissingToolError(
-            "MJCF is written by MuJoCo", hint="pip install 'tmd[mujoco]', or ask for urdf or sdf"
+            "MJCF is written by MuJoCo", hint="pip install 'tmd[mujoco]', or ask for urdf"
         ) from error
     whole = ET.fromstring(ET.tostring(urdf))
     settings = ET.SubElement(whole, "mujoco")

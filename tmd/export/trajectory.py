@@ -1,39 +1,29 @@
-"""Recordings of runs as files: JSON Lines, CSV, MCAP for ROS 2, and motions for MoveIt.
+"""Recordings of runs as files: JSON Lines, and MCAP for ROS 2.
 
 =========== ==============================================================================================
 ``.jsonl``  one object a line (:mod:`tmd.records.trajectory`)
-``.csv``    one row a sample
 ``.mcap``   ROS 2 messages (``sensor_msgs/JointState``, ``tf2_msgs/TFMessage``, ``std_msgs/String``) in CDR
-``.yaml``   ``moveit_msgs/RobotTrajectory``: one document for each instruction that moves something
 =========== ==============================================================================================
 """
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from math import cos, sin
 from pathlib import Path
 from types import TracebackType
 from typing import IO, Any, Self
 
-import yaml
-
 from tmd.diagnostics import MissingToolError, OutputError
-from tmd.json_record import rounded
 from tmd.records.trajectory import SampleLine, SceneLine, pose_record
 from tmd.robot.session import SimulationSession
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample, StateRecorder
 
-SUFFIXES = (".jsonl", ".csv", ".mcap", ".yaml")
+SUFFIXES = (".jsonl", ".mcap")
 DEFAULT_RATE = 10.0
 WORLD, BASE = "map", "base_footprint"
 """Frames, by the names that ROS has for them."""
-WORLD_JOINT = "world_joint"
-"""MoveIt's usual name for the joint between the two."""
-_MOVED = 1e-4
-"""Radians or metres: what moves less in an instruction is at rest."""
 _HEADER = (
     "std_msgs/Header header\n", "=" * 80 + "\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n",
     "=" * 80 + "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",
@@ -60,9 +50,7 @@ def open_trajectory(path: Path) -> TrajectoryFile:
     Raises:
         MissingToolError: What writes it is not installed.
     """
-    kinds: dict[str, Callable[[Path], TrajectoryFile]] = {
-        ".jsonl": _JsonLines, ".csv": _Csv, ".mcap": _Mcap, ".yaml": _MoveIt,
-    }  # fmt: skip
+    kinds: dict[str, Callable[[Path], TrajectoryFile]] = {".jsonl": _JsonLines, ".mcap": _Mcap}
     return kinds[path.suffix](path)
 
 
@@ -154,32 +142,6 @@ class _JsonLines(TrajectoryFile):
         self._out.write(SampleLine.of(sample).to_line())
 
 
-class _Csv(TrajectoryFile):
-    """The first row names the columns: things have ``.x .y .z .qx .qy .qz .qw``."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
-        self._columns: list[str] = []
-
-    def _add(self, sample: Sample) -> None:
-        base = dict(zip(("base.x", "base.y", "base.theta"), map(rounded, sample.base), strict=True))
-        row: dict[str, object] = {
-            "time": sample.time,
-            "number": sample.number,
-            "instruction": sample.instruction,
-            **base,
-        }
-        row |= {name: rounded(value) for name, value in (*sample.joints.items(), *sample.object_joints.items())}
-        for name, pose in sample.objects.items():
-            axes = (f"{name}.{axis}" for axis in ("x", "y", "z", "qx", "qy", "qz", "qw"))
-            row |= dict(zip(axes, pose_record(pose), strict=True))
-        writer = csv.writer(self._out, lineterminator="\n")
-        if not self._columns:
-            self._columns = list(row)
-            writer.writerow(self._columns)
-        writer.writerow([row[column] for column in self._columns])
-
-
 class _Mcap(TrajectoryFile):
     """``/joint_states``, ``/object_joint_states``, ``/tf``, ``/tf_static`` and ``/instruction``, from time 0 on."""
 
@@ -188,7 +150,7 @@ class _Mcap(TrajectoryFile):
         try:
             from mcap_ros2.writer import Writer
         except ImportError as error:
-            hint = "pip install 'tmd[ros]', or ask for a .jsonl or .csv file"
+            hint = "pip install 'tmd[ros]', or ask for a .jsonl file"
             raise MissingToolError("MCAP files need the package mcap-ros2-support", hint=hint) from error
         self._kind: Any = Writer
         self._said: tuple[int, str] | None = None
@@ -223,87 +185,6 @@ class _Mcap(TrajectoryFile):
 
     def _finish(self) -> None:
         self._writer.finish()
-
-
-class _Plain(yaml.SafeDumper):
-    """Writes everything out, where a value stands twice as well."""
-
-    def ignore_aliases(self, data: object) -> bool:
-        """Always."""
-        return True
-
-
-class _MoveIt(TrajectoryFile):
-    """A document for each instruction, written when it is over: the joints that it moves, and the base if it drives."""
-
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
-        self._samples: list[Sample] = []
-
-    def _begin(self, what: Recorded) -> None:
-        self._out.write(f"# moveit_msgs/msg/RobotTrajectory, one document an instruction; frames {WORLD} and {BASE}\n")
-
-    def _add(self, sample: Sample) -> None:
-        before = self._samples[-1] if self._samples else None
-        if before is not None and (before.number, before.instruction) != (sample.number, sample.instruction):
-            self._flush()
-        self._samples.append(sample)
-
-    def _flush(self) -> None:
-        samples, self._samples = self._samples, []
-        if samples and samples[0].instruction:
-            message = robot_trajectory(samples)
-            if message is not None:
-                text = yaml.dump(message, Dumper=_Plain, sort_keys=False, default_flow_style=None, width=120)
-                self._out.write(f"---\n# {samples[0].number}. {samples[0].instruction}\n{text}")
-
-    def _finish(self) -> None:
-        self._flush()
-
-
-def robot_trajectory(samples: Sequence[Sample]) -> dict[str, Any] | None:
-    """Samples as a ``moveit_msgs/msg/RobotTrajectory``; ``None`` where nothing moves.
-
-    Times are counted from the first sample. The joints of the robot that move are in ``joint_trajectory``, the base is
-    a planar joint of ``multi_dof_joint_trajectory``. Velocities are left to whoever times the motion anew: those of the
-    simulation are faster than a robot's.
-    """
-    times: list[float] = []
-    kept: list[Sample] = []
-    for sample in samples:  # a controller wants times that grow
-        if not times or sample.time > times[-1]:
-            times.append(sample.time)
-            kept.append(sample)
-        else:
-            kept[-1] = sample
-    first = kept[0]
-    moved = [name for name in first.joints if any(abs(s.joints[name] - first.joints[name]) > _MOVED for s in kept)]
-    drove = any(max(abs(a - b) for a, b in zip(s.base, first.base, strict=True)) > _MOVED for s in kept)
-    if len(kept) < 2 or not (moved or drove):
-        return None
-    since = [_stamp(sample.time - first.time) for sample in kept]
-    points = [
-        {
-            "positions": [rounded(sample.joints[name]) for name in moved],
-            "velocities": [], "accelerations": [], "effort": [], "time_from_start": at,
-        }
-        for sample, at in zip(kept, since, strict=True)
-    ]  # fmt: skip
-    ways = [
-        {"transforms": [_transform_of(_base(sample))], "velocities": [], "accelerations": [], "time_from_start": at}
-        for sample, at in zip(kept, since, strict=True)
-    ]
-    header = {"stamp": _stamp(0.0)}
-    return {
-        "joint_trajectory": {
-            "header": {**header, "frame_id": BASE}, "joint_names": moved, "points": points if moved else [],
-        },
-        "multi_dof_joint_trajectory": {
-            "header": {**header, "frame_id": WORLD},
-            "joint_names": [WORLD_JOINT] if drove else [],
-            "points": ways if drove else [],
-        },
-    }  # fmt: skip
 
 
 def _joint_state(time: float, positions: Mapping[str, float], velocities: Mapping[str, float]) -> dict[str, object]:

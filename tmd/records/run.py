@@ -16,7 +16,6 @@ from tmd.robot.sim.engine import STEPS_PER_SECOND
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from tmd.robot.monitor.faults import Happening
     from tmd.robot.monitor.listeners import Order, Title
     from tmd.robot.monitor.observation import Mismatch
     from tmd.robot.skills.results import ExecutedStep, Execution
@@ -127,13 +126,6 @@ class RanStep(JsonRecord):
         return self.failure or "; ".join(map(str, self.mismatches)) or self.seen
 
 
-class FaultRecord(JsonRecord):
-    """What was made to go wrong, and at which tick of the simulation."""
-
-    what: str
-    tick: int
-
-
 class RunRequest(JsonRecord):
     """What was to be done, and how."""
 
@@ -142,7 +134,6 @@ class RunRequest(JsonRecord):
     environment: str
     mode: Literal["physics", "kinematic"]
     seed: int
-    fault: str | None
     planner: str
     plan: tuple[OrderRecord, ...]
     version: str
@@ -159,11 +150,9 @@ class RunRecord(RunRequest):
     REMAKE = "make it again with tmd run --json"
 
     steps: tuple[RanStep, ...]
-    faults: tuple[FaultRecord, ...]
     lasting: tuple[MismatchRecord, ...] = Field(
         default=(), description="What is otherwise in the end than the plan would have left it."
     )
-    fault_missing: str | None = Field(default=None, description="Why the fault that was asked for did not come about.")
     status: Literal[
         "done", "recovered", "stopped", "not_grounded", "question", "unreachable", "gave_up", "invalid_plan"
     ]
@@ -176,24 +165,19 @@ class RunRecord(RunRequest):
         cls,
         asked: RunRequest,
         steps: Sequence[RanStep],
-        faults: Sequence[Happening],
         execution: Execution,
         ticks: int,
-        missing: str = "",
     ) -> RunRecord:
         """A run that is over.
 
         Args:
             asked: What was to be done.
             steps: What was done, in order.
-            faults: The faults that came about.
             execution: How it ended.
             ticks: Steps of the physics.
-            missing: Why the fault that was asked for did not come about.
         """
-        happened = tuple(FaultRecord(what=fault.text, tick=fault.tick) for fault in faults)
-        ended = how_it_ended(execution, ticks, missing)
-        return cls.model_validate({**asked.given(), "steps": tuple(steps), "faults": happened, **ended})
+        ended = how_it_ended(execution, ticks)
+        return cls.model_validate({**asked.given(), "steps": tuple(steps), **ended})
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,11 +193,8 @@ class RecordedRun:
     record: RunRecord
 
 
-def how_it_ended(execution: Execution, ticks: int, missing: str) -> dict[str, Any]:
-    """The keys of a record, or of the last line of a log, that say how a run of ``ticks`` steps of physics ended.
-
-    ``missing`` is why the fault that was asked for did not come about.
-    """
+def how_it_ended(execution: Execution, ticks: int) -> dict[str, Any]:
+    """The keys of a record, or of the last line of a log, that say how a run of ``ticks`` steps of physics ended."""
     ended: dict[str, Any] = {
         "status": execution.status.value,
         "reason": execution.reason or None,
@@ -222,8 +203,6 @@ def how_it_ended(execution: Execution, ticks: int, missing: str) -> dict[str, An
     }
     if execution.lasting:
         ended["lasting"] = tuple(map(MismatchRecord.of, execution.lasting))
-    if missing:
-        ended["fault_missing"] = missing
     return ended
 
 
@@ -250,12 +229,6 @@ class BeginEvent(_Event):
     instruction: str
 
 
-class FaultEvent(FaultRecord, _Event):
-    """A fault came about."""
-
-    event: Literal["fault"]
-
-
 class StepEvent(RanStep, _Event):
     """An instruction is over."""
 
@@ -271,12 +244,11 @@ class EndEvent(_Event):
     repairs: int = 0
     seconds: float = 0.0
     lasting: tuple[MismatchRecord, ...] = ()
-    fault_missing: str | None = None
 
 
-RunEvent: TypeAlias = PlanEvent | BeginEvent | FaultEvent | StepEvent | EndEvent
+RunEvent: TypeAlias = PlanEvent | BeginEvent | StepEvent | EndEvent
 _EVENTS: dict[str, type[RunEvent]] = {
-    "plan": PlanEvent, "begin": BeginEvent, "fault": FaultEvent, "step": StepEvent, "end": EndEvent,
+    "plan": PlanEvent, "begin": BeginEvent, "step": StepEvent, "end": EndEvent,
 }  # fmt: skip
 
 

@@ -10,7 +10,6 @@ from pathlib import Path
 from tmd.pddl.model import Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS
-from tmd.robot.monitor.faults import Happening, InjectedFault
 from tmd.robot.monitor.listeners import Listener, Order
 from tmd.robot.session import SimulationSession
 from tmd.robot.skills.results import Execution
@@ -49,12 +48,10 @@ class PlanRun:
     Attributes:
         execution: How it ended, with every step.
         sim_steps: Steps of the physics from the making of the scene on.
-        faults: The injected faults that came about.
     """
 
     execution: Execution
     sim_steps: int
-    faults: tuple[Happening, ...] = ()
 
 
 def run_plan(
@@ -67,7 +64,6 @@ def run_plan(
     filming: Filming | None = None,
     planner: str = IN_PROCESS,
     repairs: int = MOST_REPAIRS,
-    fault: InjectedFault | None = None,
     kinematic: bool = False,
     seed: int = 0,
     urdf: Path | None = None,
@@ -84,7 +80,6 @@ def run_plan(
         filming: What is filmed.
         planner: Replans where the state that was observed is not the predicted one.
         repairs: Maximum number of replannings.
-        fault: Goes wrong once on the way; where is drawn by the seed.
         kinematic: Set joints along their paths instead of driving motors.
         seed: Random seed; 0 leaves all things exactly where they are said to be.
         urdf: Another PR2 than the packaged one.
@@ -114,7 +109,7 @@ def run_plan(
                 stack.callback(film.write_strip, filming.strip)
             film.open(filming.heading, filming.text)
             listeners.append(film)
-        execution = session.execute(orders, listeners, planner=planner, repairs=repairs, fault=fault)
+        execution = session.execute(orders, listeners, planner=planner, repairs=repairs)
         if film is not None:
             film.close(execution)
-        return PlanRun(execution, session.sim.steps, tuple(session.happenings))
+        return PlanRun(execution, session.sim.steps)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -13,7 +13,6 @@ import numpy as np
 from tmd.pddl.model import GroundAtom, Problem
 from tmd.planning.backends import IN_PROCESS
 from tmd.robot.monitor.executor import MOST_REPAIRS, Executor, Performer
-from tmd.robot.monitor.faults import FaultyPerformer, Happening, InjectedFault
 from tmd.robot.monitor.listeners import Listener, Order, Recorder, Title
 from tmd.robot.monitor.observation import Observer
 from tmd.robot.pr2.pr2 import Pr2
@@ -51,8 +50,6 @@ class SimulationSession:
         sim: The simulation.
         cell: Robot and scene.
         skills: The domain's.
-        happenings: The faults that came about.
-        fault_missing: After a run, why the fault that was asked for did not come about, if so.
 
     Raises:
         MissingToolError: pybullet or the robot's model is not installed, or no window can be opened.
@@ -72,10 +69,7 @@ class SimulationSession:
         pictures: bool = False,
     ) -> None:
         self.problem = problem
-        self._seed = seed
         self.skills = load_skills(folder)
-        self.happenings: list[Happening] = []
-        self.fault_missing = ""
         self.sim = Simulator(gui=gui, pictures=pictures)
         try:
             scene = Scene(self.sim, environment, folder, rng=np.random.default_rng(seed) if seed else None)
@@ -104,7 +98,7 @@ class SimulationSession:
         *,
         planner: str = IN_PROCESS,
         repairs: int = MOST_REPAIRS,
-        fault: InjectedFault | None = None,
+        wrap: Callable[[RobotPerformer], Performer] | None = None,
     ) -> Execution:
         """Carry out a plan.
 
@@ -113,25 +107,19 @@ class SimulationSession:
             listeners: Who is told how it goes.
             planner: Which planner replans.
             repairs: How often.
-            fault: Goes wrong once on the way; where is drawn by the stage's seed.
+            wrap: Makes another performer of the robot; experiments inject faults with it.
 
         Returns:
             How it went; listeners were told where in the plan each step stands.
         """
         plan = [order.instruction for order in orders]
         robot = RobotPerformer(self.cell, self.skills)
-        performer: Performer = robot
-        faulty: FaultyPerformer | None = None
-        if fault is not None:
-            performer = faulty = FaultyPerformer(robot, fault, np.random.default_rng([self._seed, 1]), plan)
-            self.happenings = faulty.log
+        performer: Performer = robot if wrap is None else wrap(robot)
         recorder = Recorder(performer, orders, (_Signs(self), *listeners))
         executor = Executor(
             self.problem, self._observer, recorder, planner=planner, most_repairs=repairs, watch=recorder.watch
         )
-        execution = executor.execute(plan)
-        self.fault_missing = faulty.missing() if faulty is not None else ""
-        return execution
+        return executor.execute(plan)
 
 
 class _Signs:

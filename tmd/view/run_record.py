@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from tmd.records.run import EndEvent, FaultEvent, RanStep, RunEvent, RunRecord, StepEvent
+from tmd.records.run import EndEvent, RanStep, RunEvent, RunRecord, StepEvent
 
 UNFINISHED = "unfinished"
 
@@ -20,7 +20,6 @@ class Ran:
         repairs: How often the executor replanned.
         seconds: Simulated time.
         steps: What was done, in order.
-        faults: What was made to go wrong.
     """
 
     status: str
@@ -28,7 +27,6 @@ class Ran:
     repairs: int = 0
     seconds: float = 0.0
     steps: tuple[RanStep, ...] = ()
-    faults: tuple[str, ...] = ()
 
     def of(self, number: int, last: int) -> list[tuple[int, RanStep]]:
         """The steps that belong to place ``number`` of a plan of ``last``, each with its place in the run."""
@@ -37,16 +35,14 @@ class Ran:
 
 def ran(record: RunRecord) -> Ran:
     """A whole run."""
-    faults = tuple(fault.what for fault in record.faults)
-    return Ran(record.status, record.reason or "", record.repairs, record.seconds, record.steps, faults)
+    return Ran(record.status, record.reason or "", record.repairs, record.seconds, record.steps)
 
 
 def ran_events(events: Iterable[RunEvent]) -> Ran:
     """The lines of a log; that of a run that was killed has no end."""
     told = list(events)
     steps = tuple(event for event in told if isinstance(event, StepEvent))
-    faults = tuple(event.what for event in told if isinstance(event, FaultEvent))
     end = next((event for event in reversed(told) if isinstance(event, EndEvent)), None)
     if end is None:
-        return Ran(UNFINISHED, steps=steps, faults=faults)
-    return Ran(end.status, end.reason or "", end.repairs, end.seconds, steps, faults)
+        return Ran(UNFINISHED, steps=steps)
+    return Ran(end.status, end.reason or "", end.repairs, end.seconds, steps)

@@ -196,7 +196,7 @@ def run_found(roots: Roots, asked: ViewRequest, first: Mapping[str, Any], lines:
         done = ran(record)
     corpus, world = _scene(roots, asked, told.domain, told.environment, told.environment_file)
     strip = _strip(asked, told.strip, len(done.steps))
-    names = ("version", "planner", "mode", "seed", "fault")
+    names = ("version", "planner", "mode", "seed")
     made = {name: getattr(told, name) for name in names} | {"domain": corpus.folder.name, "environment": world.name}
     if told.grounding is not None:
         rows = made_rows({**dict(told.grounding.made_with), **made})

@@ -25,14 +25,6 @@ if TYPE_CHECKING:
 @click.option("--fix", is_flag=True, help="Apply safe fixes, then check again.")
 @click.option("--explain", metavar="VERB", help="Print all that is known of a verb, in the domains that are named.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
-@click.option(
-    "--format",
-    "form",
-    type=click.Choice(("text", "sarif", "github")),
-    default="text",
-    show_default=True,
-    help="Print text, SARIF for editors, or annotations for GitHub.",
-)
 @click.pass_obj
 def command(
     roots: Roots,
@@ -43,17 +35,14 @@ def command(
     fix: bool,
     explain: str | None,
     as_json: bool,
-    form: str,
 ) -> ExitCode:
     """Check files and folders, and tell every problem with its place and what to do.
 
     PATH is a file, a folder, or the name of a bundled domain. Ends with 0 where there are no errors, 13 otherwise.
     With --explain nothing is checked; PATH is then the name of a domain, and may be missing.
     """
-    if as_json and form != "text":
-        raise click.UsageError("give --json or --format, not both")
     if explain is not None:
-        if any((domain, strict, notes, fix, form != "text")):
+        if any((domain, strict, notes, fix)):
             raise click.UsageError("--explain takes domains and --json only")
         return _explain(roots, explain, paths, as_json)
     if not paths:
@@ -63,18 +52,16 @@ def command(
     from tmd.check.report import check_paths
 
     report = check_paths(chosen, domain=given, domains=roots.domains, problems=roots.problems, fix=fix)
-    return _told(report, strict=strict, notes=notes, as_json=as_json, form=form)
+    return _told(report, strict=strict, notes=notes, as_json=as_json)
 
 
-def _told(report: CheckReport, *, strict: bool, notes: bool, as_json: bool, form: str) -> ExitCode:
+def _told(report: CheckReport, *, strict: bool, notes: bool, as_json: bool) -> ExitCode:
     """Print what was found; return how the program ends."""
     from tmd.check.codes import Severity
 
     shown = [d for d in report.diagnostics if notes or d.severity is not Severity.NOTE]
     if as_json:
         emit_json(_all_json(report))
-    elif form != "text":
-        _annotate(form, shown)
     else:
         emit("".join(map(_text, shown)))
         emit("".join(f"{file}: fixed\n" for file in report.fixed))
@@ -94,17 +81,6 @@ def _explain(roots: Roots, verb: str, names: Sequence[str], as_json: bool) -> Ex
     else:
         emit(explanation_text(found))
     return ExitCode.OK
-
-
-def _annotate(form: str, shown: Sequence[Diagnostic]) -> None:
-    """What editors (SARIF) or GitHub read; nothing else is printed."""
-    from tmd import __version__
-    from tmd.check.annotations import github, sarif
-
-    if form == "sarif":
-        emit_json(sarif(shown, __version__))
-    else:
-        emit(github(shown))
 
 
 def _summary(report: CheckReport, shown: bool) -> str:

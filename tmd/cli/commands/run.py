@@ -60,11 +60,6 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option("--repairs", type=click.IntRange(0), default=6, show_default=True, help="Maximum number of replannings.")
 @click.option("--kinematic", is_flag=True, help="Kinematic mode: no physics; faster, less realistic.")
 @click.option("--seed", type=click.IntRange(0), default=0, show_default=True, help="Random seed.")
-@click.option(
-    "--fault",
-    type=click.Choice(["slip", "stuck", "moved", "missed"]),
-    help="Inject one fault of this kind.",
-)
 @click.option("--robot", metavar="NAME", help="The robot: pr2 (default) or tiago_pro.")
 @click.option(
     "--urdf", type=click.Path(path_type=Path), metavar="FILE", help="Another PR2 or TIAGo Pro than the packaged."
@@ -78,9 +73,9 @@ def _size(ctx: click.Context, param: click.Parameter, value: str | None) -> tupl
 @click.option("--log", type=click.Path(path_type=Path), metavar="FILE", help="Write every step to a JSON Lines file.")
 @click.option(
     "--trajectory",
-    type=_File(".jsonl", ".csv", ".mcap", ".yaml"),
+    type=_File(".jsonl", ".mcap"),
     metavar="FILE",
-    help="Record joints, base and things: out.jsonl, .csv, .mcap (ROS 2) or .yaml (MoveIt).",
+    help="Record joints, base and things: out.jsonl or out.mcap (ROS 2).",
 )
 @click.option(
     "--rate",
@@ -104,7 +99,6 @@ def command(
     repairs: int,
     kinematic: bool,
     seed: int,
-    fault: str | None,
     robot: str | None,
     urdf: Path | None,
     gui: bool,
@@ -140,7 +134,6 @@ def command(
     from tmd.language.parser import short_enough
     from tmd.planning.backends import IN_PROCESS
     from tmd.records.run import OrderRecord, RunRecord, RunRequest
-    from tmd.robot.monitor.faults import InjectedFault
     from tmd.robot.pr2.urdf import packaged_robot
     from tmd.robot.run_plan import Filming, run_plan
     from tmd.robot.skills.results import SkillStatus
@@ -177,7 +170,6 @@ def command(
             environment=world.name,
             mode="kinematic" if kinematic else "physics",
             seed=seed,
-            fault=fault,
             planner=chosen,
             plan=tuple(map(OrderRecord.of, orders.orders)),
             version=__version__,
@@ -188,7 +180,7 @@ def command(
         )
         if orders.status:
             if as_json:
-                nothing = {"steps": (), "faults": (), "repairs": 0, "seconds": 0.0}
+                nothing = {"steps": (), "repairs": 0, "seconds": 0.0}
                 ended = {"status": orders.status, "reason": orders.remarks[-1].strip()}
                 emit_json(RunRecord.model_validate({**asked.given(), **nothing, **ended}).to_value())
             return orders.code
@@ -202,7 +194,7 @@ def command(
                 *told.prepare(session), *recorders(session, recording, rate or DEFAULT_RATE),
             ),
             filming=filming,
-            planner=chosen, repairs=repairs, fault=InjectedFault(fault) if fault else None,
+            planner=chosen, repairs=repairs,
             kinematic=kinematic, seed=seed, urdf=model, gui=gui,
         )  # fmt: skip
         told.log_ending(run.execution, run.sim_steps)

@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 )
 @click.option("--picture", type=click.Path(path_type=Path), metavar="FILE", help="A picture of the room: out.png.")
 @click.option("--export", type=click.Path(path_type=Path), metavar="DIR", help="Write the room for other simulators.")
-@click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), sdf, mjcf.")
+@click.option("--format", "formats", multiple=True, metavar="A,B|all", help="urdf (default), mjcf.")
 @click.option("--overwrite", is_flag=True, help="DIR may hold files; those of the same names are replaced.")
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @click.pass_obj
@@ -57,7 +57,7 @@ def command(
 ) -> None:
     """Build the room of an environment, put a PR2 into it, and say what stands where.
 
-    With --export the room is written as URDF, SDF or MJCF, its meshes beside it, without the robot.
+    With --export the room is written as URDF or MJCF, its meshes beside it, without the robot.
     """
     if export is None and (formats or overwrite):
         raise click.UsageError("--format and --overwrite are for --export")

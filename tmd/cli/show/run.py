@@ -15,7 +15,6 @@ from tmd.pddl.model import GroundAtom
 from tmd.records.run import (
     BeginEvent,
     EndEvent,
-    FaultEvent,
     PlanEvent,
     RanStep,
     RunRecord,
@@ -23,7 +22,6 @@ from tmd.records.run import (
     StepEvent,
     how_it_ended,
 )
-from tmd.robot.monitor.faults import Happening
 from tmd.robot.monitor.inference import Basis
 from tmd.robot.monitor.listeners import Order, Title
 from tmd.robot.session import SimulationSession
@@ -59,8 +57,6 @@ class Telling:
     ) -> None:
         self._asked = asked
         self._journal = journal
-        self._session: SimulationSession | None = None
-        self._told = 0
         self._begun = self._last_told = 0.0
         self._title: Title | None = None
         self._as_json = as_json
@@ -71,16 +67,11 @@ class Telling:
         self.heading = f"{_count(len(orders), 'instruction')} in {asked.environment}, {how}"
 
     def prepare(self, session: SimulationSession) -> tuple[Self]:
-        """The run begins in this simulation, which knows of its faults; see :data:`tmd.robot.run_plan.Prepare`."""
-        self._session = session
+        """The run begins in this simulation; see :data:`tmd.robot.run_plan.Prepare`."""
         session.cell.doing = self._looks_for
         self._print(f"plan: {self.heading}\n")
         self._log(PlanEvent(event="plan", **self._asked.given()))
         return (self,)
-
-    def _happenings(self) -> Sequence[Happening]:
-        """The faults that came about so far."""
-        return self._session.happenings if self._session is not None else ()
 
     def begin(self, title: Title, expected: Sequence[GroundAtom]) -> None:
         """An instruction begins: the log of a run that was killed says what it was doing."""
@@ -98,10 +89,6 @@ class Telling:
 
     def end(self, title: Title, step: ExecutedStep) -> None:
         """It is over."""
-        for happening in self._happenings()[self._told :]:
-            self._told += 1
-            self._log(FaultEvent(event="fault", what=happening.text, tick=happening.tick))
-            self._print(f"    !  fault: {happening.text}\n")
         told = RanStep.of(title, step)
         self._steps.append(told)
         self._log(StepEvent(event="step", **told.given()))
@@ -111,23 +98,17 @@ class Telling:
 
     def log_ending(self, execution: Execution, steps: int) -> None:
         """The last line of the log: how it ended, after so many steps of physics."""
-        self._log(EndEvent(event="end", **how_it_ended(execution, steps, self._missing())))
+        self._log(EndEvent(event="end", **how_it_ended(execution, steps)))
 
     def print_ending(self, execution: Execution, steps: int) -> None:
         """What is printed last, when all files are written: how it ended, or the whole record."""
         if self._as_json:
-            record = RunRecord.of(self._asked, self._steps, self._happenings(), execution, steps, self._missing())
+            record = RunRecord.of(self._asked, self._steps, execution, steps)
             emit_json(record.to_value())
         else:
             emit(_ending(execution, steps))
             for left in execution.lasting:
                 emit(f"  left otherwise than planned: {left}\n")
-            if missing := self._missing():
-                emit(f"  no fault: {missing}\n")
-
-    def _missing(self) -> str:
-        """Why the fault that was asked for did not come about."""
-        return self._session.fault_missing if self._session is not None else ""
 
     def _print(self, text: str) -> None:
         if not self._as_json:

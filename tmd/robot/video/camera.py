@@ -1,4 +1,4 @@
-"""Where the camera of a film stands: it looks for an angle that shows the hands and the thing, and glides there.
+"""The place of a film's camera: for each instruction the angle that best shows the hands and the thing.
 
 Angles round the subject are compared by what rays from there meet: a point that something hides counts nothing.
 Rays move nothing, so a run is the same with and without a film.
@@ -27,10 +27,6 @@ _SEEN = 0.1
 """A ray that gets this near to its goal has met it."""
 _OWN = 0.35
 """The robot's own body counts as seen where it is this near to the point."""
-_GLIDE = 0.45
-"""Seconds in which the camera makes about two thirds of its way."""
-_PERIOD = 0.6
-"""Seconds after which a better angle is looked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,17 +47,6 @@ class View:
             x + flat * math.cos(self.turn),
             y + flat * math.sin(self.turn),
             z + self.distance * math.sin(self.height),
-        )
-
-    def towards(self, other: View, share: float) -> View:
-        """On the way to another view, the shorter way round."""
-        turned = math.remainder(other.turn - self.turn, math.tau)
-        x, y, z = (a + share * (b - a) for a, b in zip(self.target, other.target, strict=True))
-        return View(
-            (x, y, z),
-            self.turn + share * turned,
-            self.height + share * (other.height - self.height),
-            self.distance + share * (other.distance - self.distance),
         )
 
 
@@ -85,11 +70,10 @@ class Camera:
         self._cell = cell
         self._names: tuple[str, ...] = ()
         self._wide = True
-        self._goal = self._view = _overview(cell)
-        self._since = math.inf
+        self._view = _overview(cell)
 
     def follow(self, names: Sequence[str], *, wide: bool) -> None:
-        """What to look at from now on.
+        """Choose the view from now on.
 
         Args:
             names: Objects and parts; none: what it was before.
@@ -97,19 +81,16 @@ class Camera:
         """
         self._names = tuple(dict.fromkeys(names)) or self._names
         self._wide = wide
-        self._since = math.inf
+        self._view = self.best()
 
     @property
     def wide(self) -> bool:
         """Whether the whole robot is shown."""
         return self._wide
 
-    def glide(self, seconds: float) -> View:
-        """The view after this much more time."""
-        self._since += seconds
-        if self._since >= _PERIOD:
-            self._goal, self._since = self.best(), 0.0
-        self._view = self._view.towards(self._goal, 1.0 - math.exp(-seconds / _GLIDE))
+    @property
+    def view(self) -> View:
+        """The chosen view."""
         return self._view
 
     def best(self) -> View:

@@ -208,7 +208,7 @@ class Film:
 
     def _shoot(self) -> None:
         assert self._movie is not None
-        self._last = self._picture(self._camera.glide(1 / self._fps), self._size)
+        self._last = self._picture(self._camera.view, self._size)
         self._movie.add(under(self._last, self._caption))
 
     def _hold(self, seconds: float) -> None:
@@ -216,7 +216,7 @@ class Film:
         if self._movie is None:
             return
         if self._last is None:
-            self._last = self._picture(self._camera.glide(0.0), self._size)
+            self._last = self._picture(self._camera.view, self._size)
         self._movie.add(under(self._last, self._caption), round(seconds * self._fps))
 
     def _picture(self, view: View, size: tuple[int, int]) -> Pixels:

@@ -1,15 +1,13 @@
-"""Files that films go to, picture by picture: what was written stays readable, whatever ends the run.
+"""Film files, written picture by picture.
 
 A film grows in a neighbour of its file (``out.unfinished.mp4``) and takes its name when it is closed, also after an
-error. If the whole process is killed, the neighbour stays, and can be played, until the next film of that name begins.
+error. If the whole process is killed, the neighbour is of no use; the next film of that name replaces it.
 """
 
 from __future__ import annotations
 
 import importlib.util
-import subprocess
 from collections.abc import Callable, Generator
-from contextlib import suppress
 from functools import partial
 from io import BytesIO
 from pathlib import Path
@@ -35,8 +33,7 @@ class MovieFile:
         path: Where it goes.
         size: Width and height of every picture, in pixels; even numbers.
         fps: Pictures a second.
-        small: Spare bytes rather than detail: an MP4 is a third as large. If the process is killed, up to eight seconds
-            of it are lost instead of two.
+        small: Spare bytes rather than detail: an MP4 is a third as large.
 
     Attributes:
         pictures: How many were added.
@@ -158,11 +155,7 @@ class _Writer:
 
 
 class _Mp4(_Writer):
-    """H.264 by the ffmpeg that imageio-ffmpeg brings.
-
-    While it grows it is fragmented: that can be played from any beginning of it. In the end it is put in order, so
-    that players know how long it is.
-    """
+    """H.264 by the ffmpeg that imageio-ffmpeg brings."""
 
     def __init__(self, path: Path, size: tuple[int, int], fps: int, *, small: bool) -> None:
         if importlib.util.find_spec("imageio_ffmpeg") is None:
@@ -173,13 +166,12 @@ class _Mp4(_Writer):
         import imageio_ffmpeg
 
         try:
-            self._ffmpeg: str = imageio_ffmpeg.get_ffmpeg_exe()
+            imageio_ffmpeg.get_ffmpeg_exe()
         except RuntimeError as error:
             raise MissingToolError(
                 "there is no ffmpeg: the package imageio-ffmpeg came without one for this machine",
                 hint="install ffmpeg, or ask for a GIF: --video out.gif",
             ) from error
-        self._path = path
         self._frames: Generator[Any, bytes | None, None] = imageio_ffmpeg.write_frames(
             f"file:{path}",  # else "-y x.mp4" would be an option, and "concat:x.mp4" a protocol
             size,
@@ -191,7 +183,7 @@ class _Mp4(_Writer):
             output_params=[
                 *("-crf", "30" if small else "23", "-preset", "veryfast", "-threads", "1"),
                 *("-g", str((8 if small else 2) * fps)),
-                *("-movflags", "+frag_keyframe+empty_moov+default_base_moof"),
+                *("-movflags", "+faststart"),
             ],
         )
         self._frames.send(None)
@@ -203,21 +195,6 @@ class _Mp4(_Writer):
 
     def close(self) -> None:
         self._frames.close()
-        ordered = self._path.with_suffix(".ordered.mp4")
-        command = [self._ffmpeg, "-y", "-loglevel", "quiet", "-i", f"file:{self._path}", "-c", "copy"]
-        try:
-            done = subprocess.run(
-                [*command, "-movflags", "+faststart", f"file:{ordered}"],
-                stdin=subprocess.DEVNULL,
-                capture_output=True,
-                check=False,
-                start_new_session=True,  # a second Ctrl-C is not for it
-            )
-            if done.returncode == 0:
-                ordered.replace(self._path)
-        finally:
-            with suppress(OSError):
-                ordered.unlink(missing_ok=True)
 
 
 class _Gif(_Writer):

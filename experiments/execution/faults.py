@@ -1,4 +1,4 @@
-"""Faults for experiments: the simulation is meddled with while the robot works, and the monitor must notice.
+"""Fault injection: the simulation is changed while the robot works, and the monitor must notice.
 
 A fault acts on bodies and joints only, once in a run; what PDDL believes is never touched. Where in the plan it
 comes about is drawn from the places where it can.
@@ -25,7 +25,7 @@ from tmd.robot.skills.skill_file import Skills, SkillTask
 
 
 class InjectedFault(StrEnum):
-    """What can go wrong."""
+    """The kinds of faults."""
 
     SLIP = "slip"
     """What was just taken falls out of the hand."""
@@ -121,7 +121,7 @@ class FaultyPerformer:
         return self._performer.clock
 
     def missing(self) -> str:
-        """Why nothing went wrong; empty where something did."""
+        """Return the reason why no fault came about; empty where one did."""
         if self.log:
             return ""
         if not self._possible:
