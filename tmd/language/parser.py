@@ -1,8 +1,8 @@
 """Text to clauses, with everything that no clause accounts for, and the reason.
 
-The passes, in order: tokens, repeated runs, first classes of words, classes by neighbours, frames of requests, phrase rows,
-joints, brackets, links, the LALR grammar, clauses with their attachment, antecedents. Each is linear in the length of the
-text.
+The passes, in order: tokens, repeated runs, first classes of words, classes by neighbours, frames of requests, phrase
+rows, joints, brackets, links, the LALR grammar, clauses with their attachment, antecedents. Each is linear in the
+length of the text.
 """
 
 from __future__ import annotations

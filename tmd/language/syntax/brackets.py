@@ -598,7 +598,9 @@ class Bracketer(Words):
         self._name_target(at)
         if self.among(at, "with_words") and (end := self._absolute_end(at)):
             return self._bracket(token, K.SUB, at + 1, end)
-        if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words", "replacing"):
+        if self.among(at, "replacing"):
+            return self._replaced(at)
+        if self.kind(at + 1) is K.ING and self.among(at, "without_words", "by_words"):
             return self._manner(at)
         if self.kind(at + 1) is K.ING and self._verb is not None and self._verb.stem in section("stopping"):
             return at + 1  # "refrain from opening it"
@@ -628,12 +630,18 @@ class Bracketer(Words):
     def _manner(self, at: int) -> int:
         """Bracket "without spilling it"; "by pressing it" is a clause, which may be what was started or tried."""
         self.tokens[at + 1].kind = K.V
-        if not self.among(at, "by_words"):
-            kind = K.NEG if self.among(at, "replacing") else K.WITHOUT  # "instead of putting it here"
-            return self._bracket(self.tokens[at], kind, at + 1, self._clause_end(at + 1))
+        if self.among(at, "without_words"):
+            return self._bracket(self.tokens[at], K.WITHOUT, at + 1, self._clause_end(at + 1))
         if self._verb is not None and self.out[-1] is self._verb and self._verb.stem in section("lead_verbs"):
             self.out.pop()
         return at + 1
+
+    def _replaced(self, at: int) -> int:
+        """Bracket what is not to be done, or not to be taken: "instead of putting it here", "instead of the lid"."""
+        end = self._negation_end(at + 1)
+        if self.kind(at + 1) is K.ING:
+            self.tokens[at + 1].kind, end = K.V, self._clause_end(at + 1)
+        return self._bracket(self.tokens[at], K.NEG, at + 1, end)
 
     def _absolute_end(self, at: int) -> int:
         """Return where "with the door shut" ends, which says how something shall be besides; 0 for other phrases."""
