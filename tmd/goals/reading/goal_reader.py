@@ -61,8 +61,7 @@ class GoalReader:
             message = f"nothing here can tell '{lost}' of something"
             return Refusal(RefusalKind.NOT_UNDERSTOOD, message, "leave it out, or allow guesses")
         if self._is_to_settle(clause):
-            settle = the_word("verbs", "settling")
-            found = self.read(replace(clause, verb=settle, implied=False), state, memory)
+            found = self.read(self._settled(clause), state, memory)
             if not isinstance(found, Refusal):
                 return found  # "mug on the table" says where it shall be
         if self._is_state(clause):
@@ -83,6 +82,17 @@ class GoalReader:
         placed = (r for r in clause.relations if r.source in clause.direct)
         somewhere = any(not is_relation(r.relation, "composing") for r in placed)
         return clause.implied and is_verb(clause.verb, "having") and somewhere
+
+    def _settled(self, clause: Clause) -> Clause:
+        """Return a clause without a verb as one that puts: "mug on the table", and "water for the kettle" in it."""
+        inside = the_word("relations", "inside")
+        places = tuple(
+            r._replace(relation=inside)
+            if is_relation(r.relation, "benefit") and self.nouns.substances(r.source or "")
+            else r
+            for r in clause.relations
+        )
+        return replace(clause, verb=the_word("verbs", "settling"), implied=False, relations=places)
 
     def _own_verbs(self, clause: Clause) -> list[str]:
         """Return the verb, that for which it stands, and the same without its particle, where that asks for as much."""
