@@ -141,3 +141,9 @@ def test_the_vendored_files_are_what_the_script_makes(tmp_path: Path) -> None:
 
 def test_the_licence_is_there() -> None:
     assert "Princeton University" in data_text("LICENSE-WORDNET")
+
+
+def test_a_slip_of_a_plural_stays_plural() -> None:
+    lexicon = read_lexicon(None, ["glass", "wrapper"])
+    assert lexicon.correct("glases") == "glasses"
+    assert lexicon.correct("wrapers") == "wrappers"

@@ -36,10 +36,6 @@ class Finder(Protocol):
         """Return whether things go where they were."""
         ...
 
-    def going_back(self, noun: str, reading: ClauseReading) -> Names:
-        """Return what a noun means that goes where it was."""
-        ...
-
 
 @dataclass(frozen=True, slots=True)
 class Context:
@@ -136,12 +132,6 @@ def _holder_by_now(names: Names, c: Context) -> Names:
     return tuple(n for n in names if n in inside) if c.phrase.definite else ()
 
 
-def _going_back(names: Names, c: Context) -> Names:
-    one = c.phrase.definite and c.phrase.quantifier is Quantifier.PLAIN and not c.phrase.plural
-    back = c.referents.going_back(c.noun, c.reading) if one and len(names) > 1 else ()
-    return tuple(n for n in names if n in back)
-
-
 def part_of(wholes: Iterable[str], noun: str, context: Context) -> Names:
     """Return the parts of the first of some things, or of its whole, that a noun names."""
     profiles = context.referents.world.profiles
@@ -160,7 +150,6 @@ THINGS = (
     ),
     Preference("holder", "what holds what it is said to be of", "Bring the bag of crisps.", _holding),
     Preference("part-for-whole", "what can be opened, for its lid", "Fill the jar and close the lid.", _part_for_whole),
-    Preference("going-back", "what was there at first", "Pour milk, put the milk in the fridge.", _going_back),
     Preference(
         "holder-by-now", "what the substance is in by now", "Cook rice, pour sauce over the rice.", _holder_by_now
     ),

@@ -221,10 +221,6 @@ class Referents:
         verb = reading.clause.verb
         return any(ends_as(name, "back") for name in (verb, self.lexicon.canonical_verb(verb)))
 
-    def going_back(self, noun: str, reading: ClauseReading) -> tuple[str, ...]:
-        """Return what a noun means that goes where it was: "pour the milk, and put the milk in the fridge"."""
-        return self._were_there(noun, noun, reading) if noun in reading.clause.direct else ()
-
     def antecedents(self, noun: str, reading: ClauseReading) -> list[tuple[str, bool]]:
         """Return what a pronoun may mean, likeliest first: nouns, then (marked) objects that were spoken of."""
         clause, memory = reading.clause, reading.memory

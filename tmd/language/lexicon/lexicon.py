@@ -260,13 +260,15 @@ class Lexicon:
         group = self._by_initial.get(word[0], ())
         if self.knows(word):
             return self._doer_slip(word, group)
-        if (named := self._named_by(word)) is not None:
-            return named
         swaps = _swaps(word)
-        if swapped := [*swaps.intersection(group)] or [*swaps & _english()]:
+        if swapped := swaps.intersection(group):
             return min(swapped)
         if word.endswith("s") and not word.endswith("ss") and (stem := self.correct(word[:-1])):
             return stem + ("es" if stem.endswith("s") else "s")
+        if (named := self._named_by(word)) is not None:
+            return named
+        if swapped := swaps & _english():
+            return min(swapped)
         nouns = sorted(self._own_nouns.intersection(group))
         near = difflib.get_close_matches(word, group, 1, _TYPO_RATIO)
         near = near or difflib.get_close_matches(word, nouns, 1, _NOUN_TYPO_RATIO)
