@@ -122,3 +122,18 @@ def test_words_in_the_program_are_found() -> None:
         'C = ("cup",)\nD = "cup plate".split()\nE = re.compile(r"the|an")\nF = ["nouns", "adverbs"]\n'
     )
     assert [line for line, _ in offences(ast.parse(text))] == [1, 2, 5, 6]
+
+
+def sections_asked_for(tree: ast.AST) -> set[str]:
+    """Return the names of sections that a module looks words up in."""
+    calls = (node for node in ast.walk(tree) if isinstance(node, ast.Call))
+    asking = (
+        c for c in calls if getattr(c.func, "attr", getattr(c.func, "id", "")) in ("among", "stem_among", "section")
+    )
+    constants = (arg for call in asking for arg in call.args if isinstance(arg, ast.Constant))
+    return {arg.value for arg in constants if isinstance(arg.value, str)}
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_sections_of_words_exist(path: Path) -> None:
+    assert sections_asked_for(ast.parse(path.read_text(encoding="utf-8"))) <= sections().keys()

@@ -286,7 +286,9 @@ class Referents:
         many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent)
         if bound is None:
             phrase = NounPhrase(antecedent, definite=True, plural=many)
-            return self._named(antecedent, phrase, types, [], reading)
+            stated = antecedent not in reading.clause.objects  # "There is a mug on the shelf. Wash it."
+            relations = self.relations_of(antecedent, reading.clause) if stated else []
+            return self._named(antecedent, phrase, types, relations, reading)
         if bound.containers and self.puts_back(reading):
             things = self._named(antecedent, NounPhrase(antecedent, definite=True), types, [], reading)
             if things.names:
@@ -315,6 +317,7 @@ class Referents:
             return other
         if pronoun == ONE and plain and antecedent in reading.memory.bound:  # "… the other plate. Wash that one."
             return self._antecedent(antecedent, IT, types, reading)
+        relations += self.relations_of(antecedent, reading.clause) if antecedent not in reading.clause.objects else []
         return self._named(antecedent, replace(said, name=antecedent), types, relations, reading)
 
     def _other_one(

@@ -341,6 +341,20 @@ def section(name: str) -> frozenset[str]:
     return frozenset(sections()[name])
 
 
+def sections_of(word: str) -> frozenset[str]:
+    """Return the names of the sections of ``data/words.txt`` that have a word."""
+    return _by_word().get(word, frozenset())
+
+
+@cache
+def _by_word() -> Mapping[str, frozenset[str]]:
+    found: dict[str, set[str]] = {}
+    for name, words in sections().items():
+        for word in words:
+            found.setdefault(word, set()).add(name)
+    return {word: frozenset(names) for word, names in found.items()}
+
+
 @cache
 def pairs(name: str) -> Mapping[str, str]:
     """Return a section whose entries are "this=that"."""

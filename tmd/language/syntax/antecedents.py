@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.language.clause import PERSONS, TO, Clause, Condition
+from tmd.language.clause import BE, PERSONS, TO, Clause, Condition
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -66,11 +66,15 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
     """Return the clauses, and what must not be done, with their antecedents filled in."""
     scenes: list[_Scene] = []
     clauses: list[Clause] = []
+    facts: dict[str, Clause] = {}
     statements = sorted([*reading.statements, *reading.forbidden], key=lambda said: said[0])
     for index, draft in enumerate(reading.drafts):
         while statements and statements[0][0] <= index:
             said = statements.pop(0)[1]
-            scenes.append(_scene(said, said.clause(reading.text)))
+            fact = said.clause(reading.text)
+            scenes.append(_scene(said, fact))
+            if fact.verb == BE and not any(said is draft for _, draft in reading.forbidden):
+                facts.update(dict.fromkeys(fact.direct, fact))
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -78,6 +82,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in reading.drafts if d.host is draft and d.verb.span < draft.verb.span]  # "before closing it"
         clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
+        clause = _stated(clause, facts)
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
@@ -100,6 +105,23 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
         if ranked:
             antecedents[pronoun], together[pronoun] = ranked, count
     return replace(clause, antecedents=antecedents, together=together)
+
+
+def _stated(clause: Clause, facts: dict[str, Clause]) -> Clause:
+    """Return a clause with where a statement says its things are: "There is a mug on the shelf. Wash it."
+
+    A statement tells which thing is meant when it is first spoken of again; the text binds it from then on.
+    """
+    for name in (*clause.objects, ""):
+        meant = next(iter(clause.antecedents.get(name, ())), name)
+        fact = facts.pop(meant, None)
+        if fact is None:
+            continue
+        places = [r for r in fact.relations if r.source == meant and r.relation in section("static")]
+        places = [r for r in places if r.target not in clause.phrases and not is_pronoun(r.target)]
+        phrases = {r.target: fact.phrase(r.target) for r in places}
+        clause = replace(clause, relations=(*places, *clause.relations), phrases={**clause.phrases, **phrases})
+    return clause
 
 
 def _place(pronoun: str, draft: ClauseDraft) -> int:

@@ -14,7 +14,7 @@ from functools import cache
 from itertools import pairwise
 
 from tmd.language.clause import Span
-from tmd.language.lexicon.lexicon import pairs, section
+from tmd.language.lexicon.lexicon import pairs, section, sections_of
 
 
 class Kind(StrEnum):
@@ -320,11 +320,11 @@ class Words:
 
     def among(self, at: int, *names: str) -> bool:
         """Tell whether the word at a place is in one of these sections of ``words.txt``."""
-        return 0 <= at < len(self.tokens) and any(self.tokens[at].text in section(name) for name in names)
+        return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].text).isdisjoint(names)
 
     def stem_among(self, at: int, *names: str) -> bool:
         """Tell whether the stem of the word at a place is in one of these sections of ``words.txt``."""
-        return 0 <= at < len(self.tokens) and any(self.tokens[at].stem in section(name) for name in names)
+        return 0 <= at < len(self.tokens) and not sections_of(self.tokens[at].stem).isdisjoint(names)
 
     def follows(self, at: int, pattern: str) -> bool:
         """Tell whether a pattern of classes matches from a place."""
