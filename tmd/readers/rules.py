@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 
 from tmd.diagnostics import Refusal, RefusalKind
 from tmd.goals.clause_goal import ClauseGoal
+from tmd.goals.grounder import Moments
 from tmd.goals.reading.goal_reader import GoalReader
 from tmd.goals.reading.noun_phrases import Bound, Memory
 from tmd.goals.reading.referents import ANY_TYPE
@@ -262,6 +263,8 @@ class RuleDialogue(ClauseDialogue):
                 cube = next((cube for cube in goal.cubes if cube.holds(state)), None)
                 truth = truth and cube is not None
                 memory = self._spoken(goal, cube, memory)
+                if cube is not None and _of_any(clause):
+                    memory = self._every(clause, goal, state, memory)
             elif self._is_never(clause, condition, goal):
                 truth = False  # "if there is milk": where there is none, there is none
             else:
@@ -277,6 +280,16 @@ class RuleDialogue(ClauseDialogue):
         spoken = (n for names in goal.meant.values() for n in names if n in objects)
         return replace(memory, recent=tuple(dict.fromkeys((*spoken, *memory.recent))))
 
+    def _every(self, clause: Clause, goal: ClauseGoal, state: Bits, memory: Memory) -> Memory:
+        """Return the memory where a noun means all things of which a condition holds."""
+        noun, nouns = clause.direct[0], self._goals.nouns
+        moments = Moments(state, memory.first)
+        states = ((n, nouns.attribute(clause.result or "", n, moments)) for n in goal.meant.get(noun, ()))
+        chosen = tuple(n for n, said in states if said is not None and nouns.grounder.truth(said, state))
+        if len(chosen) < 2:
+            return memory
+        return replace(memory, bound={**memory.bound, noun: Bound(chosen, every=True)})
+
     def _is_never(self, clause: Clause, condition: Condition, refusal: Refusal) -> bool:
         """Return whether a refusal says that what a condition asks for does not hold."""
         states = clause.result or any(is_relation(r.relation, "accompanying") for r in clause.relations)
@@ -284,6 +297,14 @@ class RuleDialogue(ClauseDialogue):
         if refusal.kind is RefusalKind.CONTRADICTION:
             return exists or condition.negated or not clause.relations
         return exists and refusal.kind is RefusalKind.NO_SUCH_THING
+
+
+def _of_any(clause: Clause) -> bool:
+    """Return whether a condition speaks of any one thing that is in a state: "if a bottle is empty"."""
+    if clause.verb != BE or clause.result is None or len(clause.direct) != 1:
+        return False
+    phrase = clause.phrase(clause.direct[0])
+    return not (phrase.definite or phrase.plural) and phrase.quantifier is Quantifier.PLAIN
 
 
 def _means_nothing(step: RuleStep, refusal: Refusal) -> bool:

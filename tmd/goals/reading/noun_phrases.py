@@ -63,10 +63,17 @@ class Referent:
 
 @dataclass(frozen=True, slots=True)
 class Bound:
-    """The meaning of a noun of an earlier clause: objects, and for a substance what contains it."""
+    """The meaning of a noun of an earlier clause.
+
+    Attributes:
+        names: Objects or constants.
+        containers: The vessels of a substance.
+        every: A later pronoun means all of them: "If a bottle is empty, throw it away."
+    """
 
     names: tuple[str, ...]
     containers: tuple[str, ...] = ()
+    every: bool = False
 
 
 @dataclass(frozen=True, slots=True)

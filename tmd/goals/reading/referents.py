@@ -283,7 +283,7 @@ class Referents:
         if is_one(pronoun):
             return replace(self._one_of(antecedent, pronoun, types, reading), noun=pronoun)
         bound = reading.memory.bound.get(antecedent)
-        many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent)
+        many = is_noun(pronoun, "plural") or self.nouns.is_group(antecedent) or (bound is not None and bound.every)
         if bound is None:
             phrase = NounPhrase(antecedent, definite=True, plural=many)
             stated = antecedent not in reading.clause.objects  # "There is a mug on the shelf. Wash it."

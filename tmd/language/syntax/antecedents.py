@@ -74,7 +74,8 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
             fact = said.clause(reading.text)
             scenes.append(_scene(said, fact))
             if fact.verb == BE and not any(said is draft for _, draft in reading.forbidden):
-                facts.update(dict.fromkeys(fact.direct, fact))
+                known = {name for clause in clauses for name in _named(clause)}
+                facts.update((name, fact) for name in fact.direct if name not in known)
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
