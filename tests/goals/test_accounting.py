@@ -63,6 +63,22 @@ def test_it_is_what_made_the_condition_true() -> None:
     assert goals(grounded)[-1] == "(at pillow2 shelf1 on)"
 
 
+def test_a_condition_of_any_thing_means_all_that_meet_it() -> None:
+    grounded = said("living_room", "room4", "If a bottle is empty, carry it to the shelf.")
+    assert goals(grounded)[-1].count("shelf1") == 2
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "There is a mug on the shelf. Carry it to the table.",
+        "The mug on the shelf is new, so bring the mug to the table.",
+    ],
+)
+def test_a_statement_tells_which_thing_is_meant(text: str) -> None:
+    assert goals(said("kitchen", "kitchen2", text)) == ["(at mug2 table1 on)"]
+
+
 def test_it_is_rather_what_something_was_put_in() -> None:
     grounded = said("kitchen", "kitchen4", "Put the milk in the fridge and close it.")
     assert goals(grounded)[-1] == "(not (opened fridge1_door))"

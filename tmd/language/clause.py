@@ -152,6 +152,7 @@ class Clause:
         implied: The verb was not said: *A glass of milk, please.*
         alternative: It need not be done where the clause before it was: *or throw it away*.
         setting: A setting, as written: *to low*.
+        stated: Where statements before it say that things are: *There is a mug on the shelf. Wash it.*
         heading: What follows says how: *make ramen: fill the pot, …*.
     """
 
@@ -175,6 +176,7 @@ class Clause:
     implied: bool = field(default=False, compare=False)
     alternative: bool = field(default=False, compare=False)
     setting: str | None = field(default=None, compare=False)
+    stated: tuple[Relation, ...] = field(default=(), compare=False)
     heading: bool = field(default=False, compare=False)
 
     def phrase(self, name: str) -> NounPhrase:

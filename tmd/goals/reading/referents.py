@@ -62,7 +62,7 @@ class Referents:
 
     def relations_of(self, name: str, clause: Clause) -> list[tuple[str, str]]:
         """Return the relations in which a noun stands, each with what it is related to."""
-        said = self._without_rooms(clause)
+        said = (*self._without_rooms(clause), *clause.stated)
         found = [(r.relation, r.target) for r in said if r.source == name or (r.source is None and not name)]
         if clause.setting and name in (*clause.direct, ""):
             found.append((SETTING, clause.setting.split()[-1]))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
-from tmd.language.clause import BE, PERSONS, TO, Clause, Condition
+from tmd.language.clause import BE, PERSONS, TO, Clause, Condition, Relation
 from tmd.language.lexicon.lexicon import pairs, section
 from tmd.language.syntax.drafts import ClauseDraft
 from tmd.language.syntax.noun_phrases import Phrase
@@ -73,9 +73,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
             said = statements.pop(0)[1]
             fact = said.clause(reading.text)
             scenes.append(_scene(said, fact))
-            if fact.verb == BE and not any(said is draft for _, draft in reading.forbidden):
-                known = {name for clause in clauses for name in _named(clause)}
-                facts.update((name, fact) for name in fact.direct if name not in known)
+            facts |= _new(said, fact, clauses, reading)
         clause = draft.clause(reading.text)
         conditions = tuple(_condition(c, draft, scenes) for c in clause.conditions)
         clause = replace(clause, conditions=conditions)
@@ -83,7 +81,7 @@ def resolve(reading: TextReading) -> tuple[tuple[Clause, ...], tuple[Clause, ...
         hosts = [draft.host] if draft.host is not None else []
         hosts += [d for d in reading.drafts if d.host is draft and d.verb.span < draft.verb.span]  # "before closing it"
         clause = _resolved(clause, draft, [*scenes, *(_scene(host, host.clause(reading.text)) for host in hosts)])
-        clause = _stated(clause, facts)
+        clause = replace(clause, stated=_stated(clause, facts))
         clauses.append(clause)
         scenes.append(_scene(draft, clause))
     forbidden = [resolve_alone(draft.clause(reading.text), clauses[:before]) for before, draft in reading.forbidden]
@@ -108,21 +106,26 @@ def _resolved(clause: Clause, draft: ClauseDraft, scenes: list[_Scene]) -> Claus
     return replace(clause, antecedents=antecedents, together=together)
 
 
-def _stated(clause: Clause, facts: dict[str, Clause]) -> Clause:
-    """Return a clause with where a statement says its things are: "There is a mug on the shelf. Wash it."
+def _new(said: ClauseDraft, fact: Clause, before: Sequence[Clause], reading: TextReading) -> dict[str, Clause]:
+    """Return a statement by the nouns that it speaks of first; a prohibition states nothing."""
+    known = {name for clause in before for name in _named(clause)}
+    if fact.verb != BE or any(said is draft for _, draft in reading.forbidden):
+        return {}
+    return {name: fact for name in fact.direct if name not in known}
+
+
+def _stated(clause: Clause, facts: dict[str, Clause]) -> tuple[Relation, ...]:
+    """Return where statements say that the things of a clause are.
 
     A statement tells which thing is meant when it is first spoken of again; the text binds it from then on.
     """
+    found: list[Relation] = []
     for name in (*clause.objects, ""):
         meant = next(iter(clause.antecedents.get(name, ())), name)
         fact = facts.pop(meant, None)
-        if fact is None:
-            continue
-        places = [r for r in fact.relations if r.source == meant and r.relation in section("static")]
-        places = [r for r in places if r.target not in clause.phrases and not is_pronoun(r.target)]
-        phrases = {r.target: fact.phrase(r.target) for r in places}
-        clause = replace(clause, relations=(*places, *clause.relations), phrases={**clause.phrases, **phrases})
-    return clause
+        places = fact.relations if fact is not None else ()
+        found += [r for r in places if r.source == meant and r.relation in section("static")]
+    return tuple(r for r in found if r.target not in clause.objects and not is_pronoun(r.target))
 
 
 def _place(pronoun: str, draft: ClauseDraft) -> int:
