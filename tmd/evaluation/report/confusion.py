@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from tmd.evaluation.report.alignment import Mark, align, name
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
+from tmd.view.alignment import Mark, align, name
 
 NO_CLAUSE = "(no clause)"
 """Stands for the verb where people did something for words in which no clause was found."""

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.evaluation.report.alignment import Mark, align
 from tmd.inference.energy import title
 from tmd.records.prediction import PredictedClause, PredictionRecord
+from tmd.view.alignment import Mark, align
 
 SHOWN = 10
 """How many of the best, and how many of the worst."""

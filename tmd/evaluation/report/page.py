@@ -8,12 +8,11 @@ from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 from zlib import crc32
 
 from tmd import __version__
 from tmd.evaluation.report import paper_table
-from tmd.evaluation.report.alignment import Mark
 from tmd.evaluation.report.confusion import NO_CLAUSE, NOTHING, VerbErrors, by_instruction, by_verb
 from tmd.evaluation.report.examples import SHOWN, SYMBOLS, best_and_worst
 from tmd.evaluation.report.figures import LABELS, learning_curves, overall_bars, task_bars, tasks_of
@@ -24,10 +23,8 @@ from tmd.evaluation.runs.summary import EMPTY, average
 from tmd.evaluation.runs.trial_records import Trials, films
 from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
-
+from tmd.view.alignment import Mark
+from tmd.view.markup import data, templates
 
 FOLDER = "pages"
 
@@ -135,7 +132,6 @@ def errors(run: Run, model: str) -> Errors:
     return Errors(model, known[:_VERBS], rarer, unparsed, names, cells)
 
 
-_DATA = Path(__file__).parent / "data"
 _VEIL500 = "veil500"
 """Data whose texts may not be passed on."""
 _MENTIONED = 3
@@ -156,10 +152,15 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
     order = [*paper, *others]
     chief = reference(metrics.models)
     shown = sorted((m for m in order if m != EMPTY), key=lambda m: m != chief)
-    page = _environment().get_template("report.html.j2")
+    page = templates().get_template("report.html.j2")
     return page.render(
         version=__version__,
-        style=(_DATA / "report.css").read_text(encoding="utf-8"),
+        style=data("report.css"),
+        title_of=paper_table.title,
+        page_name=page_name,
+        page_folder=FOLDER,
+        said=_said,
+        mentioned=_mentioned,
         metrics=metrics,
         paper=paper,
         others=others,
@@ -197,29 +198,6 @@ def _with_goal(metrics: Metrics) -> int | None:
     """How many examples have a goal, where that needs saying: where some have none."""
     rows = metrics.models.values()
     return max(row.goals for row in rows) if any(row.goals < row.n for row in rows) else None
-
-
-def _environment() -> Environment:
-    from jinja2 import Environment, FileSystemLoader, StrictUndefined
-
-    found = Environment(
-        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True, loader=FileSystemLoader(_DATA)
-    )
-    found.filters["one"] = lambda value: f"{value:.1f}"
-    found.filters["signed"] = _signed
-    found.filters["short"] = lambda value: f"{value:.3g}".replace("-", "−")
-    found.filters["p"] = lambda value: "< 0.001" if value < 0.001 else f"{value:.3f}"
-    found.filters["said"] = _said
-    found.filters["mentioned"] = _mentioned
-    found.globals["title_of"] = paper_table.title
-    found.globals["page_name"] = page_name
-    found.globals["page_folder"] = FOLDER
-    return found
-
-
-def _signed(value: float) -> str:
-    """With its sign, but for 0."""
-    return f"{value:+.1f}".replace("-", "−") if round(value, 1) else "0.0"
 
 
 def _said(value: object) -> str:
