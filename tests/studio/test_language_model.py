@@ -14,7 +14,8 @@ from tests.readers.fake_server import Answer, FakeServer, asked, reply, serve
 from tmd.pddl.model import Atom, Not
 from tmd.readers.interface import Question, QuestionOption, Usage
 from tmd.readers.llm.client import KEY, MODEL, URL, ModelError
-from tmd.studio.panels.say_panel import Request, effort
+from tmd.studio.panels.html import effort
+from tmd.studio.panels.say_panel import Request
 from tmd.studio.teaching import Teacher
 from tmd.veil.corpus import Corpus
 

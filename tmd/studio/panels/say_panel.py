@@ -7,139 +7,36 @@ import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from difflib import SequenceMatcher
 from functools import partial
 from html import escape
-from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from tmd.diagnostics import RefusalKind, TmdError
 from tmd.export.end_goal import asked_problem
 from tmd.grounded import Grounded, why_refused
-from tmd.inference.energy import meaning, title
-from tmd.inference.ranking import PlanStep, RankedPlan, RejectedProposal
+from tmd.inference.ranking import PlanStep
 from tmd.pddl.model import Formula, Instruction
 from tmd.pddl.plan_file import format_plan
 from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
-from tmd.readers.interface import Question, Reader, Usage
+from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
-from tmd.studio.panels.html import changed, fragment, goal_list, judgement, step_list
+from tmd.studio.panels.html import changed, effort, fragment, goal_list, judgement, side_by_side, step_list
 from tmd.studio.panels.widgets import chosen, put
 from tmd.studio.view3d.playback import Reel
 from tmd.veil.demonstration import Demonstration
-from tmd.veil.world import World
-from tmd.view.candidates import factors_of, grouped
+from tmd.view.candidates import candidates
 from tmd.view.clauses import lit_choice, lit_sentence
 from tmd.view.goals import ShownGoal, doubts, followed, in_words, outcome
 from tmd.view.grounding_record import flat, option_texts
-from tmd.view.markup import number, style
+from tmd.view.markup import style
 from tmd.view.wording import Wording
 
 if TYPE_CHECKING:
     from viser import GuiButtonHandle, GuiDropdownHandle
-
-
-_ENERGY = "The sum of the factors, each by its weight; the plan with the least is the first."
-
-
-def energies(
-    plans: Sequence[RankedPlan], verdicts: Sequence[str] = (), refusals: Sequence[RejectedProposal] = ()
-) -> str:
-    """What :func:`tmd.view.candidates.candidates` tells, as HTML that fits into a panel.
-
-    Args:
-        plans: The plans, least energy first.
-        verdicts: For each plan why it does not work, empty for one that does.
-        refusals: Templates that could not be used.
-    """
-    pieces = [_losers(plans, verdicts), _factors(plans), *_clauses(plans), _refused(refusals)]
-    return "".join(pieces)
-
-
-def _losers(plans: Sequence[RankedPlan], verdicts: Sequence[str]) -> str:
-    lines = []
-    for index, plan in enumerate(plans):
-        reasons = [f"does not work: {verdict}" for verdict in verdicts[index : index + 1] if verdict]
-        reasons += [plan.why] if index and plan.why else []
-        if reasons:
-            lines.append(f"<li><b>Plan {index + 1}</b> {escape('; '.join(reasons))}</li>")
-    return f"<h4>Why the others lost</h4><ul>{''.join(lines)}</ul>" if lines else ""
-
-
-def _factors(plans: Sequence[RankedPlan]) -> str:
-    if not plans:
-        return ""
-    head = "".join(f"<th scope='col'>plan {index}</th>" for index in range(1, len(plans) + 1))
-    rows = [("energy", _ENERGY, [f"<b>{number(plan.energy)}</b>" for plan in plans])]
-    rows += [
-        (title(name), meaning(name), [number(plan.factors.get(name, 0.0)) for plan in plans])
-        for name in factors_of(plans)
-    ]
-    rows.append(("steps", "", [str(len(plan.steps)) for plan in plans]))
-    body = "".join(
-        f"<tr><th scope='row' title='{escape(told)}'>{escape(name)}</th>"
-        f"{''.join(f'<td>{value}</td>' for value in values)}</tr>"
-        for name, told, values in rows
-    )
-    means = "".join(
-        f"<li><b>{escape(title(name))}</b> {escape(meaning(name))}</li>" for name in factors_of(plans) if meaning(name)
-    )
-    return (
-        f"<h4>Energies by factor</h4><table class='numbers'><thead><tr><td></td>{head}</tr></thead>"
-        f"<tbody>{body}</tbody></table>"
-        f"<details><summary>What the factors count</summary><p>{_ENERGY}</p><ul>{means}</ul></details>"
-    )
-
-
-def _clauses(plans: Sequence[RankedPlan]) -> list[str]:
-    return [
-        f"<details><summary>Plan {index} by clause</summary><ol>{_choices(plan)}</ol></details>"
-        for index, plan in enumerate(plans, start=1)
-    ]
-
-
-def _choices(plan: RankedPlan) -> str:
-    lines = []
-    owners = [goal.clause for goal in plan.goals] or range(len(plan.choices))
-    for owner, choice in zip(owners, plan.choices, strict=True):
-        parts = [f"{title(name)} {number(value)}" for name, value in choice.factors.items() if round(value, 2)]
-        source = choice.source if choice.source is not None else "no template"
-        told = f"<b>{number(choice.energy)}</b> {escape(', '.join(parts))}<br>from {escape(source)}"
-        lines.append(f"<li value='{owner + 1}'>{told}</li>")
-    return "".join(lines)
-
-
-def _refused(refusals: Sequence[RejectedProposal]) -> str:
-    rows = grouped(refusals)
-    if not rows:
-        return ""
-    lines = "".join(
-        f"<li>Clause {row.clause + 1}: {escape(row.reason)} <span class='quiet'>({len(row.sources)}, for example "
-        f"{escape(row.sources[0])})</span></li>"
-        for row in rows
-    )
-    word = "reason" if len(rows) == 1 else "reasons"
-    return (
-        f"<details><summary>{len(rows)} {word} why templates could not be used here</summary><ul>{lines}</ul></details>"
-    )
-
-
-def effort(usage: Usage | None) -> str:
-    """Return the effort of a language model, as HTML; empty where none was asked."""
-    if usage is None:
-        return ""
-    replies = len(usage.digests)
-    lines = (
-        f"{usage.prompt_tokens:,} tokens sent, {usage.completion_tokens:,} received",
-        f"{usage.seconds:.1f} s",
-        f"{replies} {'reply' if replies == 1 else 'replies'}, {usage.cached} from the cache",
-    )
-    rows = "".join(f"<li>{line}</li>" for line in lines)
-    return f"<h4>Read by the language model {escape(usage.model)}</h4><ul>{rows}</ul>"
 
 
 TOP = 3
@@ -480,7 +377,7 @@ class SayPanel:
         world_words = Wording(world.task.problem)
         self._energies.content = fragment(
             side_by_side(grounded.plans, world, world_words)
-            + energies(grounded.plans, lines, grounded.rejected)
+            + candidates(grounded.plans, lines, grounded.rejected, narrow=True)
             + effort(grounded.usage)
         )
         if not found:
@@ -665,38 +562,6 @@ def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[I
         else:
             more.append(instruction)
     return None if rest else more
-
-
-def side_by_side(plans: Sequence[RankedPlan], world: World, wording: Wording) -> str:
-    """The first plan beside each other one, step by step, and the difference of the states that they end in."""
-    return "".join(
-        f"<details><summary>Plan 1 beside plan {number}</summary>{_beside_each_other(plans[0], plan, wording)}"
-        f"{_ends(plans[0], plan, number, world, wording)}</details>"
-        for number, plan in enumerate(plans[1:], start=2)
-    )
-
-
-def _beside_each_other(one: RankedPlan, other: RankedPlan, wording: Wording) -> str:
-    left, right = one.instructions, other.instructions
-    rows: list[tuple[str, str]] = []
-    for kind, a, b, c, d in SequenceMatcher(None, left, right, autojunk=False).get_opcodes():
-        told = (map(wording.instruction, part) for part in (left[a:b], right[c:d]))
-        sides = zip_longest(*told, fillvalue="")
-        rows += [(x, y) if kind == "equal" else (x and f"− {x}", y and f"+ {y}") for x, y in sides]
-    body = "".join(f"<tr><td>{escape(x)}</td><td>{escape(y)}</td></tr>" for x, y in rows)
-    return f"<table class='sides'><tbody>{body}</tbody></table>"
-
-
-def _ends(one: RankedPlan, other: RankedPlan, number: int, world: World, wording: Wording) -> str:
-    names = world.task.names
-    only = ((1, names(one.state & ~other.state)), (number, names(other.state & ~one.state)))
-    lines = [
-        f"<li>only after plan {plan}: {escape(wording.fact(atom))}</li>"
-        for plan, atoms in only
-        for atom in sorted(atoms)
-        if not atom.args or atom.args[0] not in world.profiles.constants
-    ]
-    return f"<p>At the end</p><ul>{''.join(lines)}</ul>" if lines else "<p>Both end alike.</p>"
 
 
 def _styled(content: str) -> str:
