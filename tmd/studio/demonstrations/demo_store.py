@@ -26,6 +26,7 @@ from tmd.veil.demonstration import (
     read_demonstrations,
 )
 from tmd.veil.world import World
+from tmd.view.meaning import after
 
 SHOWN = "shown"
 """The task of demonstrations whose task nobody named."""
@@ -152,10 +153,7 @@ def demonstration(
 ) -> Demonstration:
     """What was shown in ``session``, as a demonstration."""
     world = session.world
-    end = world.task.init
-    for segment in segments:
-        for instruction in segment.instructions:
-            end = world.task.by_instruction[instruction].apply(end)
+    end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
     whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
     ends = _end_state(world, end)
     return Demonstration(name, task, world.name, session.text, segments, ends, whole, who, when, goal)

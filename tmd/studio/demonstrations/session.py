@@ -19,7 +19,6 @@ from tmd.pddl.task import Bits
 from tmd.studio.demonstrations.alignment import NO_HABITS, Habits, propose
 from tmd.studio.demonstrations.clause_spans import ClauseSpan, clean, cut
 from tmd.studio.demonstrations.history import History
-from tmd.studio.object_info import About, about
 from tmd.veil.demonstration import Segment
 from tmd.veil.world import World
 from tmd.view.wording import Wording
@@ -142,16 +141,6 @@ class Session:
         """The states before the first step and after each, as bits of the environment's task."""
         return self._history.current.states
 
-    @property
-    def can_undo(self) -> bool:
-        """Whether there is something to take back."""
-        return self._history.can_undo
-
-    @property
-    def can_redo(self) -> bool:
-        """Whether something was taken back."""
-        return self._history.can_redo
-
     def do(self, instruction: Instruction) -> DemonstratedStep:
         """Carry out ``instruction`` in the state that is looked at; steps behind it go, until this is undone.
 
@@ -230,14 +219,6 @@ class Session:
             before, after = self._history.current.states[step - 1 : step + 1]
             names = self.world.task.names
             return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
-
-    def about(self, name: str) -> About:
-        """What is so of an object in the state that is looked at.
-
-        Raises:
-            TmdError: There is no such object.
-        """
-        return about(name, self.world, self.state)
 
     def segments(self) -> tuple[Segment, ...]:
         """The pieces of the text with what serves each, as a demonstration has them."""

@@ -8,6 +8,7 @@ from tmd.diagnostics import TmdError
 from tmd.pddl.model import Instruction
 from tmd.pddl.reading.reader import with_goal
 from tmd.studio.demonstrations.correction import Correction
+from tmd.studio.demonstrations.drafts import CorrectionDraft
 from tmd.studio.demonstrations.session import DemonstratedStep
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.demonstrate_panel import GOAL_HINT
@@ -80,7 +81,7 @@ class CorrectPanel:
             visitor.show_tab("Correct")
             visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
 
-        before = visitor.studio.drafts.correction_of(visitor.identity)
+        before = visitor.studio.drafts.of(visitor.identity, CorrectionDraft)
         if before is None:
             go()
             return
@@ -104,12 +105,12 @@ class CorrectPanel:
 
     def _look_for_draft(self) -> None:
         visitor = self._visitor
-        self._resume.visible = visitor.studio.drafts.correction_of(visitor.identity) is not None
+        self._resume.visible = visitor.studio.drafts.of(visitor.identity, CorrectionDraft) is not None
 
     def resume(self) -> None:
         """Go on with the correction that is not done."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.correction_of(visitor.identity)
+        draft = visitor.studio.drafts.of(visitor.identity, CorrectionDraft)
         if draft is None:
             raise TmdError("there is no correction that is not done")
         if draft.environment != visitor.setting.name:
@@ -120,7 +121,7 @@ class CorrectPanel:
     def come_back(self) -> None:
         """The page was loaded again: go on with the correction, if there is one."""
         visitor = self._visitor
-        if self._correction is None and visitor.studio.drafts.correction_of(visitor.identity) is not None:
+        if self._correction is None and visitor.studio.drafts.of(visitor.identity, CorrectionDraft) is not None:
             self.resume()
 
     def _keep(self) -> None:
@@ -130,9 +131,9 @@ class CorrectPanel:
             return
         goal = self._goal.value.strip()
         if goal or correction.steps != correction.proposed:
-            visitor.studio.drafts.keep_correction(visitor.identity, correction, goal)
+            visitor.studio.drafts.keep(visitor.identity, CorrectionDraft.of(correction, goal))
         else:
-            visitor.studio.drafts.discard_correction(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, CorrectionDraft)
 
     def _going(self) -> Correction:
         if self._correction is None:
@@ -214,7 +215,7 @@ class CorrectPanel:
 
     def _done(self) -> None:
         """The panel where demonstrations are saved has the correction now."""
-        self._visitor.studio.drafts.discard_correction(self._visitor.identity)
+        self._visitor.studio.drafts.discard(self._visitor.identity, CorrectionDraft)
         self.entered()
 
     # showing

@@ -11,6 +11,7 @@ from tmd.planning.backends import IN_PROCESS, make
 from tmd.studio.applicable_actions import ActionGroup
 from tmd.studio.demonstrations.correction import what_it_needs
 from tmd.studio.demonstrations.demo_store import SHOWN
+from tmd.studio.demonstrations.drafts import Draft
 from tmd.studio.demonstrations.session import Session
 from tmd.studio.panels.context import PanelContext
 from tmd.studio.panels.html import changed, fragment, refused, step_list
@@ -120,7 +121,7 @@ class DemonstratePanel:
 
     def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
         """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
-        draft = self._visitor.studio.drafts.of(self._visitor.identity)
+        draft = self._visitor.studio.drafts.of(self._visitor.identity, Draft)
         if draft is None or not draft.instructions:
             act()
             return
@@ -158,7 +159,7 @@ class DemonstratePanel:
             session = self._going()
             goal = self._goal.value.strip() or None
             saved = visitor.studio.save(session, self._task.value, self._who.value, when=self._when.value, goal=goal)
-            visitor.studio.drafts.discard(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, Draft)
             self._close()
         visitor.saved(saved)
 
@@ -167,7 +168,7 @@ class DemonstratePanel:
         visitor = self._visitor
         with visitor.holding():
             self._going()
-            visitor.studio.drafts.discard(visitor.identity)
+            visitor.studio.drafts.discard(visitor.identity, Draft)
             self._close()
         visitor.tell("Thrown away.", aloud=True)
 
@@ -179,12 +180,12 @@ class DemonstratePanel:
     # drafts
 
     def _look_for_draft(self) -> None:
-        self._resume.visible = self._visitor.studio.drafts.of(self._visitor.identity) is not None
+        self._resume.visible = self._visitor.studio.drafts.of(self._visitor.identity, Draft) is not None
 
     def resume(self) -> None:
         """Go on with what was not saved."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.of(visitor.identity)
+        draft = visitor.studio.drafts.of(visitor.identity, Draft)
         if draft is None:
             raise TmdError("there is no demonstration that was not saved")
         if draft.environment != visitor.setting.name:
@@ -197,7 +198,7 @@ class DemonstratePanel:
 
     def come_back(self) -> None:
         """The page was loaded again: go on with what was not saved, if there is something."""
-        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity) is not None:
+        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity, Draft) is not None:
             self.resume()
 
     # doing
@@ -271,7 +272,7 @@ class DemonstratePanel:
         if session is None:
             return
         visitor = self._visitor
-        visitor.studio.drafts.keep(visitor.identity, session, self._task.value)
+        visitor.studio.drafts.keep(visitor.identity, Draft.of(session, self._task.value))
         # All at once: who presses a button as soon as the new list shows must not press one of the old state.
         with visitor.client.atomic():
             self._reel.become(session.states)
