@@ -29,7 +29,7 @@ class Diagnostic:
 
     @property
     def severity(self) -> Severity:
-        """Whether it is an error, a warning or a note."""
+        """Return whether it is an error, a warning or a note."""
         return SEVERITY[self.code]
 
 
@@ -56,5 +56,5 @@ class Findings:
             self.put(diagnostic)
 
     def sorted(self) -> list[Diagnostic]:
-        """All of them by file, line and column."""
+        """Return all of them by file, line and column."""
         return [self._found[key] for key in sorted(self._found)]

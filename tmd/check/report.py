@@ -40,7 +40,7 @@ class _Edit:
 
 
 def fix_file(file: Path, diagnostics: Sequence[Diagnostic]) -> str | None:
-    """The text of ``file`` with what is mechanical fixed; ``None`` where nothing is.
+    """Return the text of ``file`` with what is mechanical fixed; ``None`` where nothing is.
 
     Raises:
         TmdError: The file cannot be read.
@@ -92,7 +92,7 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
 
 
 def _parenthesis(diagnostic: Diagnostic, text: str, lines: Sequence[str]) -> Iterator[_Edit]:
-    """At the end of the file only: elsewhere nobody but the author knows where it belongs."""
+    """Yield at the end of the file only: elsewhere nobody but the author knows where it belongs."""
     if "no opening parenthesis" in diagnostic.message:
         yield _Edit(diagnostic.location.line - 1, diagnostic.location.column - 1, 1, "")
     elif diagnostic.hint == 'add the missing ")"' and '"(define"' in diagnostic.message:
@@ -125,7 +125,7 @@ _MOST_ROUNDS = 4
 
 @dataclass(frozen=True, slots=True)
 class CheckReport:
-    """What was found.
+    """Result of a check.
 
     Attributes:
         files: The files that were checked.
@@ -139,7 +139,7 @@ class CheckReport:
 
     @property
     def counts(self) -> Mapping[Severity, int]:
-        """How many diagnostics there are of each severity."""
+        """Number of diagnostics of each severity."""
         return {severity: sum(d.severity is severity for d in self.diagnostics) for severity in Severity}
 
 
@@ -180,7 +180,7 @@ def check_paths(
 
 
 def _stamp(file: Path) -> tuple[int, int, int] | None:
-    """What tells whether a file was written since; ``None`` where there is none."""
+    """Return a stamp that changes when the file is written; ``None`` where there is none."""
     try:
         status = file.stat()
     except OSError:

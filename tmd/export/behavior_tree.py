@@ -27,7 +27,7 @@ _RESERVED = {"id", "name"}
 
 
 def format_tree(source: Planned) -> str:
-    """The XML of the tree.
+    """Return the XML of the tree.
 
     Raises:
         TmdError: The problem cannot be ground.
@@ -69,7 +69,7 @@ def _literal(atom: GroundAtom, positive: bool) -> str:
 
 
 def _ports(action: ActionSchema) -> list[str]:
-    """The port of each parameter: its name, with ``_`` behind it where BehaviorTree.CPP keeps that for itself."""
+    """Return the port of each parameter: its name, with ``_`` after names that BehaviorTree.CPP reserves."""
     names = [p.name.removeprefix("?") for p in action.parameters]
     return [f"{name}_" if name in _RESERVED else f"p{name}" if not name[0].isalpha() else name for name in names]
 

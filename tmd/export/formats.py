@@ -63,7 +63,7 @@ def _strips(source: Planned) -> Files:
 
 
 def _with_origins(text: str, found: Strips, keyword: str = "action") -> str:
-    """The text of a domain with the instruction before each action that stands for it."""
+    """Return the text of a domain with the instruction before each action that stands for it."""
     for action in found.problem.domain.actions:
         head = f"  (:{keyword} {action.name}\n"
         text = text.replace(head, f"  ; {found.instructions[action.name].pddl()}\n{head}")
@@ -156,7 +156,7 @@ FORMATS: Mapping[str, Format] = {
 
 @dataclass(frozen=True, slots=True)
 class ChosenFiles:
-    """What became of the formats that were asked for.
+    """Result of an export.
 
     Attributes:
         files: The files of each format that could be written, by path within one directory.
@@ -168,7 +168,7 @@ class ChosenFiles:
 
 
 def chosen_files(source: Planned, names: Sequence[str]) -> ChosenFiles:
-    """The files of each format; several formats have a directory each. One that fails does not keep the others back.
+    """Return the files of each format, in a directory each if there are several; failures do not stop the others.
 
     Raises:
         TmdError: There is no such format.

@@ -39,7 +39,7 @@ _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
 
 def from_unified_planning(problem: _Outside, *, domain: str | None = None) -> Problem:
-    """A ``unified_planning.model.Problem`` as one of ours.
+    """Return a ``unified_planning.model.Problem`` as one of ours.
 
     Names are taken over in lower case. Objects that an action names become constants.
 

@@ -17,7 +17,7 @@ PddlProblem: TypeAlias = Any
 
 
 def to_pddl(problem: Problem) -> PddlProblem:
-    """``problem`` as a ``pddl.core.Problem`` whose ``domain`` is set, made by that package's own reader.
+    """Return ``problem`` as a ``pddl.core.Problem`` whose ``domain`` is set, made by that package's own reader.
 
     Names stay as they are, and so does the meaning; ``either`` becomes a type of its own.
 
@@ -49,7 +49,7 @@ def to_pddl(problem: Problem) -> PddlProblem:
 
 
 def from_pddl(problem: PddlProblem) -> Problem:
-    """A ``pddl.core.Problem`` as one of ours.
+    """Return a ``pddl.core.Problem`` as one of ours.
 
     Args:
         problem: A problem that knows its domain: typed ADL with action costs.

@@ -13,7 +13,7 @@ _LIMIT = 600.0
 
 
 def format_sas(source: Planned) -> str:
-    """The problem as Fast Downward's translator writes it.
+    """Return the problem as Fast Downward's translator writes it.
 
     Raises:
         MissingToolError: Fast Downward is not installed.

@@ -45,6 +45,6 @@ def _laid_out(text: str, file: Path) -> str:
 
 
 def _has_marks(file: Path) -> bool:
-    """Whether the file begins with a byte order mark or has Windows line ends, which reading hides."""
+    """Return whether the file begins with a byte order mark or has Windows line ends, which reading hides."""
     data = file.read_bytes()
     return data.startswith(b"\xef\xbb\xbf") or b"\r" in data

@@ -9,7 +9,7 @@ WIDTH = 120
 
 
 def lay_out(value: object, indent: int = 0) -> str:
-    """The text of a JSON value; keys keep their order."""
+    """Return the text of a JSON value; keys keep their order."""
     line = json.dumps(value, ensure_ascii=False)
     if not value or not isinstance(value, dict | list) or (indent and indent + len(line) <= WIDTH):
         return line

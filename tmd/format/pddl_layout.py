@@ -59,7 +59,7 @@ class _Open:
     was_argument: int | None = None
 
     def indent(self, column: int) -> int:
-        """Where a line begins that continues this group and began at ``column`` before."""
+        """Return the column of a line that continues this group and began at ``column`` before."""
         if self.head in _TOP:
             return self.column + (4 if self.last in _PARTS else 2)
         if self.argument is not None and column == self.was_argument:
@@ -76,7 +76,7 @@ class _Open:
 
 
 def format_pddl(text: str, file: str = "<text>") -> str:
-    """``text`` laid out; the same tokens and comments in the same order.
+    """Return ``text`` laid out; the same tokens and comments in the same order.
 
     Raises:
         TmdError: Its parentheses do not match, so nothing can be laid out, or it is too large or too deep.
@@ -104,7 +104,7 @@ def format_pddl(text: str, file: str = "<text>") -> str:
 
 
 def _refuse_unbalanced(text: str, file: str) -> None:
-    """What else may be wrong does not keep a text from being laid out."""
+    """Refuse unbalanced or very deep parentheses; other faults do not prevent layout."""
     depth = deepest = 0
     for token in _tokens(text):
         depth += {"(": 1, ")": -1}.get(token.text, 0)
@@ -137,7 +137,7 @@ def _tokens(text: str) -> list[_Token]:
 
 
 def _broken(tokens: list[_Token]) -> Iterator[_Token]:
-    """Sections and the parts of actions on lines of their own."""
+    """Yield the tokens with sections and the parts of actions on their own lines."""
     heads: list[str] = []
     counts: list[int] = []
     for place, token in enumerate(tokens):
@@ -165,7 +165,7 @@ def _broken(tokens: list[_Token]) -> Iterator[_Token]:
 
 
 def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
-    """The lines, and the number of the token that each begins with (and the number of all at the end)."""
+    """Return the lines, and the number of the token that each begins with (and the number of all at the end)."""
     lines: list[str] = []
     starts: list[int] = []
     stack: list[_Open] = []
@@ -190,7 +190,7 @@ def _lay_out(tokens: list[_Token]) -> tuple[list[str], list[int]]:
 
 
 def _gap(comment: _Token, before: _Token, first: _Token, indent: int, length: int) -> int:
-    """The blanks before a comment: as many as there were, or so many that it stays in its column."""
+    """Return the blanks before a comment: as many as there were, or so many that it stays in its column."""
     was = comment.column - before.column - len(before.text)
     if was <= _LOOSE:
         return max(1, was)

@@ -23,7 +23,7 @@ Place = tuple[int, int]
 
 
 class PhraseRecord(JsonRecord):
-    """How a noun was said; what is as it mostly is, is left out."""
+    """Form of a noun phrase; usual values are left out."""
 
     quantifier: Quantifier = Quantifier.PLAIN
     number: int | None = None
@@ -45,7 +45,7 @@ class _Written(_Verb):
 
 
 class _Said(JsonRecord):
-    """What may be said besides."""
+    """Optional parts of a clause."""
 
     antecedents: dict[str, tuple[str, ...]] = Field(default_factory=dict)
     together: dict[str, int] = Field(default_factory=dict)
@@ -69,7 +69,7 @@ class InnerClause(_Said, _Verb):
     """A clause of a condition: it has no place of its own in the text."""
 
     def clause(self, text: str = "", place: Place = (0, 0)) -> Clause:
-        """The clause."""
+        """Return the clause."""
         return _clause(self, text, place)
 
 
@@ -82,7 +82,7 @@ class ConditionRecord(JsonRecord):
     negated: bool = False
 
     def condition(self) -> Condition:
-        """The condition."""
+        """Return the condition."""
         return Condition(self.word, tuple(clause.clause() for clause in self.clauses), self.negated, self.text)
 
 
@@ -93,11 +93,11 @@ class ClauseRecord(_Said, _Written):
 
     @classmethod
     def of(cls, clause: Clause) -> ClauseRecord:
-        """The clause as a record."""
+        """Return the clause as a record."""
         return cls.model_validate({**clause_json(clause), "span": clause.span})
 
     def clause(self) -> Clause:
-        """The clause."""
+        """Return the clause."""
         return _clause(self, self.text, self.span)
 
 
@@ -135,7 +135,7 @@ class ParsedRecord(JsonRecord):
 
     @classmethod
     def of(cls, parsed: Parsed) -> ParsedRecord:
-        """A parsed text as a record."""
+        """Return a parsed text as a record."""
         constraints = {"constraints": tuple(map(ClauseRecord.of, parsed.constraints))} if parsed.constraints else {}
         return ParsedRecord(
             clauses=tuple(map(ClauseRecord.of, parsed.clauses)),
@@ -144,7 +144,7 @@ class ParsedRecord(JsonRecord):
         )
 
     def parsed(self, text: str) -> Parsed:
-        """The clauses of ``text``."""
+        """Return the clauses of ``text``."""
         return Parsed(
             text,
             tuple(record.clause() for record in self.clauses),

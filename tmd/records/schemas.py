@@ -42,7 +42,7 @@ FORMATS: dict[str, Any] = {
 
 
 def schema_text(name: str) -> str:
-    """The JSON Schema of a format."""
+    """Return the JSON Schema of a format."""
     return lay_out(TypeAdapter(FORMATS[name]).json_schema(schema_generator=_WithoutTitles)) + "\n"
 
 
@@ -50,7 +50,7 @@ class _WithoutTitles(GenerateJsonSchema):
     """Titles of keys would only repeat the keys."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:  # noqa: ANN401 - a schema of pydantic's core
-        """Never."""
+        """Return false."""
         return False
 
 

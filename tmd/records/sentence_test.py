@@ -11,7 +11,7 @@ from tmd.records.grounding import ModelUse
 
 
 class Outcome(StrEnum):
-    """What became of a sentence test."""
+    """Outcome of a sentence test."""
 
     RIGHT = "right"
     WRONG = "wrong"
@@ -23,12 +23,12 @@ class Outcome(StrEnum):
 
     @property
     def passed(self) -> bool:
-        """Whether it is as it should be."""
+        """Return whether it is as it should be."""
         return self in (Outcome.RIGHT, Outcome.IMPOSSIBLE_REFUSED)
 
 
 class SentenceSummary(JsonRecord):
-    """How many tests have each outcome; ``wrong_warned`` are the wrong ones that came with a warning.
+    """Numbers of tests by outcome; ``wrong_warned`` are the wrong ones that came with a warning.
 
     The last five are of the language model, and are left out where none was asked.
     """
@@ -48,7 +48,7 @@ class SentenceSummary(JsonRecord):
 
 
 class SentenceCase(JsonRecord):
-    """What became of one test."""
+    """Result of one test."""
 
     id: str
     outcome: Outcome

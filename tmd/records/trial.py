@@ -11,7 +11,7 @@ from tmd.records.run import RanStep
 
 
 class TrialRequest(JsonRecord):
-    """What decides the outcome of a trial; ``id`` is null where no prediction can be executed."""
+    """Request that decides the outcome of a trial; ``id`` is null where no prediction can be executed."""
 
     environment: str
     model: str
@@ -43,7 +43,7 @@ class Trial(JsonRecord):
 
 
 class Skip(JsonRecord):
-    """Why there are no trials."""
+    """Reason why there are no trials."""
 
     WHAT = "the reason why there are no trials"
     REMAKE = Trial.REMAKE

@@ -49,12 +49,12 @@ _WHOLE = 6
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:
-    """What viser knows nothing of; ``None`` for the rest."""
+    """Answer the requests that viser does not know; ``None`` for the rest."""
     return response(HTTPStatus.OK, _INSTANCE) if _path(request) == ALIVE else None
 
 
 def with_script(request: Request, page: Response) -> Response:
-    """The page of viser with the studio's script and style; anything else as it is."""
+    """Return the page of viser with the studio's script and style; anything else as it is."""
     if _path(request) not in ("/", "/index.html") or page.status_code != HTTPStatus.OK or page.body is None:
         return page
     packed = page.headers.get("Content-Encoding") == "gzip"
@@ -82,7 +82,7 @@ def _path(request: Request) -> str:
 
 @dataclass(frozen=True, slots=True)
 class PageLink:
-    """What a window looks at, as its address says it.
+    """View of a window as its address states it.
 
     Attributes:
         environment: The environment; empty for the first.
@@ -99,7 +99,7 @@ class PageLink:
     tab: str = ""
 
     def query(self) -> str:
-        """The address, from the question mark on."""
+        """Return the address, from the question mark on."""
         told = {name: value for name, value in asdict(self).items() if value != getattr(_NOWHERE, name)}
         return f"?{urlencode(told)}" if told else ""
 
@@ -108,7 +108,7 @@ _NOWHERE = PageLink()
 
 
 def read_link(query: str) -> PageLink:
-    """What an address says; what it cannot say is left out."""
+    """Read an address; invalid parts are left out."""
     try:
         said = {name: values[0] for name, values in parse_qs(query.lstrip("?")[:_LONGEST]).items()}
     except ValueError:
@@ -123,12 +123,12 @@ def read_link(query: str) -> PageLink:
 
 
 def plan_to_json(plan: Sequence[PlanStep]) -> str:
-    """A plan as a window keeps it; empty for none."""
+    """Return a plan as a window keeps it; empty for none."""
     return json.dumps([[str(s.instruction), s.clause, s.latent] for s in plan]) if plan else ""
 
 
 def read_plan(kept: object) -> tuple[PlanStep, ...]:
-    """A plan that a window kept; empty where it kept none, or what it sends is none."""
+    """Return a plan that a window kept; empty where it kept none, or what it sends is none."""
     try:
         rows = json.loads(kept) if isinstance(kept, str) and kept else []
         if not isinstance(rows, list) or len(rows) > _MOST_STEPS:
@@ -141,13 +141,13 @@ def read_plan(kept: object) -> tuple[PlanStep, ...]:
 
 
 def width_of(said: Mapping[str, Any]) -> int:
-    """The width of a window, as its script told it; 0 where it did not."""
+    """Return the width of a window, as its script told it; 0 where it did not."""
     width = said.get("width")
     return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
 
 
 def place_of(said: object) -> tuple[float, float] | None:
-    """A place in the picture, from its left upper corner (0, 0) to its right lower one (1, 1); ``None`` for none."""
+    """Return a place in the picture, from (0, 0) at the upper left to (1, 1) at the lower right; ``None`` for none."""
     if not isinstance(said, list) or len(said) != 2 or not all(type(part) in (int, float) for part in said):
         return None
     across, down = map(float, said)
@@ -203,7 +203,7 @@ class Window:
                 self._told(event)
 
     def _is_new(self, number: int) -> bool:
-        """Whether an event was not told yet; from now on it is."""
+        """Return whether an event was not told yet; from now on it is."""
         with self._lock:
             new, self._seen = number > self._seen, max(number, self._seen)
             return new

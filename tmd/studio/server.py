@@ -86,7 +86,7 @@ class Server:
         visitor.guarded(visitor.come_back)(None)
 
     def _identity(self, client: ClientHandle) -> str:
-        """Who a browser is: random names that it keeps, one a window, so that what was not saved is offered again.
+        """Return the name of a window, by which its drafts are found when it is loaded again.
 
         A window takes a name of the browser that no other window has now, rather one with something that was not saved.
         """
@@ -145,7 +145,7 @@ class Server:
 
 
 def need_viser() -> ModuleType:
-    """The package that puts the scene and the panels into browsers.
+    """Return the package that puts the scene and the panels into browsers.
 
     Raises:
         MissingToolError: It is not installed.
@@ -157,7 +157,7 @@ def need_viser() -> ModuleType:
 
 
 def free_port(host: str, port: int) -> int:
-    """The port, if it can be listened at; a free one for 0.
+    """Return the port, if it can be listened at; a free one for 0.
 
     Raises:
         TmdError: It cannot.

@@ -1,4 +1,4 @@
-"""What all visitors of a studio share: the domain, its environments made ready, the robot's figure, and the teacher."""
+"""State shared by all visitors: the domain, its environments, the robot's figure, and the teacher."""
 
 from __future__ import annotations
 
@@ -110,11 +110,11 @@ class Studio:
         return name
 
     def environments(self) -> list[str]:
-        """The names of the environments, sorted."""
+        """Return the names of the environments, sorted."""
         return sorted({*self.corpus.environments(), *self._extra})
 
     def setting(self, name: str) -> Setting:
-        """An environment, made ready once.
+        """Return an environment, made ready once.
 
         Raises:
             TmdError: There is none, or it is wrong.
@@ -132,23 +132,23 @@ class Studio:
         return open_setting(self.corpus, make_world(name, problem, self.corpus.lexicon), path)
 
     def offers(self, name: str) -> Offers:
-        """What may be done in an environment."""
+        """Return the instructions of an environment."""
         with self._lock:
             if name not in self._offers:
                 self._offers[name] = Offers(self.setting(name).world)
             return self._offers[name]
 
     def figure(self) -> Figure | None:
-        """The robot; ``None`` where its model is not installed."""
+        """Return the robot; ``None`` where its model is not installed."""
         with self._lock:
             return _figure()
 
     def executable(self, setting: Setting) -> bool:
-        """Whether a robot could carry plans out: there are shapes, and the domain has skills."""
+        """Return whether a robot could carry plans out: there are shapes, and the domain has skills."""
         return setting.look is not None and (self.corpus.folder.path / SKILLS).is_file()
 
     def session(self, setting: Setting, text: str) -> Session:
-        """A demonstration of a text, at its beginning.
+        """Return a demonstration of a text, at its beginning.
 
         Raises:
             TmdError: The text is empty or too long, or what is shown here cannot be saved.
@@ -176,11 +176,11 @@ class Studio:
         return saved
 
     def examples(self, name: str) -> list[str]:
-        """Texts that can be tried in an environment."""
+        """Return the example texts of an environment."""
         return [known.text for known in self._texts if known.environment == name]
 
     def nearest_example(self, text: str, name: str) -> str:
-        """The text that can be tried in an environment and has most words in common with ``text``; empty for none."""
+        """Return the example text of an environment with most words of ``text``; empty for none."""
         words = set(text.lower().split())
 
         def alike(known: str) -> tuple[int, int]:
@@ -197,7 +197,7 @@ class Studio:
                 self.teacher.ground(texts[0], self.setting(self.start).world, top=1)
 
     def checked_text(self, text: str) -> str:
-        """The text without control characters.
+        """Return the text without control characters.
 
         Raises:
             TmdError: There is nothing in it, or it is too long.
@@ -214,7 +214,7 @@ def _figure() -> Figure | None:
 
 
 def open_studio(corpus: Corpus, environment: Path | None = None, learned: Path | None = None) -> Studio:
-    """The studio of a domain, with what its demonstrations teach.
+    """Return the studio of a domain, with what its demonstrations teach.
 
     Args:
         corpus: The domain.

@@ -1,4 +1,4 @@
-"""What a domain's demonstrations teach, while more of them come.
+"""Learning from a domain's demonstrations while more of them are saved.
 
 A demonstration that was just saved is in the library at once; the policy and what verbs mean, which take longer, are
 learned in the background. Whoever grounds a text meanwhile has what was known when they began, all of one piece; at
@@ -52,7 +52,7 @@ _NO_KEY = "none"
 
 @dataclass(frozen=True, slots=True)
 class Trained:
-    """What came of it.
+    """Result of learning.
 
     Attributes:
         made_from: The digest of the files that it was learned from.
@@ -93,22 +93,22 @@ class Training:
 
     @property
     def share(self) -> float:
-        """How much of the work is done, roughly, from 0 to 1."""
+        """Share of the work that is done, roughly, from 0 to 1."""
         return self._share
 
     @property
     def running(self) -> bool:
-        """Whether it goes on."""
+        """Return whether it goes on."""
         return self._thread.is_alive()
 
     @property
     def trained(self) -> Trained | None:
-        """What came of it, once it is done."""
+        """Result, once it is done."""
         return self._trained
 
     @property
     def error(self) -> TmdError | None:
-        """Why it failed, if it did; nothing was changed then."""
+        """Error, if it failed; nothing was changed then."""
         return self._error
 
     def wait(self, timeout: float | None = None) -> bool:
@@ -156,7 +156,7 @@ class Training:
 
 
 def _work(connection: Connection, folder: Path, directory: Path, root: Path | None) -> None:
-    """What the process does."""
+    """Learn in a process, and send the progress and the result."""
 
     def tell(share: float) -> None:
         connection.send(("share", _SHARE * share))
@@ -185,7 +185,7 @@ def _unpacked(data: tuple[Any, ...]) -> Trained:
 
 
 class Teacher:
-    """What is known of one domain. Threads may share it.
+    """Knowledge learned in one domain. Threads may share it.
 
     Args:
         corpus: The domain's environments and demonstrations.
@@ -210,12 +210,12 @@ class Teacher:
 
     @property
     def knowledge(self) -> Knowledge:
-        """What is known now."""
+        """Current knowledge."""
         return self._knowledge
 
     @property
     def habits(self) -> Habits:
-        """What was done for each verb, for proposals of clauses."""
+        """Instructions carried out for each verb, for proposals of clauses."""
         return self._habits
 
     @property
@@ -256,7 +256,7 @@ class Teacher:
 
     @property
     def learning(self) -> bool:
-        """Whether what is known is not yet all that the files teach: it is being learned."""
+        """Return whether what is known is not yet all that the files teach: it is being learned."""
         return self._learning
 
     def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
@@ -312,7 +312,7 @@ class Teacher:
             training.stop()
 
     def _library(self, found: tuple[Demonstration, ...]) -> Library:
-        """What ``found`` teaches: only what is new is learned, where nothing went and each id stands for one."""
+        """Return the library of ``found``, learning only new ones if none was removed and each id is unique."""
         corpus, before = self.corpus, set(self._learned_from)
         order = {demonstration.id: number for number, demonstration in enumerate(found)}
         if len(order) < len(found) or not before <= set(found):

@@ -159,7 +159,7 @@ class Visitor:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
 
     def _happened(self, event: Mapping[str, Any]) -> None:
-        """Something that the page's own script tells."""
+        """Handle an event that the page's own script sends."""
         step, to = event.get("step"), event.get("to")
         if isinstance(event.get("dark"), bool):
             self._theme(dark=event["dark"])
@@ -264,7 +264,7 @@ class Visitor:
             self.object.refresh()
 
     def shows(self, panel: Played) -> bool:
-        """Whether the steps of no other panel are looked at."""
+        """Return whether the steps of no other panel are looked at."""
         return self.player.owner in (None, panel)
 
     def select(self, name: str | None) -> None:
@@ -287,7 +287,7 @@ class Visitor:
         self.guarded(lambda: self.select(name))(None)
 
     def _called(self, across: float, down: float) -> str:
-        """The name of what is seen at a place of the picture, the part's where it is one; empty for none."""
+        """Return the name of what is seen at a place of the picture, the part's where it is one; empty for none."""
         camera, scenery = self.client.camera, self._scenery
         if scenery is None:
             return ""
@@ -329,7 +329,7 @@ class Visitor:
             camera.look_at = target
 
     def _resized(self) -> None:
-        """The view has another form: look at the whole room again, unless the visitor looks at something else."""
+        """Look at the whole room again in a view of another form, unless the visitor moved the camera."""
         camera = self.client.camera
         with self._lock:
             aspect, eye = self._aimed
@@ -352,7 +352,7 @@ class Visitor:
         threading.Thread(target=self.guarded(lambda: frames(ended)), args=(None,), daemon=True).start()
 
     def is_playing(self) -> bool:
-        """Whether something is being played."""
+        """Return whether something is being played."""
         return self._playing is not None and not self._playing.is_set()
 
     def stop(self) -> None:
@@ -386,7 +386,7 @@ class Visitor:
         self.play(frames)
 
     def leave(self) -> None:
-        """The browser is gone."""
+        """Stop playing: the browser is gone."""
         self.stop()
 
     # messages
@@ -396,7 +396,7 @@ class Visitor:
         self.correct.open(text, plan)
 
     def saved(self, demonstration: Demonstration) -> None:
-        """A demonstration was saved: plan its text again, and say whether that uses it."""
+        """Plan the text of a saved demonstration again, and report whether the plan uses it."""
         self.say.saved(demonstration)
 
     def learning(self, share: float | None) -> None:
@@ -434,7 +434,7 @@ class Visitor:
             self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """A callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
+        """Return a callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
 
         @wraps(act)
         def called(_: object) -> None:
@@ -451,13 +451,13 @@ class Visitor:
         return called
 
     def holding(self) -> threading.RLock:
-        """The visitor's lock: one thing at a time happens to what it looks at."""
+        """Return the visitor's lock: one thing at a time happens to what it looks at."""
         return self._lock
 
     # keys
 
     def _commands(self) -> None:
-        """Hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses what has the focus."""
+        """Add the hot keys; W, A, S, D, Q, E and the arrows move the camera, and space presses the focused button."""
         gui = self.client.gui
         for label, key, act in (
             ("Next step", "N", lambda: self.player.move(1)),

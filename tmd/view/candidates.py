@@ -51,7 +51,7 @@ def candidates(
 
 
 def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
-    """The factors that are not 0 in every plan, those that weigh most first."""
+    """Return the factors that are not 0 in every plan, those that weigh most first."""
     weight: defaultdict[str, float] = defaultdict(float)
     for plan in plans:
         for name, value in plan.factors.items():
@@ -60,7 +60,7 @@ def factors_of(plans: Sequence[RankedPlan]) -> list[str]:
 
 
 def grouped(refusals: Sequence[RejectedProposal]) -> list[RefusedCandidate]:
-    """Refusals by clause and reason, the most frequent reasons of a clause first."""
+    """Group refusals by clause and reason, the most frequent reasons of a clause first."""
     found: dict[tuple[int, str], list[str]] = {}
     for refusal in refusals:
         found.setdefault((refusal.clause, refusal.reason), []).append(refusal.source)

@@ -45,7 +45,7 @@ class Page:
 
 @dataclass(frozen=True, slots=True)
 class _Seen:
-    """What a robot did for a step of the plan, with its picture."""
+    """Executed step of a robot, with its picture."""
 
     step: RanStep
     picture: str
@@ -98,7 +98,7 @@ def render(subject: Subject) -> Page:
 
 
 def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
-    """For the steps after which a goal holds, or does not any more, a sign and the goal in words."""
+    """Map steps to a sign and the words of each goal that holds, or ends, after them."""
     found: defaultdict[int, list[tuple[str, str]]] = defaultdict(list)
     for shown in goals:
         if shown.since:
@@ -109,7 +109,7 @@ def _ticks(goals: Sequence[ShownGoal]) -> dict[int, list[tuple[str, str]]]:
 
 
 def _candidates(subject: Subject, verdict: Verdict) -> str:
-    """The table of all plans; the first is the one that is shown."""
+    """Return the table of all plans; the first is the one that is shown."""
     if not subject.plans and not subject.refusals:
         return ""
     others = [validate(subject.problem, plan.instructions).reason for plan in subject.plans[1:]]
@@ -126,7 +126,7 @@ def _clause_rows(said: Said) -> list[_ClauseRow]:
 
 
 def _reading(clause: Clause, name: str) -> str:
-    """What a pronoun, or an object that was left out, was taken for."""
+    """Return the reading of a pronoun, or of an object that was left out."""
     read = clause.meant(name)
     return "" if read == (name,) else " + ".join(read)
 
@@ -138,7 +138,7 @@ def _notes(clause: Clause) -> tuple[str, ...]:
 
 
 def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
-    """For every step of the plan what the robot did for it."""
+    """Map each step of the plan to the executed steps of the robot for it."""
     if subject.ran is None:
         return {}
     ran: Ran = subject.ran
@@ -150,7 +150,7 @@ def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
 
 
 def _picture(strip: Strip | None, place: int) -> str:
-    """The style that shows one picture of the sheet, at whatever size; empty where there is none."""
+    """Return the style that shows one picture of the sheet, at whatever size; empty where there is none."""
     if strip is None or place >= len(strip.tiles):
         return ""
     tile: Tile = strip.tiles[place]

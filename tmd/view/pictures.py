@@ -17,7 +17,7 @@ _LARGEST = 50_000
 
 @dataclass(frozen=True, slots=True)
 class Tile:
-    """Where on the sheet one picture is, in pixels."""
+    """Place of one picture on the sheet, in pixels."""
 
     x: int
     y: int
@@ -45,7 +45,7 @@ class Strip:
 
 
 def read_strip(data: bytes, count: int) -> Strip | None:
-    """A sheet of ``count`` pictures.
+    """Return a sheet of ``count`` pictures.
 
     Args:
         data: The PNG file.

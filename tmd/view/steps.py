@@ -60,7 +60,7 @@ class _Sheet:
     full: bool = field(default=False, init=False)
 
     def draw(self, names: Sequence[str], before: State, after: State | None) -> tuple[Drawing, ...]:
-        """The named objects, each only once the sheet is full."""
+        """Return the named objects, each only once the sheet is full."""
         found = []
         for name in names:
             if self.full:
@@ -81,7 +81,7 @@ class _Sheet:
 def shown_steps(
     problem: Problem, steps: Sequence[PlannedStep], budget: int = BUDGET
 ) -> tuple[list[ShownStep], Verdict]:
-    """Every step of a plan, and whether the plan works.
+    """Return every step of a plan, and whether the plan works.
 
     Args:
         problem: Where it begins.
@@ -117,5 +117,5 @@ def _done(number: int, step: PlannedStep, before: State, after: State, sheet: _S
 
 
 def _named(graph: Anatomy, instruction: Instruction) -> list[str]:
-    """The objects among the arguments, wholes for parts."""
+    """Return the objects among the arguments, wholes for parts."""
     return graph.things(GroundAtom(instruction.name, instruction.args))

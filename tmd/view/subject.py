@@ -1,4 +1,4 @@
-"""What a page is about: a plan in an environment, and whatever is known of where it comes from."""
+"""Subject of a page: a plan in an environment, and its origin as far as it is known."""
 
 from __future__ import annotations
 
@@ -85,19 +85,19 @@ class Subject:
 
     @property
     def goals(self) -> tuple[StepGoal, ...]:
-        """What the steps of the text ask for, of the plan that is shown."""
+        """Goals of the steps of the text, for the plan that is shown."""
         return self.plans[0].goals if self.plans else ()
 
 
 def title_of(text: str, environment: str) -> str:
-    """What a page about a text is called."""
+    """Return the title of a page about a text."""
     flat = " ".join(text.split())
     short = flat if len(flat) <= _TITLE else f"{flat[: _TITLE - 1].rstrip()}…"
     return f"{short} ({environment})"
 
 
 def text_subject(grounded: Grounded, made: Iterable[tuple[str, str]] = ()) -> Subject:
-    """What came of a text: its best plan beside the others, or why there is none."""
+    """Return the subject of a grounded text: its best plan beside the others, or why there is none."""
     return grounded_subject(
         title_of(grounded.parsed.text, grounded.world.name),
         grounded.world,
@@ -125,7 +125,7 @@ def grounded_subject(
     strip: Strip | None = None,
     refused: str = "",
 ) -> Subject:
-    """The best plan of a grounded text; without any plan the text alone."""
+    """Return the best plan of a grounded text; without any plan the text alone."""
     problem = world.task.problem
     meant = meanings(parsed, plans[0], world) if plans else meanings_in(parsed.clauses, (), world)
     words = [" ".join(clause.text.split()) for clause in parsed.clauses]

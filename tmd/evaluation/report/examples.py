@@ -1,4 +1,4 @@
-"""Which predictions a report shows, and what it shows of each."""
+"""Best and worst predictions of a model, as a report shows them."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ class Shown:
 
 
 def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
-    """The best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
+    """Return the best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
 
     What has no goal stands between what reached its goal and what did not.
     """
@@ -101,7 +101,7 @@ def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
 
 
 def shown(line: PredictionRecord) -> Shown:
-    """What is shown of a prediction."""
+    """Return a prediction as it is shown."""
     origins = [
         (number, latent)
         for number, clause in enumerate(line.clauses, 1)

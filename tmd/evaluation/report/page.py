@@ -30,14 +30,14 @@ FOLDER = "pages"
 
 
 def page_name(model: str, example: str | int) -> str:
-    """The file of the page on a prediction: it can stand in an address as it is, and no other prediction has it."""
+    """Return the file name of the page on a prediction; it is unique, and safe in an address."""
     plain = f"{model}-{example}"
     safe = re.sub(r"[^A-Za-z0-9_.-]", "_", plain)[:120]
     return f"{safe}.html" if safe == plain else f"{safe}-{crc32(plain.encode('utf-8', 'replace')):08x}.html"
 
 
 def linked_pages(run: Path) -> frozenset[str]:
-    """The pages that are there, by file name."""
+    """Return the pages that are there, by file name."""
     return frozenset(path.name for path in (run / FOLDER).glob("*.html"))
 
 
@@ -49,7 +49,7 @@ _WEIGHTS = 40
 
 @dataclass(frozen=True, slots=True)
 class LearnedWeights:
-    """What one row learned.
+    """Weights and curve that one row learned.
 
     Attributes:
         model: The row.
@@ -70,7 +70,7 @@ class LearnedWeights:
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Where one row goes wrong. ``cells`` are (count, share of the line) by recorded and predicted instruction."""
+    """Errors of one row. ``cells`` are (count, share of the line) by recorded and predicted instruction."""
 
     model: str
     verbs: list[VerbErrors]
@@ -81,13 +81,13 @@ class Errors:
 
 
 def differences(metrics: Metrics, row: str | None, order: Sequence[str]) -> list[Pair]:
-    """The differences of one row from all others, as ``row`` minus the other."""
+    """Return the differences of one row from all others, as ``row`` minus the other."""
     own = [pair.seen_from(row) for pair in metrics.significance.pairs if row is not None and row in (pair.a, pair.b)]
     return sorted(own, key=lambda pair: order.index(pair.b))
 
 
 def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
-    """Our numbers and the paper's for the rows and tasks that both have; ``None`` if there are none."""
+    """Return our numbers and the paper's for the rows and tasks that both have; ``None`` if there are none."""
     tasks = [task for task in paper_table.TASKS if all(task in metrics.models[model].tasks for model in rows)]
     if not tasks or not rows:
         return None
@@ -100,7 +100,7 @@ def table_2(metrics: Metrics, rows: Sequence[str]) -> dict[str, Any] | None:
 
 
 def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
-    """What one row learned, over its training sets."""
+    """Return the weights that one row learned, over its training sets."""
     own = [fit for fit in fits if fit.model == model]
     worlds = sorted({world for fit in own for world in fit.worlds})
     names = list(dict.fromkeys(name for fit in own for found in fit.worlds.values() for name in found.weights))
@@ -119,7 +119,7 @@ def learned(fits: Sequence[Fit], model: str) -> LearnedWeights:
 
 
 def errors(run: Run, model: str) -> Errors:
-    """Where one row goes wrong."""
+    """Return the errors of one row."""
     lines = run.of(model)
     verbs = by_verb(lines)
     known = [verb for verb in verbs if verb.verb != NO_CLAUSE]
@@ -139,7 +139,7 @@ _MENTIONED = 3
 
 
 def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:
-    """The page.
+    """Return the page.
 
     Args:
         run: The run.
@@ -195,18 +195,18 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
 
 
 def _with_goal(metrics: Metrics) -> int | None:
-    """How many examples have a goal, where that needs saying: where some have none."""
+    """Return the number of examples with a goal; ``None`` where all have one."""
     rows = metrics.models.values()
     return max(row.goals for row in rows) if any(row.goals < row.n for row in rows) else None
 
 
 def _said(value: object) -> str:
-    """A value of the configuration."""
+    """Return a value of the configuration."""
     return value if isinstance(value, str) else json.dumps(value, ensure_ascii=False)
 
 
 def _mentioned(counts: Counter[str] | Counter[tuple[str, str]]) -> str:
-    """The most frequent ones: ``moveto × 3, grasp × 2``, and of pairs ``moveto → grasp × 2``; never broken inside."""
+    """List the most frequent ones: ``moveto × 3, grasp × 2``, and of pairs ``moveto → grasp × 2``."""
     most = sorted(((" → ".join((key,) if isinstance(key, str) else key), n) for key, n in counts.items()), key=_rank)
     return ", ".join(f"{key} × {count}".replace(" ", "\N{NO-BREAK SPACE}") for key, count in most[:_MENTIONED])
 

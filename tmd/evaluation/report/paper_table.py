@@ -30,7 +30,7 @@ class PaperRow:
     average: tuple[float, float]
 
     def of(self, task: str) -> tuple[float, float]:
-        """IED and EED of one of :data:`TASKS`."""
+        """Return IED and EED of one of :data:`TASKS`."""
         return self.scores[TASKS.index(task)]
 
 
@@ -67,13 +67,13 @@ OURS = {
 
 
 def title(model: str) -> str:
-    """What a row is called on a page: as in the paper where it is there, otherwise as in :data:`OURS`, or its name."""
+    """Return the title of a row: that of the paper, or of :data:`OURS`, or its name."""
     if model in TABLE_2:
         return TABLE_2[model].title
     return OURS.get(model, model)
 
 
 def in_order(models: Iterable[str]) -> tuple[list[str], list[str]]:
-    """The rows that the paper has, in its order, and the others, in their own."""
+    """Return the rows that the paper has, in its order, and the others, in their own."""
     given = list(models)
     return [name for name in TABLE_2 if name in given], [name for name in given if name not in TABLE_2]

@@ -1,4 +1,4 @@
-"""Which clause each step of a demonstration serves, as a proposal that the person may change.
+"""Proposed clauses for the steps of a demonstration; the person may change them.
 
 Steps serve the clauses in the order of the text. How well a step fits a clause is said by the objects that both speak
 of (:mod:`tmd.veil.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
@@ -35,7 +35,7 @@ _NEVER = -1e9
 
 @dataclass(frozen=True)
 class Habits:
-    """What was done for each verb.
+    """Instructions that were carried out for each verb.
 
     Attributes:
         done: For each canonical verb how often each instruction was carried out.
@@ -65,20 +65,20 @@ class Habits:
         return found
 
     def verb(self, clause: Clause | None) -> str:
-        """The canonical verb of a clause."""
+        """Return the canonical verb of a clause."""
         if clause is None or self.library is None:
             return ""
         return self.library.lexicon.canonical_verb(clause.verb)
 
     def usual(self, verb: str, instruction: str) -> float:
-        """How much commoner it is for the verb: ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
+        """Return ln P(instruction | verb) / P(instruction); 0 where nothing is known."""
         known = self.all_done.total()
         share = (self.all_done[instruction] + 0.5) / (known + 0.5 * (len(self.all_done) + 1))
         own = self.done.get(verb, Counter[str]())
         return math.log((own[instruction] + _PRIOR * share) / (own.total() + _PRIOR) / share)
 
     def ends(self, verb: str, instruction: str) -> float:
-        """How likely it is that the instruction was the last one for the verb."""
+        """Return the probability that the instruction was the last one for the verb."""
         share = (self.all_ended[instruction] + 0.5) / (self.all_done[instruction] + 1.0)
         ended = self.ended.get(verb, Counter[str]())[instruction] + _PRIOR * share
         return min(max(ended / (self.done.get(verb, Counter[str]())[instruction] + _PRIOR), 1e-3), 1 - 1e-3)
@@ -95,7 +95,7 @@ def propose(
     pinned: Mapping[int, int],
     habits: Habits = NO_HABITS,
 ) -> tuple[int, ...]:
-    """For each instruction the number of its clause, from 0, never falling.
+    """Return the number of the clause of each instruction, from 0, never falling.
 
     Args:
         clauses: The clauses of the text, at least one.
@@ -126,7 +126,7 @@ def propose(
 
 
 def _advanced(best: Sequence[float], ended: Sequence[float], cut: float) -> tuple[list[float], list[int]]:
-    """One step on: for each clause the best value, and the clause of the step before that leads there.
+    """Return for each clause the best value one step on, and the clause of the step before that leads there.
 
     Args:
         best: The same for the step before.

@@ -166,7 +166,7 @@ class Correction:
             return self._history.redo()
 
     def broken(self) -> Break | None:
-        """The first step that does not apply; ``None`` where all do."""
+        """Return the first step that does not apply; ``None`` where all do."""
         return self._played(self.steps)[1]
 
     def repair(self) -> tuple[Instruction, ...]:
@@ -189,7 +189,7 @@ class Correction:
             return needed
 
     def session(self, habits: Habits = NO_HABITS) -> Session:
-        """The corrected plan as a session, with the plan that was proposed.
+        """Return the corrected plan as a session, with the plan that was proposed.
 
         Raises:
             TmdError: A step does not apply.
@@ -210,14 +210,14 @@ class Correction:
         )
 
     def _put_in(self, step: int, instructions: Sequence[Instruction], clause: int | None) -> None:
-        """Steps before the step of that number."""
+        """Insert instructions before the step of that number."""
         beside = self.steps[step - 1 : step] or self.steps[-1:]
         owner = clause if clause is not None else beside[0].clause if beside else 0
         added = tuple(DemonstratedStep(instruction, owner) for instruction in instructions)
         self._history.add(self.steps[: step - 1] + added + self.steps[step - 1 :])
 
     def _played(self, steps: Sequence[DemonstratedStep]) -> tuple[Bits, Break | None]:
-        """The state before the first step that does not apply, and that step; or the last state."""
+        """Return the state before the first step that does not apply, and that step; or the last state."""
         task = self.world.task
         state = task.init
         for number, step in enumerate(steps, start=1):
@@ -229,7 +229,7 @@ class Correction:
         return state, None
 
     def _replaced(self, old: str, new: str) -> Mapping[str, str]:
-        """For ``old`` and its parts what stands for them."""
+        """Map ``old`` and its parts to ``new`` and its parts."""
         known = self.world.objects.types_of
         for name in (old, new):
             if name not in known:
@@ -244,7 +244,7 @@ class Correction:
 
 
 def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: Planner) -> tuple[Instruction, ...]:
-    """What the planner does in ``state`` so that ``instruction`` applies.
+    """Return the instructions that the planner needs in ``state`` so that ``instruction`` applies.
 
     Raises:
         TmdError: Nothing leads there, or nothing was found.
@@ -262,7 +262,7 @@ def what_it_needs(instruction: Instruction, state: Bits, world: World, planner: 
 def steps_of(
     plan: RankedPlan, clauses: Sequence[Clause], text: str, lexicon: Lexicon | None = None
 ) -> list[DemonstratedStep]:
-    """The steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
+    """Return the steps of a plan that was proposed for ``clauses``, each with the number of its piece of the text."""
     pieces = cut(clean(text), lexicon)
     starts = [piece.start for piece in pieces]
     owners = [max((n for n, start in enumerate(starts) if start <= c.span.start), default=0) for c in clauses]

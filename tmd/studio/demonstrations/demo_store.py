@@ -42,7 +42,7 @@ _LONGEST = 200
 
 
 class Archive:
-    """Where the demonstrations of one domain go. Threads may share it.
+    """Store of the demonstrations of one domain. Threads may share it.
 
     Args:
         corpus: The domain's environments and demonstrations.
@@ -54,7 +54,7 @@ class Archive:
         self.wait = wait
 
     def file(self, task: str) -> Path:
-        """The corpus of a task.
+        """Return the corpus of a task.
 
         Raises:
             TmdError: The task cannot have that name.
@@ -93,7 +93,7 @@ class Archive:
         when: str | None = None,
         goal: str | None = None,
     ) -> Demonstration:
-        """Append what was demonstrated.
+        """Return append what was demonstrated.
 
         Args:
             session: The demonstration; all its steps, wherever it is looked at.
@@ -130,7 +130,7 @@ class Archive:
             return read_demonstrations(file)[-1]
 
     def _check(self, found: Demonstration, line: str, file: Path, number: int) -> None:
-        """What is written must be read as what it is, be executable, and reach its goal.
+        """Check that a demonstration reads back as it is, is executable, and reaches its goal.
 
         Raises:
             TmdError: It is not.
@@ -151,7 +151,7 @@ def demonstration(
     when: str | None = None,
     goal: str | None = None,
 ) -> Demonstration:
-    """What was shown in ``session``, as a demonstration."""
+    """Return a session as a demonstration."""
     world = session.world
     end = after((i for segment in segments for i in segment.instructions), world, world.task.init)
     whole = None if session.proposed is None else tuple(step.instruction for step in session.proposed)
@@ -160,7 +160,7 @@ def demonstration(
 
 
 def _end_state(world: World, end: Bits) -> tuple[str, ...]:
-    """What became otherwise, but for what the facts say of constants of the domain, such as the robot."""
+    """Return the facts that changed, without those whose first argument is a constant, such as the robot."""
 
     def own(bits: Bits) -> list[GroundAtom]:
         return [a for a in world.task.names(bits) if a.args and a.args[0] not in world.profiles.constants]
@@ -170,7 +170,7 @@ def _end_state(world: World, end: Bits) -> tuple[str, ...]:
 
 
 def _next_id(stem: str, before: list[Demonstration]) -> str:
-    """The stem with the number after the highest that is used."""
+    """Return the stem with the number after the highest that is used."""
     used = [d.id.removeprefix(f"{stem}-") for d in before if d.id.startswith(f"{stem}-")]
     highest = max((int(number) for number in used if _NUMBER.fullmatch(number)), default=0)
     return f"{stem}-{highest + 1:02d}"

@@ -44,7 +44,7 @@ class DemonstratedStep:
 
 @dataclass(frozen=True, slots=True)
 class StateChanges:
-    """What an instruction changed: facts that it made true, and facts that it made false, sorted."""
+    """Facts that an instruction made true, and facts that it made false, sorted."""
 
     added: tuple[GroundAtom, ...]
     removed: tuple[GroundAtom, ...]
@@ -52,7 +52,7 @@ class StateChanges:
 
 @dataclass(frozen=True, slots=True)
 class _Version:
-    """What undo goes back to: the steps, the states before and after each, and what the person marked."""
+    """Version of a session: its steps, the states before and after each, and the marked clauses."""
 
     steps: tuple[DemonstratedStep, ...]
     states: tuple[Bits, ...]
@@ -122,7 +122,7 @@ class Session:
 
     @property
     def pins(self) -> dict[int, int]:
-        """What the person marked: for the number of a step, from 1, that of its clause, from 0."""
+        """Numbers of the clauses that the person marked, from 0, by the number of the step, from 1."""
         return {number + 1: clause for number, clause in sorted(self._history.current.pins.items())}
 
     @property
@@ -209,7 +209,7 @@ class Session:
             self._cursor = at
 
     def changes(self, step: int) -> StateChanges:
-        """What a step changed.
+        """Return the facts that a step changed.
 
         Raises:
             TmdError: There is no such step.
@@ -221,7 +221,7 @@ class Session:
             return StateChanges(tuple(names(after & ~before)), tuple(names(before & ~after)))
 
     def segments(self) -> tuple[Segment, ...]:
-        """The pieces of the text with what serves each, as a demonstration has them."""
+        """Return the pieces of the text with what serves each, as a demonstration has them."""
         steps, proposed = self.steps, self.proposed
         return tuple(
             Segment(piece.start, piece.end, _own(steps, n), None if proposed is None else _own(proposed, n))
@@ -239,7 +239,7 @@ class Session:
         return _Version(steps, states, MappingProxyType(dict(pins)))
 
     def _known_pins(self, pins: Mapping[int, int], count: int) -> dict[int, int]:
-        """Pins as they are kept, from 0; those that cannot be are left out."""
+        """Return the pins that are possible, with steps counted from 0."""
         found: dict[int, int] = {}
         for step, clause in sorted(pins.items()):
             if 0 < step <= count and max(found.values(), default=0) <= clause < len(self.clauses):
@@ -251,7 +251,7 @@ class Session:
             raise TmdError(f"there is no step {step}", hint=f"the demonstration has {len(self.steps)} steps")
 
     def _applied(self, instruction: Instruction, state: Bits, step: int) -> Bits:
-        """The state after ``instruction``.
+        """Return the state after ``instruction``.
 
         Raises:
             TmdError: It does not apply.
@@ -266,13 +266,13 @@ class Session:
 
 
 def _first(version: _Version, steps: int) -> _Version:
-    """The version as it was after so many steps."""
+    """Return the version as it was after so many steps."""
     pins = {number: clause for number, clause in version.pins.items() if number < steps}
     return _Version(version.steps[:steps], version.states[: steps + 1], MappingProxyType(pins))
 
 
 def _in_order(steps: Iterable[DemonstratedStep], clauses: int) -> tuple[DemonstratedStep, ...]:
-    """The steps with clauses that there are, never falling."""
+    """Return the steps with clauses that there are, never falling."""
     found: list[DemonstratedStep] = []
     for step in steps:
         clause = min(max(step.clause, found[-1].clause if found else 0), clauses - 1)

@@ -66,7 +66,7 @@ class CorrectPanel:
         guarded(self._look_for_draft)(None)
 
     def entered(self) -> None:
-        """Another environment: nothing is corrected there; what is not done is kept."""
+        """Close the correction in another environment; an unfinished one is kept."""
         self._correction = None
         self._all.visible = False
         self._text.content = fragment(PLAN_FIRST)
@@ -119,7 +119,7 @@ class CorrectPanel:
         visitor.tell("Here is the correction that is not done.")
 
     def come_back(self) -> None:
-        """The page was loaded again: go on with the correction, if there is one."""
+        """Resume the correction after the page was loaded again, if there is one."""
         visitor = self._visitor
         if self._correction is None and visitor.studio.drafts.of(visitor.identity, CorrectionDraft) is not None:
             self.resume()
@@ -181,7 +181,7 @@ class CorrectPanel:
         self._visitor.tell(f"{count} step{'' if count == 1 else 's'} changed.")
 
     def _instructions(self) -> None:
-        """What can be inserted, whether it applies there or not: the planner may make it possible."""
+        """Offer the instructions with an object; the planner may make possible those that do not apply."""
         name = chosen(self._with)
         groups = self._visitor.studio.offers(self._visitor.setting.name)
         state = self._visitor.setting.world.task.init
@@ -214,7 +214,7 @@ class CorrectPanel:
         self._visitor.take_over(session, goal, self._done)
 
     def _done(self) -> None:
-        """The panel where demonstrations are saved has the correction now."""
+        """Discard the draft of the correction, which was taken over."""
         self._visitor.studio.drafts.discard(self._visitor.identity, CorrectionDraft)
         self.entered()
 

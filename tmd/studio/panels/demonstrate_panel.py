@@ -87,7 +87,7 @@ class DemonstratePanel:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
-        """Another environment."""
+        """Show the objects and examples of another environment."""
         visitor = self._visitor
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
@@ -97,7 +97,7 @@ class DemonstratePanel:
     # beginning and ending
 
     def begin(self) -> None:
-        """A new demonstration of the text."""
+        """Begin a new demonstration of the text."""
         visitor = self._visitor
 
         def go() -> None:
@@ -197,7 +197,7 @@ class DemonstratePanel:
         visitor.tell(f"Here is what was not saved: {len(session.steps)} steps.")
 
     def come_back(self) -> None:
-        """The page was loaded again: go on with what was not saved, if there is something."""
+        """Resume the unsaved demonstration after the page was loaded again, if there is one."""
         if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity, Draft) is not None:
             self.resume()
 

@@ -140,13 +140,13 @@ class SayPanel:
             put(self._text, self._examples.value)
 
     def entered(self) -> None:
-        """Another environment: its examples, and no plan yet."""
+        """Show the examples of another environment, and no plan."""
         self._examples.options = (OWN, *self._texts())
         put(self._examples, OWN)
         self._clear()
 
     def _clear(self) -> None:
-        """No plan; the picture shows the beginning."""
+        """Remove all plans; the picture shows the beginning."""
         self._grounded, self._request, self._waiting, self._plans, self._reels = None, None, None, [], []
         self._button.disabled = False
         self._understood.content = self._judged.content = self._goals.content = self._steps.content = ""
@@ -272,7 +272,7 @@ class SayPanel:
         visitor.keep_link()
 
     def looked_at(self) -> tuple[int, int, str]:
-        """The number of the plan that is shown, the step, and the sentence, for the window's address."""
+        """Return the number of the plan that is shown, the step, and the sentence, for the window's address."""
         if self._waiting is not None:
             return self._waiting.plan, self._step, self._waiting.say
         if self._grounded is None:
@@ -280,7 +280,7 @@ class SayPanel:
         return (self._number() + 1 if self._reels else 1), self._step, self._grounded.parsed.text
 
     def listed(self) -> tuple[PlanStep, ...]:
-        """The plan that is shown; empty for none."""
+        """Return the plan that is shown; empty for none."""
         return self._plans[self._number()] if self._plans else ()
 
     def saved(self, demonstration: Demonstration) -> None:
@@ -296,7 +296,7 @@ class SayPanel:
             visitor.tell(f"Saved as {demonstration.id}. {used}", _LATER if learning else None, aloud=True)
 
     def learned(self) -> None:
-        """All was learned: plan the text that was saved last again, and say whether it is what was shown."""
+        """Plan the text that was saved last again, and report whether the plan is the one that was shown."""
         visitor = self._visitor
         with visitor.holding():
             saved, self._saved = self._saved, None
@@ -313,7 +313,7 @@ class SayPanel:
             visitor.tell(f'Saved as {saved.id}, and everything is learned. "{said}": {used}', aloud=True)
 
     def _again(self, saved: Demonstration) -> Grounded:
-        """The text of a demonstration, planned where it was shown; a language model is not asked."""
+        """Return the text of a demonstration, planned where it was shown; a language model is not asked."""
         studio = self._visitor.studio
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
@@ -342,7 +342,7 @@ class SayPanel:
             visitor.tell(f"No plan: {grounded.reason}.", hint, fault=True)
 
     def _played(self, plan: Sequence[PlanStep]) -> Reel:
-        """The states that a plan leads through."""
+        """Return the states that a plan leads through."""
         task = self._visitor.setting.world.task
         states = [task.init]
         for step in plan:
@@ -477,7 +477,7 @@ class SayPanel:
         self._steps.content = step_list(lines, self._step, gains, of="say", folded=folded, words=words)
 
     def _only_there(self, reel: Reel) -> set[int]:
-        """The numbers of the steps that change nothing but what is so of the robot: where it is, what it has found."""
+        """Return the numbers of the steps that only change facts about constants, such as the robot."""
         world = self._visitor.setting.world
         constants, states = world.profiles.constants, reel.states
         return {
@@ -539,7 +539,7 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
 
 
 def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callable[[Instruction], str] = str) -> str:
-    """Whether the plans for a text are what was shown for it; ``said`` tells an instruction in words."""
+    """Return whether the plans for a text are what was shown for it; ``said`` tells an instruction in words."""
     plans = _plans(grounded)
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."
@@ -554,7 +554,7 @@ def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callabl
 
 
 def _beside(shown: Sequence[Instruction], plan: Sequence[Instruction]) -> list[Instruction] | None:
-    """What a plan has beside all of ``shown``, in its order; ``None`` where it has not all of it."""
+    """Return the other instructions of a plan that has all of ``shown`` in order; ``None`` where it has not."""
     rest, more = list(shown), []
     for instruction in plan:
         if rest and rest[0] == instruction:

@@ -20,7 +20,7 @@ def put(handle: object, value: object) -> None:
 
 
 def chosen(handle: GuiDropdownHandle[str] | GuiButtonGroupHandle) -> str:
-    """What is chosen among the options of an input.
+    """Return the chosen option of an input.
 
     Raises:
         TmdError: It is none of them: the page is out of date, or it was not sent by the page.

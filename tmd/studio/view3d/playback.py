@@ -38,11 +38,11 @@ class Reel:
         del self._pictures[max(same, 1) :]
 
     def facts(self, step: int) -> State:
-        """What holds after so many steps."""
+        """Return the facts after a number of steps."""
         return self.setting.world.task.decode(self.states[step])
 
     def picture(self, step: int) -> Picture | None:
-        """How it looks then; ``None`` where there is nothing to see."""
+        """Return the picture after a number of steps; ``None`` where there is nothing to see."""
         look = self.setting.look
         if look is None:
             return None

@@ -41,12 +41,12 @@ class Figure:
         self.pieces: tuple[MeshPiece, ...] = tuple(pieces(root, paint=robot_colour))
 
     def links(self, positions: Mapping[str, float]) -> dict[str, Pose]:
-        """Where each piece is in the world, or in the robot's frame where the base joints are not given."""
+        """Return the pose of each piece in the world, or in the robot's frame without positions of the base joints."""
         frames = self._tree.forward(positions, self._tree.links, {self._tree.root: np.eye(4)})
         return {piece.link: Pose.from_matrix(frames[piece.link]) for piece in self.pieces}
 
     def posture(self, held: int) -> dict[str, float]:
-        """Joint positions of the robot that stands there with so many things in its hands: the right one first."""
+        """Return the joint positions of the robot with a number of things in its hands, the right one first."""
         positions = {TORSO: _TORSO, HEAD[1]: _NOD}
         for index, side in enumerate(("right", "left")):
             joints, arm = self._arms[side]
