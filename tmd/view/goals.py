@@ -51,7 +51,7 @@ class ShownGoal:
 
     @property
     def standing(self) -> str:
-        """Time when it holds: *already so*, *holds after step 3*, *already so since step 3, until step 7* …"""
+        """Time when it holds: *already so*, *holds after step 3*, *already so since step 3, until step 7*, …."""
         if not self.asked:
             return ""
         if not self.reached:
