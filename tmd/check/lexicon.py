@@ -5,8 +5,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from tmd.check.codes import SEVERITY, Severity
 from tmd.check.lint.reachable import Possible, Scope, possible, types_of
@@ -52,21 +54,21 @@ def check_lexicon(
         names: What nouns may lead to: classes, parts, substances, objects. Empty where that is not known.
         texts: The texts of the domain's demonstrations.
     """
-    source = _Lines(path)
+    source = Written(path)
     return [*_unknown_targets(lexicon, names, source), *_unserved(lexicon, meant, _Served(texts, actions), source)]
 
 
-def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: _Lines) -> Iterator[TmdError]:
+def _unknown_targets(lexicon: Lexicon, names: Collection[str], source: Written) -> Iterator[TmdError]:
     """Report nouns that mean names which the domain does not have."""
     for noun, targets in sorted(lexicon.nouns.items()) if names else ():
         for target in targets:
             if target not in names and lexicon.own("nouns", noun):
                 hint = nearest(target, sorted(names))
                 message = f"'{noun}' leads to '{target}', which is no class, part, substance or object of the domain"
-                yield source.error(noun, target, message, hint, "unknown-target")
+                yield source.error(source.of_key(noun, target), message, hint, "unknown-target")
 
 
-def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: _Lines) -> Iterator[TmdError]:
+def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source: Written) -> Iterator[TmdError]:
     """Report verbs of the lexicon itself that no demonstration, no action and no row serves."""
     verbs = {verb: verb for verb in lexicon.verbs} | dict(lexicon.phrasal) | dict(lexicon.verb_synonyms)
     # one word of several that stand for the same verb is enough: its template serves all of them
@@ -80,7 +82,7 @@ def _unserved(lexicon: Lexicon, meant: Collection[str], served: _Served, source:
             if serving != verb:
                 message += f", nor '{serving}', which it stands for"
             hint = "add a demonstration or a goal of it, let it stand for a verb that has one, or remove it"
-            yield source.error(verb, verb, message, hint, "unserved-verb")
+            yield source.error(source.of_key(verb, verb), message, hint, "unserved-verb")
 
 
 def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
@@ -91,19 +93,29 @@ def _declares(lexicon: Lexicon, section_name: str, verb: str) -> bool:
 
 def texts_of(path: Path) -> list[str]:
     """Return the texts of a corpus, as far as it can be read."""
-    texts = []
+    return [line["text"] for line in _lines_of(path) if isinstance(line.get("text"), str)]
+
+
+def segments_of(path: Path) -> list[str]:
+    """Return the pieces of a corpus' texts that have instructions, as far as it can be read."""
+    found: list[str] = []
+    for line in _lines_of(path):
+        with suppress(KeyError, TypeError):
+            found += [str(segment["text"]) for segment in line["segments"] if segment["instructions"]]
+    return found
+
+
+def _lines_of(path: Path) -> Iterator[dict[str, Any]]:
+    """Yield the JSON objects of a file of JSON Lines; other lines are passed over."""
     try:
         lines = read_text(path).splitlines()
     except TmdError:
-        return []
+        return
     for line in lines:
-        try:
-            said = json.loads(line)
-        except (ValueError, RecursionError):
-            continue
-        if isinstance(said, dict) and isinstance(said.get("text"), str):
-            texts.append(said["text"])
-    return texts
+        with suppress(ValueError, RecursionError):
+            value = json.loads(line)
+            if isinstance(value, dict):
+                yield value
 
 
 def check_phrases(path: Path, lexicon: Lexicon) -> Iterator[TmdError]:
@@ -144,27 +156,6 @@ class _Served:
         )
 
 
-class _Lines:
-    """The lines of a lexicon, to find a key in it."""
-
-    def __init__(self, path: Path) -> None:
-        self.path = path
-        self.lines = read_text(path).splitlines()
-
-    def error(self, key: str, word: str, message: str, hint: str | None, code: str) -> TmdError:
-        for number, line in self._lines_with(key):
-            column = line.find(word, line.find(key) + (len(key) if word != key else 0))
-            place = Location(str(self.path), number, max(column, 0) + 1)
-            return TmdError(message, location=place, hint=hint, source=line, code=code)
-        return TmdError(message, location=Location(str(self.path), 1, 1), hint=hint, code=code)
-
-    def _lines_with(self, key: str) -> Iterator[tuple[int, str]]:
-        word = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
-        for number, line in enumerate(self.lines, start=1):
-            if word.search(line.partition("#")[0]):
-                yield number, line
-
-
 _A_VERB = 2
 """So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`)."""
 _POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
@@ -196,22 +187,6 @@ def check_goal_verbs(
             message = f"no goal says what '{verb}' means, which {where} speaks of"
             hint = f"write '- {verb} X: (…)' under goals, or '{verb}: OTHER' under verb_synonyms"
             yield written.error(written.in_section("goals"), message, hint, "no-goal")
-
-
-def segments_of(path: Path) -> list[str]:
-    """Return the pieces of a corpus' texts that have instructions, as far as it can be read."""
-    found: list[str] = []
-    try:
-        lines = read_text(path).splitlines()
-    except TmdError:
-        return []
-    for line in lines:
-        try:
-            segments = json.loads(line)["segments"]
-            found += [str(segment["text"]) for segment in segments if segment["instructions"]]
-        except (ValueError, KeyError, TypeError, RecursionError):
-            continue
-    return found
 
 
 def _standing_for_another(lexicon: Lexicon, written: Written) -> Iterator[TmdError]:
@@ -320,6 +295,15 @@ class Written:
         """Return a fault at ``place``, with its line."""
         source = self.lines[place.line - 1] if place.line <= len(self.lines) else None
         return TmdError(message, location=place, hint=hint, source=source, code=code)
+
+    def of_key(self, key: str, word: str) -> Location:
+        """Return the place of a word on the first line with a key; the beginning of the file without such a line."""
+        found = re.compile(rf"(?<![\w]){re.escape(key)}(?![\w])")
+        for number, line in enumerate(self.lines, start=1):
+            if found.search(line.partition("#")[0]):
+                column = line.find(word, line.find(key) + (len(key) if word != key else 0))
+                return Location(str(self.path), number, max(column, 0) + 1)
+        return Location(str(self.path), 1, 1)
 
     def in_pattern(self, entry: Declared, word: str = "") -> Location:
         """Return the place of a word in an entry's pattern, the last one if there are several."""

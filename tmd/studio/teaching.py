@@ -15,7 +15,6 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
 
 from tmd.diagnostics import TmdError
 from tmd.goals.sources.table import GoalTable
@@ -26,9 +25,6 @@ from tmd.knowledge import (
     Knowledge,
     digest,
     known,
-    reward_from_json,
-    reward_to_json,
-    weights_bytes,
 )
 from tmd.readers.interface import Reader
 from tmd.readers.llm.client import URL, ModelSettings
@@ -73,7 +69,12 @@ class Training:
     Args:
         corpus: The demonstrations.
         root: Where what is learned is kept; beside the demonstrations where none is given.
-        finish: Called in a thread of its own with what came of it, before :meth:`wait` returns; ``None`` if it failed.
+        finish: Called in a separate thread with the result, before :meth:`wait` returns; ``None`` if it failed.
+
+    Attributes:
+        share: Share of the work that is done, roughly, from 0 to 1.
+        trained: The result, once it is done.
+        error: The reason, if it failed; nothing was changed then.
     """
 
     def __init__(self, corpus: Corpus, root: Path | None, finish: Callable[[Trained | None], None]) -> None:
@@ -82,9 +83,9 @@ class Training:
         arguments = (theirs, corpus.folder.path, corpus.directory, root)
         self._process = context.Process(target=_work, args=arguments, daemon=True)
         self._finish = finish
-        self._share = 0.0
-        self._error: TmdError | None = None
-        self._trained: Trained | None = None
+        self.share = 0.0
+        self.error: TmdError | None = None
+        self.trained: Trained | None = None
         self._stopped = False
         self._process.start()
         theirs.close()
@@ -92,24 +93,9 @@ class Training:
         self._thread.start()
 
     @property
-    def share(self) -> float:
-        """Share of the work that is done, roughly, from 0 to 1."""
-        return self._share
-
-    @property
     def running(self) -> bool:
         """Return whether it goes on."""
         return self._thread.is_alive()
-
-    @property
-    def trained(self) -> Trained | None:
-        """Result, once it is done."""
-        return self._trained
-
-    @property
-    def error(self) -> TmdError | None:
-        """Error, if it failed; nothing was changed then."""
-        return self._error
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait for the end, at most so many seconds; whether it came.
@@ -118,8 +104,8 @@ class Training:
             TmdError: Learning failed.
         """
         self._thread.join(timeout)
-        if self._error is not None:
-            raise self._error
+        if self.error is not None:
+            raise self.error
         return not self.running
 
     def stop(self) -> None:
@@ -133,23 +119,21 @@ class Training:
             while True:
                 kind, value = self._mine.recv()
                 if kind == "share":
-                    self._share = value
+                    self.share = value
                     continue
                 if kind == "error":
-                    self._error = TmdError(value)
+                    self.error = TmdError(value)
                 else:
-                    trained = _unpacked(value)
-                    self._finish(trained)
-                    self._trained = trained
-                    self._share = 1.0
+                    self._finish(value)
+                    self.trained, self.share = value, 1.0
                 break
         except (EOFError, OSError):
             why = "was stopped" if self._stopped else "ended before it was done"
-            self._error = TmdError(f"learning {why}; what was known before is used", hint="train again")
+            self.error = TmdError(f"learning {why}; what was known before is used", hint="train again")
         except TmdError as error:
-            self._error = error
+            self.error = error
         finally:
-            if self._error is not None:
+            if self.error is not None:
                 self._finish(None)
             self._process.join()
             self._mine.close()
@@ -166,22 +150,13 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
         corpus = Corpus(DomainFolder(folder), directory)
         made_from = digest(corpus)
         knowledge = known(corpus, root, tell)
-        connection.send(("done", _packed(made_from, len(corpus.demonstrations()), knowledge)))
+        trained = Trained(made_from, len(corpus.demonstrations()), knowledge.reward, knowledge.goals)
+        connection.send(("done", trained))
     except TmdError as error:
         with suppress(BrokenPipeError):
             connection.send(("error", str(error)))
     except BrokenPipeError:
         return  # the studio has ended: nobody wants it any more
-
-
-def _packed(made_from: str, count: int, knowledge: Knowledge) -> tuple[Any, ...]:
-    reward = knowledge.reward
-    return made_from, count, reward and (reward_to_json(reward), weights_bytes(reward)), knowledge.goals
-
-
-def _unpacked(data: tuple[Any, ...]) -> Trained:
-    made_from, count, reward, goals = data
-    return Trained(made_from, count, reward and reward_from_json(*reward), goals)
 
 
 class Teacher:
@@ -192,6 +167,12 @@ class Teacher:
         root: Where ``tmd learn --out`` keeps what it learns; beside the demonstrations where none is given. What was
             saved there and still holds is taken, else everything is learned now.
 
+    Attributes:
+        knowledge: The current knowledge.
+        habits: The instructions carried out for each verb, for proposals of clauses.
+        training: The last :meth:`retrain`, if there was one.
+        learning: Whether the files teach more than is known, and that is being learned.
+
     Raises:
         TmdError: A demonstration is wrong.
     """
@@ -200,28 +181,13 @@ class Teacher:
         self.corpus = corpus
         self._root = root
         self._digest = digest(corpus)
-        self._knowledge = known(corpus, root)
+        self.knowledge = known(corpus, root)
         self._learned_from = tuple(corpus.demonstrations())
-        self._habits = Habits.of(self._knowledge.library)
+        self.habits = Habits.of(self.knowledge.library)
         self._guard = threading.RLock()
-        self._training: Training | None = None
-        self._learning = False
+        self.training: Training | None = None
+        self.learning = False
         self._readers: dict[tuple[ModelSettings, bool], Reader] = {}
-
-    @property
-    def knowledge(self) -> Knowledge:
-        """Current knowledge."""
-        return self._knowledge
-
-    @property
-    def habits(self) -> Habits:
-        """Instructions carried out for each verb, for proposals of clauses."""
-        return self._habits
-
-    @property
-    def training(self) -> Training | None:
-        """The last :meth:`retrain`, if there was one."""
-        return self._training
 
     def learn_one(self, demonstration: Demonstration) -> Knowledge:
         """Take up a demonstration that was just saved, and any that others have saved since.
@@ -240,7 +206,7 @@ class Teacher:
         """
         with self._guard:
             self._take_up(demonstration)
-            return self._knowledge
+            return self.knowledge
 
     def retrain(self) -> Training:
         """Learn everything from all demonstrations, in a process of its own, as ``tmd ground`` does when it is asked.
@@ -249,15 +215,10 @@ class Teacher:
         way already, that goes on; if demonstrations came meanwhile, it begins once more at its end.
         """
         with self._guard:
-            if self._training is None or not self._learning:
-                self._learning = True
-                self._training = Training(self.corpus, self._root, self._become)
-            return self._training
-
-    @property
-    def learning(self) -> bool:
-        """Return whether what is known is not yet all that the files teach: it is being learned."""
-        return self._learning
+            if self.training is None or not self.learning:
+                self.learning = True
+                self.training = Training(self.corpus, self._root, self._become)
+            return self.training
 
     def model_reader(self, model: str, url: str, *, verify: bool) -> Reader:
         """Return the reader that asks a language model; the same one for the same settings.
@@ -302,12 +263,12 @@ class Teacher:
             if digest(self.corpus) != self._digest:
                 self._take_up()
                 self.retrain()
-            now = self._knowledge
+            now = self.knowledge
         return ground(text, world, now.library, reward=now.reward, goals=now.goals, top=top, reader=reader, ask=ask)
 
     def close(self) -> None:
         """End what is under way."""
-        training = self._training
+        training = self.training
         if training is not None and training.running:
             training.stop()
 
@@ -318,7 +279,7 @@ class Teacher:
         if len(order) < len(found) or not before <= set(found):
             return learn(found, corpus.world, corpus.lexicon)
         new = [teach(d, corpus.world(d.environment), corpus.lexicon) for d in found if d not in before]
-        return self._knowledge.library.extended(new, order)
+        return self.knowledge.library.extended(new, order)
 
     def _take_up(self, wanted: Demonstration | None = None) -> None:
         """Have a library of the files as they are now; ``wanted`` must be in them."""
@@ -328,17 +289,17 @@ class Teacher:
         if wanted is not None and wanted not in found:
             raise TmdError(f"'{wanted.id}' is not among the demonstrations", hint="save it first")
         library = self._library(found)
-        self._habits = Habits.of(library)
-        self._knowledge = replace(self._knowledge, library=library)
+        self.habits = Habits.of(library)
+        self.knowledge = replace(self.knowledge, library=library)
         self._learned_from, self._digest = found, made_from
 
     def _become(self, trained: Trained | None) -> None:
         """Use what was learned; the library may know more by now, and then it is learned once more."""
         with self._guard:
-            self._learning = False
+            self.learning = False
             if trained is None:
                 return
             self._take_up()
-            self._knowledge = Knowledge(self._knowledge.library, trained.reward, goals=trained.goals)
+            self.knowledge = Knowledge(self.knowledge.library, trained.reward, goals=trained.goals)
             if trained.made_from != self._digest:
                 self.retrain()

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from tmd.inference.energy import title
-from tmd.records.prediction import PredictedClause, PredictionRecord
+from tmd.records.prediction import PredictionRecord
 from tmd.view.alignment import Mark, align
 
 SHOWN = 10
@@ -17,13 +16,13 @@ SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark
 
 @dataclass(frozen=True, slots=True)
 class ExampleStep:
-    """A line of the alignment as it is shown.
+    """Line of an alignment as it is shown.
 
     Attributes:
-        mark: What became of the step.
+        mark: The kind of the step.
         symbol: Its sign.
         predicted: The predicted instruction, empty if one is missing.
-        gold: What the person did, empty if the predicted one is superfluous.
+        gold: The recorded instruction, empty if the predicted one is superfluous.
         clause: The number of the clause it was predicted for, from 1; ``None`` where it is not known.
         latent: Whether it was left unsaid.
     """
@@ -37,55 +36,15 @@ class ExampleStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Bar:
-    """A weighed factor: ``width`` in percent of the longest bar of the prediction."""
-
-    name: str
-    value: float
-    width: float
-
-
-@dataclass(frozen=True, slots=True)
-class ShownClause:
-    """A clause with its energy.
-
-    Attributes:
-        number: Its number, from 1.
-        text: Its words.
-        verb: Its verb.
-        source: What was instantiated for it.
-        total: Its energy; ``None`` for models without one.
-        bars: The factors that are not 0.
-        zeros: How many are.
-    """
-
-    number: int
-    text: str
-    verb: str
-    source: str | None
-    total: float | None
-    bars: tuple[Bar, ...]
-    zeros: int
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """A prediction as it is shown.
-
-    Attributes:
-        line: The prediction.
-        steps: It, aligned with what the person did.
-        clauses: What was done for each clause and at what energy.
-        whole: Whether the clauses' instructions are the prediction; if not, the model changed it afterwards.
-    """
+class Example:
+    """Prediction as it is shown, aligned with the recorded instructions; ``longest`` is its largest weighed factor."""
 
     line: PredictionRecord
     steps: tuple[ExampleStep, ...]
-    clauses: tuple[ShownClause, ...]
-    whole: bool
+    longest: float
 
 
-def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Shown], list[Shown]]:
+def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Example], list[Example]]:
     """Return the best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
 
     What has no goal stands between what reached its goal and what did not.
@@ -100,7 +59,7 @@ def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
     return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
 
 
-def shown(line: PredictionRecord) -> Shown:
+def shown(line: PredictionRecord) -> Example:
     """Return a prediction as it is shown."""
     origins = [
         (number, latent)
@@ -116,13 +75,4 @@ def shown(line: PredictionRecord) -> Shown:
         gold = "" if step.gold is None else line.gold[step.gold]
         steps.append(ExampleStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
     longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
-    clauses = tuple(_clause(number, clause, longest) for number, clause in enumerate(line.clauses, 1))
-    return Shown(line, tuple(steps), clauses, whole)
-
-
-def _clause(number: int, clause: PredictedClause, longest: float) -> ShownClause:
-    bars = tuple(
-        Bar(title(name), value, round(100 * abs(value) / longest, 1)) for name, value in clause.factors.items() if value
-    )
-    total = sum(clause.factors.values()) if clause.factors else None
-    return ShownClause(number, clause.text, clause.verb, clause.source, total, bars, len(clause.factors) - len(bars))
+    return Example(line, tuple(steps), longest)

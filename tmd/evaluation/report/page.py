@@ -21,6 +21,7 @@ from tmd.evaluation.report.reference_row import ALPHA, differing, reference
 from tmd.evaluation.runs.finished_run import Run
 from tmd.evaluation.runs.summary import EMPTY, average
 from tmd.evaluation.runs.trial_records import Trials, films
+from tmd.inference.energy import title
 from tmd.records.fit import Fit
 from tmd.records.metrics import SUCCESS, Means, Metrics, Pair
 from tmd.view.alignment import Mark
@@ -157,6 +158,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
         version=__version__,
         style=data("report.css"),
         title_of=paper_table.title,
+        factor_title=title,
         page_name=page_name,
         page_folder=FOLDER,
         said=_said,
