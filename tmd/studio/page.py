@@ -11,13 +11,16 @@ import gzip
 import json
 import secrets
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cache
 from http import HTTPStatus
 from importlib.resources import files
 from threading import Lock
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, TypeAlias
 from urllib.parse import parse_qs, urlencode
+
+from pydantic import BaseModel, Field, TypeAdapter, ValidationError
 
 from tmd.diagnostics import TmdError
 from tmd.inference.ranking import PlanStep
@@ -127,31 +130,59 @@ def plan_to_json(plan: Sequence[PlanStep]) -> str:
     return json.dumps([[str(s.instruction), s.clause, s.latent] for s in plan]) if plan else ""
 
 
-def read_plan(kept: object) -> tuple[PlanStep, ...]:
-    """Return a plan that a window kept; empty where it kept none, or what it sends is none."""
+_ROWS = TypeAdapter(Annotated[list[tuple[str, int, bool]], Field(max_length=_MOST_STEPS)])
+
+
+def read_plan(kept: str) -> tuple[PlanStep, ...]:
+    """Return the plan that a window kept; empty where it kept none, or an invalid one."""
     try:
-        rows = json.loads(kept) if isinstance(kept, str) and kept else []
-        if not isinstance(rows, list) or len(rows) > _MOST_STEPS:
-            return ()
-        steps = [(parse_instruction(line), clause, latent) for line, clause, latent in rows]
-    except (ValueError, TypeError, AttributeError, RecursionError, TmdError):
+        rows = _ROWS.validate_json(kept, strict=True)
+        return tuple(PlanStep(parse_instruction(line), clause, latent) for line, clause, latent in rows)
+    except (ValidationError, TmdError):
         return ()
-    right = all(type(clause) is int and type(latent) is bool for _, clause, latent in steps)
-    return tuple(PlanStep(*step) for step in steps) if right else ()
 
 
-def width_of(said: Mapping[str, Any]) -> int:
-    """Return the width of a window, as its script told it; 0 where it did not."""
-    width = said.get("width")
-    return width if isinstance(width, int) and 0 < width < 10**_WHOLE else 0
+_Width: TypeAlias = Annotated[int, Field(ge=0, lt=10**_WHOLE)]
+_Part: TypeAlias = Annotated[float, Field(ge=0, le=1)]
 
 
-def place_of(said: object) -> tuple[float, float] | None:
-    """Return a place in the picture, from (0, 0) at the upper left to (1, 1) at the lower right; ``None`` for none."""
-    if not isinstance(said, list) or len(said) != 2 or not all(type(part) in (int, float) for part in said):
-        return None
-    across, down = map(float, said)
-    return (across, down) if 0 <= across <= 1 and 0 <= down <= 1 else None
+class Event(BaseModel):
+    """Event in a window; one kind of event has one of the fields, or two.
+
+    Attributes:
+        number: Its number in the window.
+        dark: Whether the system became dark.
+        width: The new width of the window in pixels.
+        tab: The tab that was opened.
+        step: The step that was clicked, in ``list``.
+        list: The panel of the step.
+        clicked: Whether the picture was clicked.
+        over: A place in the picture, from (0, 0) at the upper left to (1, 1) at the lower right.
+        asked: The number of the question about it.
+        move: The step that was dragged to the place of step ``to``.
+        to: That step.
+    """
+
+    number: int
+    dark: bool | None = None
+    width: _Width = 0
+    tab: str = ""
+    step: int | None = None
+    list: str = ""
+    clicked: bool = False
+    over: tuple[_Part, _Part] | None = None
+    asked: int = 0
+    move: int | None = None
+    to: int | None = None
+
+
+class _Stored(BaseModel):
+    """State of a window when it was loaded: its address, whether its system is dark, its width, and its last plan."""
+
+    search: str = ""
+    dark: bool = False
+    width: _Width = 0
+    plan: str = ""
 
 
 def _number(said: Mapping[str, str], name: str, usual: int) -> int:
@@ -173,17 +204,14 @@ class Window:
         plan: The plan that it showed before; empty for none.
     """
 
-    def __init__(self, client: ClientHandle, told: Callable[[Mapping[str, Any]], None]) -> None:
+    def __init__(self, client: ClientHandle, told: Callable[[Event], None]) -> None:
         self._client = client
         try:
-            said = json.loads(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
-        except (RuntimeError, TimeoutError, ValueError):
-            said = {}
-        said = said if isinstance(said, dict) else {}
-        self.dark = said.get("dark") is True
-        self.width = width_of(said)
-        self.link = read_link(str(said.get("search", "")))
-        self.plan = read_plan(said.get("plan"))
+            stored = _Stored.model_validate_json(client.local_storage.get_item(KEY, timeout=_PATIENCE) or "{}")
+        except (RuntimeError, TimeoutError, ValidationError):
+            stored = _Stored()
+        self.dark, self.width = stored.dark, stored.width
+        self.link, self.plan = read_link(stored.search), read_plan(stored.plan)
         self._kept, self._kept_plan = self.link, self.plan
         self._told = told
         self._seen = 0
@@ -197,10 +225,11 @@ class Window:
             events = json.loads(self._event.value[:_LONGEST])
         except (TypeError, ValueError, RecursionError):
             return
-        for event in events if isinstance(events, list) else ():
-            number = event.get("number") if isinstance(event, dict) else None
-            if isinstance(number, int) and self._is_new(number):
-                self._told(event)
+        for value in events if isinstance(events, list) else ():
+            with suppress(ValidationError):
+                event = Event.model_validate(value)
+                if self._is_new(event.number):
+                    self._told(event)
 
     def _is_new(self, number: int) -> bool:
         """Return whether an event was not told yet; from now on it is."""

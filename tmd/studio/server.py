@@ -46,7 +46,6 @@ class Server:
         port: The port; 0 takes a free one.
 
     Attributes:
-        studio: As above.
         port: The port.
         token: What a visitor must know.
         url: Where it is reached from this machine, with the token.

@@ -43,11 +43,8 @@ class Studio:
         extra: An environment file that is not among those of the domain.
 
     Attributes:
-        corpus: As above.
-        teacher: As above.
         archive: Where demonstrations are saved.
         drafts: What was not saved yet.
-        start: As above.
 
     Raises:
         TmdError: There is no such environment, or it is wrong.

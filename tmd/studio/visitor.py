@@ -6,7 +6,7 @@ import sys
 import threading
 import time
 import traceback
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial, wraps
 from html import escape
 from typing import TYPE_CHECKING, Any
@@ -20,7 +20,7 @@ from tmd.robot.monitor.listeners import Title
 from tmd.robot.sim.pose import Pose, Vector
 from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.studio.environment_view import Setting
-from tmd.studio.page import PageLink, Window, place_of, width_of
+from tmd.studio.page import Event, PageLink, Window
 from tmd.studio.panels.context import Played
 from tmd.studio.panels.correct_panel import CorrectPanel
 from tmd.studio.panels.demonstrate_panel import NUMBERED, DemonstratePanel
@@ -71,9 +71,6 @@ class Visitor:
         identity: Who it is: drafts are kept by this.
 
     Attributes:
-        studio: As above.
-        client: As above.
-        identity: As above.
         reel: The states that are looked at.
         cursor: After how many steps the state is that is seen.
         selected: The object that was pointed at.
@@ -158,30 +155,28 @@ class Visitor:
     def _theme(self, *, dark: bool) -> None:
         self.client.gui.configure_theme(show_logo=False, show_share_button=False, dark_mode=dark)
 
-    def _happened(self, event: Mapping[str, Any]) -> None:
+    def _happened(self, event: Event) -> None:
         """Handle an event that the page's own script sends."""
-        step, to = event.get("step"), event.get("to")
-        if isinstance(event.get("dark"), bool):
-            self._theme(dark=event["dark"])
-        elif width_of(event):
-            self._width = width_of(event)
+        if event.dark is not None:
+            self._theme(dark=event.dark)
+        elif event.width:
+            self._width = event.width
             self._camera()
-        elif event.get("tab") in TABS:
-            self._tab = str(event["tab"])
+        elif event.tab in TABS:
+            self._tab = event.tab
             self.keep_link()
-        elif isinstance(step, int):
+        elif event.step is not None:
             owners: dict[str, Played] = {"say": self.say, "demonstrate": self.demonstrate, "correct": self.correct}
-            owner = owners.get(str(event.get("list")))
-            if owner is not None:
+            if event.list in owners:
                 self.stop()
-                owner.goto(step)
-        elif event.get("clicked") is True:  # in the picture; a click on an object has come before
+                owners[event.list].goto(event.step)
+        elif event.clicked:  # in the picture; a click on an object has come before
             if time.monotonic() - self._pointed_at > _CLICK:
                 self.select(None)
-        elif (place := place_of(event.get("over"))) is not None:
-            self.window.call(event.get("asked"), self._called(*place))
-        elif isinstance(event.get("move"), int) and isinstance(to, int):
-            self.correct.move(event["move"], to)
+        elif event.over is not None:
+            self.window.call(event.asked, self._called(*event.over))
+        elif event.move is not None and event.to is not None:
+            self.correct.move(event.move, event.to)
 
     def keep_link(self) -> None:
         """Let the window's address say what is looked at."""

@@ -75,7 +75,6 @@ class Session:
         world: The environment.
         text: The text, without control characters.
         clauses: The pieces of the text that steps serve, at least one.
-        proposed: As above.
 
     Raises:
         TmdError: The text is empty or too long, or an instruction does not apply.

@@ -31,11 +31,7 @@ _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
 class CorrectPanel:
-    """Edits a plan that was proposed, and hands it to the panel where demonstrations are saved.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Edits a plan that was proposed, and hands it to the panel where demonstrations are saved."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

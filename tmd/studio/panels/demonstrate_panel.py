@@ -33,11 +33,7 @@ _FEW = 4
 
 
 class DemonstratePanel:
-    """Shows, marks, takes back, saves.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Shows, marks, takes back, saves."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

@@ -25,11 +25,7 @@ RELATIONS = ("on", "in", "next_to")
 
 
 class ObjectPanel:
-    """Shows one object of the state that is seen.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Shows one object of the state that is seen."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

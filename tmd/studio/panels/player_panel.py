@@ -14,11 +14,7 @@ BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
 
 class PlayerPanel:
-    """Steps through, and plays, what a panel shows.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Steps through, and plays, what a panel shows."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

@@ -72,11 +72,7 @@ class Request:
 
 
 class SayPanel:
-    """Says, plans, steps and plays.
-
-    Args:
-        visitor: Whose panel it is.
-    """
+    """Says, plans, steps and plays."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor
