@@ -31,10 +31,10 @@ if TYPE_CHECKING:
     from tmd.check.data_files import DataFiles
 
 
+# Bytes of a file in which its ``define`` is looked for.
 _HEAD = 20_000
-"""Bytes of a file in which its ``define`` is looked for."""
+# Directories with more PDDL files than that are not searched for a domain by its name.
 _MOST = 2_000
-"""Directories with more PDDL files than that are not searched for a domain by its name."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,16 +110,16 @@ def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
     return found
 
 
+# The files of domains and problems that are no PDDL, beside environments.
 DATA_FILES = frozenset({"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "demonstrations.jsonl"})
-"""The files of domains and problems that are no PDDL, beside environments."""
+# What the other files of a folder are checked against.
 _FIRST = ("domain.pddl", "objects.yaml")
-"""What the other files of a folder are checked against."""
+# Of a longer source line only the beginning is kept.
 MAX_LINE = 10_000
-"""Of a longer source line only the beginning is kept."""
+# Of one file.
 MOST_SHOWN = 200
-"""Of one file."""
+# Larger files are refused: no file that people write comes near.
 MAX_BYTES = 10_000_000
-"""Larger files are refused: no file that people write comes near."""
 
 
 @dataclass(slots=True)

@@ -257,8 +257,8 @@ def _check_fact(
             source.fault(source.error(path, message, f'did you mean "{meant[0]}"?', "unknown-object"))
 
 
+# The likeness (of :mod:`difflib`) of two names of three letters or more that differ by one.
 _ONE_LETTER = 0.65
-"""The likeness (of :mod:`difflib`) of two names of three letters or more that differ by one."""
 
 
 def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:

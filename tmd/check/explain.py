@@ -24,13 +24,13 @@ from tmd.language.parser import parse
 from tmd.pddl.reading.syntax import nearest
 from tmd.veil.corpus import Corpus
 
+# The files of English words that are looked through, in ``tmd/language/data``.
 _DATA = ("words.txt", "senses.txt", "wordnet_verbs.txt")
-"""The files of English words that are looked through, in ``tmd/language/data``."""
 _MOST_NEAR = 6
+# Rows of verbs that ask for the same are printed for people only so many.
 _MOST_OTHERS = 8
-"""Rows of verbs that ask for the same are printed for people only so many."""
+# Verbs that are only so many families away are near in meaning.
 _FARTHEST = 3
-"""Verbs that are only so many families away are near in meaning."""
 
 
 class Mention(JsonRecord):

@@ -24,8 +24,8 @@ from tmd.pddl.reading.syntax import Document, Group, Node, Report, Source, neare
 from tmd.pddl.writer import format_formula
 
 _WORD = re.compile(r"[a-z]+")
+# A particle stands at most that many words behind its verb.
 _PARTICLE_WITHIN = 5
-"""A particle stands at most that many words behind its verb."""
 
 
 def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
@@ -156,10 +156,10 @@ class _Served:
         )
 
 
+# So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`).
 _A_VERB = 2
-"""So sure must a word be a verb (:meth:`tmd.language.lexicon.lexicon.Lexicon.verb`)."""
+# The sections of words that only lead to what is asked for: *please*, *I need you to*.
 _POLITE = ("lead_verbs", "let_verbs", "modals", "adverbs")
-"""The sections of words that only lead to what is asked for: *please*, *I need you to*."""
 
 
 def check_goal_verbs(
@@ -233,8 +233,8 @@ def _has_goal(verb: str, meant: Collection[str], lexicon: Lexicon) -> bool:
     return any(verb in meant for verb in own | {other for one in own for other in family(one)})
 
 
+# The word of a pattern that a fault speaks of.
 _NAMED = re.compile(r"'([^']+)'|slot ([A-Z])")
-"""The word of a pattern that a fault speaks of."""
 _ANY: tuple[str, ...] = (OBJECT,)
 
 
@@ -245,8 +245,8 @@ class _Sound:
     entry: Declared
     formula: Formula
     variables: frozenset[str]
+    # Those that ``?rel`` may stand for; none where the condition does not speak of it.
     prepositions: tuple[str, ...] = ()
-    """Those that ``?rel`` may stand for; none where the condition does not speak of it."""
 
 
 def check_goals(

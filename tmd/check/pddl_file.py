@@ -26,8 +26,8 @@ _DEFINE = re.compile(r"\(\s*define\s*\(\s*(domain|problem)\s+([^\s()]*)", re.IGN
 _LIKE_A_PROBLEM = re.compile(r"\(\s*(:init|:goal|:objects)\b", re.IGNORECASE)
 _COMMENT = re.compile(r";[^\n\r]*")
 
+# By the code of a fault: names that may well be declared, in a section that could not be read.
 Words = Mapping[str, frozenset[str]]
-"""By the code of a fault: names that may well be declared, in a section that could not be read."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,12 +110,12 @@ def _is_error(fault: TmdError) -> bool:
     return SEVERITY.get(fault.code, Severity.ERROR) is Severity.ERROR
 
 
+# A kind of fault, and the kind and a part of the message of what only follows from it.
 _ECHOES = {
     "unknown-requirement": ("missing-requirement", ""),
     "unknown-function": ("missing-requirement", ":action-costs"),
     "type-cycle": ("parent-after-child", ""),
 }
-"""A kind of fault, and the kind and a part of the message of what only follows from it."""
 
 
 def _without_echoes(faults: list[TmdError], others: Sequence[TmdError] = ()) -> list[TmdError]:

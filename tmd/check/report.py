@@ -14,6 +14,7 @@ from tmd.diagnostics import Location, TmdError
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import ODD_BLANK, Group, parse, read_text, split_lines
 
+# The codes that may be fixed; parentheses only where there is one way to do it.
 FIXABLE = frozenset(
     {
         "empty-condition",
@@ -26,7 +27,6 @@ FIXABLE = frozenset(
         "stale-domain",
     }
 )  # fmt: skip
-"""The codes that may be fixed; parentheses only where there is one way to do it."""
 
 
 @dataclass(frozen=True, slots=True, order=True)
@@ -119,8 +119,8 @@ def _insertion(place: Location, text: str) -> _Edit:
     return _Edit(place.line - 1, place.column - 1, 0, text)
 
 
+# Fixing one thing may bring another to light.
 _MOST_ROUNDS = 4
-"""Fixing one thing may bring another to light."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,11 +19,11 @@ from tmd.export.strips import Checked, checked_steps
 from tmd.pddl.model import ActionSchema, GroundAtom
 from tmd.pddl.semantics import schema_of
 
+# The node that checks literals; it has the port ``literals``.
 CONDITION = "Holds"
-"""The node that checks literals; it has the port ``literals``."""
 _TREE = "MainTree"
+# Attributes that mean something else in BehaviorTree.CPP; it refuses ports of these names in any case.
 _RESERVED = {"id", "name"}
-"""Attributes that mean something else in BehaviorTree.CPP; it refuses ports of these names in any case."""
 
 
 def format_tree(source: Planned) -> str:

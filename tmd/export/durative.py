@@ -26,8 +26,8 @@ from tmd.pddl.model import (
 )
 from tmd.pddl.writer import format_domain, format_formula, format_problem
 
+# Between the end of an instruction and the start of the next; the tolerance of VAL and POPF.
 GAP = Decimal("0.001")
-"""Between the end of an instruction and the start of the next; the tolerance of VAL and POPF."""
 
 
 def starts(count: int) -> list[Decimal]:
@@ -48,8 +48,8 @@ def format_popf(plan: Sequence[Instruction]) -> str:
     return "".join(f"{line}\n" for line in [";;;; Solution Found", f"; Cost: {makespan:.3f}", *lines])
 
 
+# How long every action takes; PDDL says nothing of how long an instruction takes a robot.
 DURATION = 1
-"""How long every action takes; PDDL says nothing of how long an instruction takes a robot."""
 _TOKEN = "robot_free"
 
 

@@ -13,8 +13,8 @@ from tmd.pddl.plan_file import format_plan
 from tmd.pddl.reading.syntax import nearest
 from tmd.pddl.writer import format_domain, format_problem
 
+# File names with contents.
 Files: TypeAlias = Mapping[str, bytes]
-"""File names with contents."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,9 +133,10 @@ def _texts(files: Mapping[str, str]) -> Files:
     return {name: text.encode("utf-8") for name, text in files.items()}
 
 
+# What is written where no format is asked for.
 DEFAULT = "adl"
-"""What is written where no format is asked for."""
 
+# Every format by its name, in the order in which they are documented.
 FORMATS: Mapping[str, Format] = {
     form.name: form
     for form in (
@@ -151,7 +152,6 @@ FORMATS: Mapping[str, Format] = {
         Format("json", "problem and plan in a form of our own, and its JSON Schema", _json),
     )
 }
-"""Every format by its name, in the order in which they are documented."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -33,8 +33,8 @@ from tmd.pddl.model import (
 from tmd.pddl.reading.checking import check_problem
 from tmd.pddl.reading.requirements import used_requirements
 
+# Something of unified-planning, which ships no types.
 _Outside: TypeAlias = Any
-"""Something of unified-planning, which ships no types."""
 _NAME = re.compile(r"[a-z][a-z0-9_-]*")
 
 

@@ -12,8 +12,8 @@ from tmd.pddl.normalise import portable
 from tmd.pddl.reading.reader import parse_domain, parse_problem
 from tmd.pddl.writer import format_domain, format_problem
 
+# A ``pddl.core.Problem``; the package ships no types.
 PddlProblem: TypeAlias = Any
-"""A ``pddl.core.Problem``; the package ships no types."""
 
 
 def to_pddl(problem: Problem) -> PddlProblem:

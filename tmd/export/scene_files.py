@@ -29,8 +29,8 @@ from tmd.world.folder import DomainFolder
 FORMATS = ("urdf", "mjcf")
 WORLD, ROOM = "world", "room"
 _MESHES = "meshes"
+# Steps of physics after which everything has come to rest.
 _SETTLED = 240
-"""Steps of physics after which everything has come to rest."""
 
 
 @dataclass(frozen=True, slots=True)

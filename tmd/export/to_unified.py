@@ -22,10 +22,10 @@ from tmd.pddl.writer import format_domain, format_problem
 
 _WORD = re.compile(r"[A-Za-z_][\w-]*")
 _HYPHENED = re.compile(r"[A-Za-z_]\w*(?:-\w+)+")
+# A ``unified_planning.model.Problem``; the package ships no types.
 UpProblem: TypeAlias = Any
-"""A ``unified_planning.model.Problem``; the package ships no types."""
+# A plan of unified-planning.
 UpPlan: TypeAlias = Any
-"""A plan of unified-planning."""
 
 
 def to_unified_planning(problem: Problem) -> UpProblem:

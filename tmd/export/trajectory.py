@@ -22,8 +22,8 @@ from tmd.robot.state_recorder import Recorded, Sample, StateRecorder
 
 SUFFIXES = (".jsonl", ".mcap")
 DEFAULT_RATE = 10.0
+# Frames, by the names that ROS has for them.
 WORLD, BASE = "map", "base_footprint"
-"""Frames, by the names that ROS has for them."""
 _HEADER = (
     "std_msgs/Header header\n", "=" * 80 + "\nMSG: std_msgs/Header\nbuiltin_interfaces/Time stamp\nstring frame_id\n",
     "=" * 80 + "\nMSG: builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n",

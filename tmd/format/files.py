@@ -7,8 +7,8 @@ from pathlib import Path
 from tmd.files import write_text
 from tmd.pddl.reading.syntax import read_text
 
+# The files that can be laid out.
 SUFFIXES = (".pddl", ".yaml", ".yml")
-"""The files that can be laid out."""
 
 
 def format_file(path: str | Path, *, write: bool = True) -> bool:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
+# An object or list that fits on a line of this many characters stands on one.
 WIDTH = 120
-"""An object or list that fits on a line of this many characters stands on one."""
 
 
 def lay_out(value: object, indent: int = 0) -> str:

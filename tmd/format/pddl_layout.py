@@ -17,25 +17,25 @@ from tmd.pddl.reading.syntax import parse, split_lines
 WIDTH = 120
 _TOKEN = re.compile(r";.*|[()]|[^\s();]+")
 _PARTS = frozenset({":parameters", ":precondition", ":effect"})
+# Longer texts are refused, as `tmd check` refuses them.
 MAX_CHARACTERS = 10_000_000
-"""Longer texts are refused, as `tmd check` refuses them."""
+# Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000.
 _MOST_WORK = 3_000_000
-"""Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000."""
 _DEEPEST = 100
+# A comment that many blanks behind the code follows it; farther away it stands in a column.
 _LOOSE = 2
-"""A comment that many blanks behind the code follows it; farther away it stands in a column."""
 _TOP = frozenset({"define", ":action"})
+# Groups that continue two columns in from their parenthesis.
 _BODY = frozenset({"forall", "exists"})
-"""Groups that continue two columns in from their parenthesis."""
 
 
 @dataclass(frozen=True, slots=True)
 class _Token:
     text: str
+    # 0: on the line of the token before; 1: on a line of its own; 2: with a blank line between.
     breaks: int
-    """0: on the line of the token before; 1: on a line of its own; 2: with a blank line between."""
+    # Where it stood; ``indent`` is where its line began.
     column: int
-    """Where it stood; ``indent`` is where its line began."""
     indent: int
 
     @property
@@ -51,11 +51,11 @@ class _Open:
     line_indent: int
     head: str = ""
     count: int = 0
+    # The column of the first argument, if it stands on the line of the head.
     argument: int | None = None
-    """The column of the first argument, if it stands on the line of the head."""
     last: str = ""
+    # Where it and its line began before.
     was: tuple[int, int] = (0, 0)
-    """Where it and its line began before."""
     was_argument: int | None = None
 
     def indent(self, column: int) -> int:

@@ -14,8 +14,8 @@ from tmd.diagnostics import Location, TmdError
 from tmd.pddl.reading.syntax import split_lines
 from tmd.yaml_nodes import look_over
 
+# Longer texts are refused: what says where comments stand reads some 100,000 characters a second.
 MAX_CHARACTERS = 1_000_000
-"""Longer texts are refused: what says where comments stand reads some 100,000 characters a second."""
 _OPENING = (yaml.FlowMappingStartToken, yaml.FlowSequenceStartToken)
 _CLOSING = (yaml.FlowMappingEndToken, yaml.FlowSequenceEndToken)
 _BLOCKS = (yaml.BlockMappingStartToken, yaml.BlockSequenceStartToken)
@@ -28,8 +28,8 @@ class _Line:
 
     tokens: list[yaml.Token] = field(default_factory=list)
     indent: int | None = None
+    # It holds a piece of a scalar of several lines, and only moves as a whole.
     whole: bool = False
-    """It holds a piece of a scalar of several lines, and only moves as a whole."""
 
 
 def format_yaml(text: str, file: str = "<text>") -> str:

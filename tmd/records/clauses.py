@@ -18,8 +18,8 @@ from tmd.language.clause import (
     clause_json,
 )
 
+# Where a piece of text begins and ends: characters from 0, the end is the first after it.
 Place = tuple[int, int]
-"""Where a piece of text begins and ends: characters from 0, the end is the first after it."""
 
 
 class PhraseRecord(JsonRecord):

@@ -9,14 +9,14 @@ from pydantic import Field
 from tmd.json_record import JsonRecord
 from tmd.records.prediction import PredictionRecord
 
+# The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal.
 SUCCESS = "success"
-"""The share of predictions at whose end the goal of the text holds, in percent, of the examples that have a goal."""
+# What every example is scored by.
 METRICS = ("IED", "EED", "EED_trim", "END")
-"""What every example is scored by."""
+# What rows are compared in.
 TESTED = (SUCCESS, *METRICS)
-"""What rows are compared in."""
+# The share of predictions whose every instruction could be executed, in percent.
 EXECUTABLE = "executable"
-"""The share of predictions whose every instruction could be executed, in percent."""
 COLUMNS = (*TESTED, EXECUTABLE)
 
 

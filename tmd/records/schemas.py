@@ -22,6 +22,7 @@ from tmd.records.sentence_test import ReaderComparison, SentenceReport
 from tmd.records.trajectory import TrajectoryLine
 from tmd.records.trial import Trial
 
+# The formats by name. Of ``run-log``, ``prediction`` and ``trajectory``, JSON Lines, it is the format of a line.
 FORMATS: dict[str, Any] = {
     "parse": ParsedRecord,
     "grounding": GroundingRecord,
@@ -38,7 +39,6 @@ FORMATS: dict[str, Any] = {
     "trial": Trial,
     "trajectory": TrajectoryLine,
 }
-"""The formats by name. Of ``run-log``, ``prediction`` and ``trajectory``, JSON Lines, it is the format of a line."""
 
 
 def schema_text(name: str) -> str:

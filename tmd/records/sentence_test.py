@@ -14,10 +14,10 @@ class Outcome(StrEnum):
     """Outcome of a sentence test."""
 
     RIGHT = "right"
+    # A plan was presented, and the condition does not hold at its end.
     WRONG = "wrong"
-    """A plan was presented, and the condition does not hold at its end."""
+    # No plan for what can be done.
     REFUSED = "refused"
-    """No plan for what can be done."""
     IMPOSSIBLE_REFUSED = "impossible_refused"
     IMPOSSIBLE_PLANNED = "impossible_planned"
 

@@ -10,8 +10,8 @@ from tmd.json_record import JsonRecord, rounded
 from tmd.robot.sim.pose import Pose
 from tmd.robot.state_recorder import Recorded, Sample
 
+# Position x, y, z and unit quaternion x, y, z, w.
 PoseRecord: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""Position x, y, z and unit quaternion x, y, z, w."""
 
 
 def pose_record(pose: Pose) -> PoseRecord:

@@ -17,10 +17,10 @@ from tmd.world.environment import load_environment
 from tmd.world.folder import DomainFolder
 from tmd.world.shape import NAME
 
+# Characters that the name of an environment may have.
 _LONGEST = 60
-"""Characters that the name of an environment may have."""
+# Objects that an environment may have here.
 _MOST = 200
-"""Objects that an environment may have here."""
 
 
 @dataclass(frozen=True, slots=True)

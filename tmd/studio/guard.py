@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 _FILE = "token"
 _BYTES = 24
 _LONGEST = 200
+# The word in the address before the token.
 TOKEN = "token"
-"""The word in the address before the token."""
 _LOCAL = frozenset({"localhost", "127.0.0.1", "::1"})
 _ANY = frozenset({"0.0.0.0", "::", ""})
+# No other page may show the studio in a frame, and have its buttons pressed there.
 _ALONE = "frame-ancestors 'none'"
-"""No other page may show the studio in a frame, and have its buttons pressed there."""
 
 _Answer = Callable[["ServerConnection", "Request"], "Response | None"]
 

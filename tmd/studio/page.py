@@ -32,23 +32,23 @@ if TYPE_CHECKING:
     from websockets.asyncio.server import ServerConnection
     from websockets.http11 import Request, Response
 
+# Asked for by the page, to know whether the studio is there.
 ALIVE = "/alive"
-"""Asked for by the page, to know whether the studio is there."""
+# Of this process: the page knows by it that the studio was started again.
 _INSTANCE = secrets.token_hex(8)
-"""Of this process: the page knows by it that the studio was started again."""
 _HEAD = b"<head>"
+# The key in the window's storage under which the script answers.
 KEY = "tmd-page"
-"""The key in the window's storage under which the script answers."""
+# The label of the input through which it tells what happens.
 EVENT = "tmdevent"
-"""The label of the input through which it tells what happens."""
+# Seconds that a window may take to answer.
 _PATIENCE = 5.0
-"""Seconds that a window may take to answer."""
+# Characters of an event, or of an address, that are read.
 _LONGEST = 20_000
-"""Characters of an event, or of an address, that are read."""
+# Steps of a plan that a window kept that are read.
 _MOST_STEPS = 1_000
-"""Steps of a plan that a window kept that are read."""
+# Digits of a number in an address.
 _WHOLE = 6
-"""Digits of a number in an address."""
 
 
 def answer(_connection: ServerConnection, request: Request) -> Response | None:

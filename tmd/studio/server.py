@@ -26,15 +26,15 @@ if TYPE_CHECKING:
 
 LOCAL = "127.0.0.1"
 _TRIES = 8
+# Number of windows of one browser that are told from one another when they come back.
 _WINDOWS = 8
-"""Number of windows of one browser that are told from one another when they come back."""
+# Seconds between two looks at learning that is under way.
 _LOOK = 0.5
-"""Seconds between two looks at learning that is under way."""
+# Seconds that a browser may take to say who it is.
 _PATIENCE = 5.0
-"""Seconds that a browser may take to say who it is."""
 
+# Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded.
 _WARMING = 5.0
-"""Seconds that closing waits for what is compiled ahead: but for the first time ever, it is only loaded."""
 
 
 class Server:

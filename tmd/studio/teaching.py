@@ -36,14 +36,14 @@ from tmd.veil.library import Library, learn, teach
 from tmd.veil.world import World
 from tmd.world.folder import DomainFolder
 
+# The share of the work that learning is, roughly; the rest is saving.
 _SHARE = 0.95
-"""The share of the work that learning is, roughly; the rest is saving."""
+# How much the process that learns stands back behind the studio's own (POSIX).
 _NICE = 10
-"""How much the process that learns stands back behind the studio's own (POSIX)."""
+# Maximum number of language-model readers that are kept.
 _READERS = 8
-"""Maximum number of language-model readers that are kept."""
+# The key for servers that the environment does not name.
 _NO_KEY = "none"
-"""The key for servers that the environment does not name."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,26 +40,26 @@ if TYPE_CHECKING:
 
     from tmd.studio.studio import Studio
 
+# Pixels of the panel beside the 3D view: two fifths of the window, between these.
 WIDTH, LEAST_WIDTH = 430, 330
-"""Pixels of the panel beside the 3D view: two fifths of the window, between these."""
+# Pixels: in a window of this width or less viser puts the panel before the lower part of the view.
 NARROW = 576
-"""Pixels: in a window of this width or less viser puts the panel before the lower part of the view."""
+# How much of the view it covers there.
 SHEET = 0.6
-"""How much of the view it covers there."""
 WELCOME = (
     "Welcome. Say: type what is to be done, or take an example, and press Enter. Demonstrate: show how it is done, and "
     "the next sentence uses it. Correct: change a plan that was made."
 )
 ROOM, EYES = "the whole room", "with the robot's eyes"
+# Of messages and of faults, as on the page.
 BLUE, ORANGE = (0, 114, 178), (213, 94, 0)
-"""Of messages and of faults, as on the page."""
+# Seconds within which a click in the picture is the one that an object was pointed at with.
 _CLICK = 1.5
-"""Seconds within which a click in the picture is the one that an object was pointed at with."""
+# Seconds that a message over the view stays.
 ALOUD = 8.0
-"""Seconds that a message over the view stays."""
 TABS = ("Say", "Demonstrate", "Correct", "Object")
+# Under this name a browser keeps which visitors its windows are.
 KEY = "tmd-visitor"
-"""Under this name a browser keeps which visitors its windows are."""
 
 
 class Visitor:

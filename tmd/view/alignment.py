@@ -69,10 +69,10 @@ def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[AlignedStep, .
     return tuple(steps)
 
 
+# One edit; more than any number of strangers, which are counted below it.
 _EDIT = 1 << 20
-"""One edit; more than any number of strangers, which are counted below it."""
+# A step that stands beside nothing of its name.
 _STRANGER = 1
-"""A step that stands beside nothing of its name."""
 _ALONE = _EDIT + _STRANGER
 
 

@@ -17,8 +17,8 @@ from tmd.view.meaning import meanings
 
 VERB, OBJECT = "verb", "object"
 _SHORTEST_SLIP, _ALIKE = 4, 0.8
+# Maximum number of words that do not count within a phrase: "the cup of hot coffee".
 _WIDER = 3
-"""Maximum number of words that do not count within a phrase: "the cup of hot coffee"."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,8 +121,8 @@ def _runs(places: Sequence[int]) -> list[list[int]]:
     return runs
 
 
+# Stands under words that name nothing in the environment.
 NOTHING = "nothing here"
-"""Stands under words that name nothing in the environment."""
 SKIPPED = "skipped"
 UNSEEN = "not demonstrated"
 

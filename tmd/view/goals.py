@@ -14,8 +14,8 @@ from tmd.veil.world import World
 from tmd.view.meaning import meanings
 from tmd.view.wording import Wording
 
+# A note on a step without a goal begins with this where its instructions were guessed.
 GUESS = "a guess"
-"""A note on a step without a goal begins with this where its instructions were guessed."""
 
 
 @dataclass(frozen=True, slots=True)

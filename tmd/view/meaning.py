@@ -11,11 +11,9 @@ from tmd.pddl.model import Instruction
 from tmd.pddl.task import Bits
 from tmd.veil.world import World
 
+# For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing. In
+# brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
 Meaning: TypeAlias = Mapping[str, tuple[str, ...]]
-"""For every language-object of a clause, and ``""`` for an elided one, what it was grounded to; empty for nothing.
-
-In brackets stands what a noun would mean here most likely, where the plan has nothing to do with it: ``(milk1)``.
-"""
 
 
 def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:

@@ -140,10 +140,10 @@ def _other_end(anatomy: Anatomy, atom: GroundAtom, place: int) -> int | None:
     return furniture[0] if furniture else None
 
 
+# Width in pixels of a character of the graph's type, 11 pixels high.
 CHARACTER = 6.7
-"""Width in pixels of a character of the graph's type, 11 pixels high."""
+# Height of a line of text in pixels.
 LINE = 16
-"""Height of a line of text in pixels."""
 PAD = 7
 GAP_X, GAP_Y = 26, 12
 
@@ -238,10 +238,10 @@ def _natural(name: str) -> tuple[tuple[bool, int, str], ...]:
     )
 
 
+# Longer lines are cut; the whole is shown when the pointer rests on it.
 LONGEST = 36
-"""Longer lines are cut; the whole is shown when the pointer rests on it."""
+# An object with more parts than this is drawn without those that nothing happens to.
 MOST_VERTICES = 60
-"""An object with more parts than this is drawn without those that nothing happens to."""
 _MARGIN = 8
 _SIGNS = {"added": "+ ", "removed": "− ", "": ""}
 

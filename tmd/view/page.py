@@ -24,10 +24,10 @@ from tmd.view.steps import ShownStep, shown_steps
 from tmd.view.subject import Said, Subject
 from tmd.view.wording import Wording
 
+# A plan with more steps than this has them folded.
 FEW = 60
-"""A plan with more steps than this has them folded."""
+# What may stand in a text, and not in a page.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
-"""What may stand in a text, and not in a page."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -75,8 +75,8 @@ def _meanings(clauses: Iterable[Clause], segments: Iterable[Segment], world: Wor
         yield meaning(clause, segment.instructions, world, state)
 
 
+# Standard input or output.
 STANDARD = "-"
-"""Standard input or output."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,8 +137,8 @@ class FoundSubject:
         return f"invalid: {place}{verdict.reason}\n"
 
 
+# The lines of a file that are not blank, with their numbers.
 Lines = Sequence[tuple[int, str]]
-"""The lines of a file that are not blank, with their numbers."""
 
 
 def made_rows(values: Mapping[str, object]) -> tuple[tuple[str, str], ...]:
@@ -302,8 +302,8 @@ def _beside(asked: ViewRequest) -> Path:
     return asked.path.with_suffix(".html")
 
 
+# Plans with more steps are refused: nobody reads such a page.
 MAX_STEPS = 10_000
-"""Plans with more steps are refused: nobody reads such a page."""
 _KINDS = "what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
 
 

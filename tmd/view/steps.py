@@ -11,8 +11,8 @@ from tmd.pddl.validator import Verdict, validate
 from tmd.view.object_graph import Anatomy, GraphChanges, anatomy, draw
 from tmd.view.subject import PlannedStep
 
+# Characters of drawings on a page; the steps after that have none.
 BUDGET = 6_000_000
-"""Characters of drawings on a page; the steps after that have none."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,8 +15,8 @@ from tmd.view.meaning import Meaning, meanings, meanings_in
 from tmd.view.pictures import Strip
 from tmd.view.run_record import Ran
 
+# Characters of a text that a title shows.
 _TITLE = 90
-"""Characters of a text that a title shows."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,10 +29,10 @@ from tmd.pddl.model import (
 from tmd.pddl.semantics import Binding, bind, bindings, holds, instantiate, schema_of
 from tmd.pddl.writer import format_formula
 
+# Names of parameters that are words of a sentence as well: a comment on one of them is not trusted.
 _WORDS = frozenset({"a", "i"})
-"""Names of parameters that are words of a sentence as well: a comment on one of them is not trusted."""
+# Maximum number of alternatives told; of the others, how many there are.
 _SHOWN = 3
-"""Maximum number of alternatives told; of the others, how many there are."""
 
 
 class Wording:

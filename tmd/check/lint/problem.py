@@ -50,8 +50,8 @@ def _contradictory_goal(problem: Problem, source: Source) -> Iterator[TmdError]:
             )
 
 
+# Problems with more instances of actions are not ground while they are checked: that takes over half a second.
 _MOST_GROUND = 10_000
-"""Problems with more instances of actions are not ground while they are checked: that takes over half a second."""
 
 
 def lint_cases(problem: Problem) -> list[TmdError]:

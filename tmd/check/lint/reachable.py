@@ -23,8 +23,8 @@ from tmd.pddl.model import (
     universe,
 )
 
+# The types of variables.
 Scope = Mapping[str, tuple[str, ...]]
-"""The types of variables."""
 
 
 @dataclass(slots=True)

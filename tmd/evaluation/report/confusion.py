@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from tmd.records.prediction import PredictedClause, PredictionRecord, SegmentRecord
 from tmd.view.alignment import Mark, align, name
 
+# Stands for the verb where people did something for words in which no clause was found.
 NO_CLAUSE = "(no clause)"
-"""Stands for the verb where people did something for words in which no clause was found."""
+# Stands for the instruction that is not there, on either side.
 NOTHING = "(nothing)"
-"""Stands for the instruction that is not there, on either side."""
 
 
 @dataclass(slots=True)

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from tmd.records.prediction import PredictionRecord
 from tmd.view.alignment import Mark, align
 
+# How many of the best, and how many of the worst.
 SHOWN = 10
-"""How many of the best, and how many of the worst."""
+# Each mark has a sign, so that nothing hangs on colour.
 SYMBOLS = {Mark.MATCH: "✓", Mark.SUBSTITUTED: "≠", Mark.MISSING: "−", Mark.SUPERFLUOUS: "+"}
-"""Each mark has a sign, so that nothing hangs on colour."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# What the columns are called.
 LABELS = {
     SUCCESS: "success %",
     "IED": "IED",
@@ -27,11 +28,10 @@ LABELS = {
     "END": "END",
     EXECUTABLE: "executable %",
 }
-"""What the columns are called."""
 _INK = "#010203"
 _FAINT = "#040506"
+# Written by the charts, and replaced: the page knows whether it is light or dark.
 _COLOURS_OF_THE_PAGE = {_INK: "currentColor", _FAINT: "var(--rule)"}
-"""Written by the charts, and replaced: the page knows whether it is light or dark."""
 _BAR = "#0072b2"
 _SERIES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9")
 _SIDES = {"loss": "loss (0 to 1)", "objective": "objective"}

@@ -9,11 +9,11 @@ from tmd.evaluation.report.reference_row import ALPHA, FULL
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.records.metrics import SUCCESS, Metrics
 
+# The rows of Table II that the paper's own model is measured against.
 BASELINES = ("chance", "templates", "tree", "no_nl", "nearest")
-"""The rows of Table II that the paper's own model is measured against."""
 _WORDS = {SUCCESS: "success"}
+# Points below which two means read alike on the page.
 _LEAST = 0.05
-"""Points below which two means read alike on the page."""
 
 
 def in_words(metrics: Metrics) -> list[str]:

@@ -42,10 +42,10 @@ def linked_pages(run: Path) -> frozenset[str]:
     return frozenset(path.name for path in (run / FOLDER).glob("*.html"))
 
 
+# How many verbs the table of verbs shows.
 _VERBS = 30
-"""How many verbs the table of verbs shows."""
+# How many weights the table of weights shows.
 _WEIGHTS = 40
-"""How many weights the table of weights shows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,10 +133,10 @@ def errors(run: Run, model: str) -> Errors:
     return Errors(model, known[:_VERBS], rarer, unparsed, names, cells)
 
 
+# Data whose texts may not be passed on.
 _VEIL500 = "veil500"
-"""Data whose texts may not be passed on."""
+# How many instructions are named in a cell.
 _MENTIONED = 3
-"""How many instructions are named in a cell."""
 
 
 def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = frozenset()) -> str:

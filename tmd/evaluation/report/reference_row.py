@@ -7,10 +7,10 @@ from collections.abc import Iterable
 from tmd.evaluation.runs.summary import EMPTY
 from tmd.records.metrics import TESTED, Pair
 
+# The paper's full model: the others are measured against it.
 FULL = "full"
-"""The paper's full model: the others are measured against it."""
+# A corrected p below this is marked.
 ALPHA = 0.05
-"""A corrected p below this is marked."""
 
 
 def reference(models: Iterable[str]) -> str | None:

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
+# The page's name in the run's directory.
 REPORT = "report.html"
-"""The page's name in the run's directory."""
+# More columns than any screen has.
 _WIDEST = 1000
-"""More columns than any screen has."""
 
 
 def write_report(directory: Path) -> Path:

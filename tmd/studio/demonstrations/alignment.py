@@ -22,14 +22,14 @@ from tmd.veil.clause_alignment import cut_cost, fit, speaks_of
 from tmd.veil.library import Library
 from tmd.veil.world import World
 
+# What it counts that a verb's instructions are usual for it.
 _HABIT = 0.75
-"""What it counts that a verb's instructions are usual for it."""
+# What it counts that a verb usually ends so.
 _END = 0.5
-"""What it counts that a verb usually ends so."""
+# What it costs to leave a clause without steps and go on to the next.
 _PASSED_OVER = 1.5
-"""What it costs to leave a clause without steps and go on to the next."""
+# Number of instructions that a verb must have been shown with to count as much as all verbs together.
 _PRIOR = 5.0
-"""Number of instructions that a verb must have been shown with to count as much as all verbs together."""
 _NEVER = -1e9
 
 
@@ -84,8 +84,8 @@ class Habits:
         return min(max(ended / (self.done.get(verb, Counter[str]())[instruction] + _PRIOR), 1e-3), 1 - 1e-3)
 
 
+# Nothing was ever shown.
 NO_HABITS = Habits()
-"""Nothing was ever shown."""
 
 
 def propose(

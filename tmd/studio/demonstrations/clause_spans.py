@@ -12,8 +12,8 @@ from tmd.language.clause import Clause
 from tmd.language.lexicon.lexicon import Lexicon
 from tmd.language.parser import short_enough
 
+# Longer texts are refused before anything else is done with them.
 MAX_CHARACTERS = 20_000
-"""Longer texts are refused before anything else is done with them."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -28,17 +28,17 @@ from tmd.veil.demonstration import (
 from tmd.veil.world import World
 from tmd.view.meaning import after
 
+# The task of demonstrations whose task nobody named.
 SHOWN = "shown"
-"""The task of demonstrations whose task nobody named."""
 FILE = "demonstrations.jsonl"
 _LOCK = f".{FILE}.lock"
+# Seconds that a writer waits for another.
 _WAIT = 10.0
-"""Seconds that a writer waits for another."""
 _NAME = re.compile(r"[a-z][a-z0-9_]{0,59}")
 _NUMBER = re.compile(r"[0-9]{1,9}")
 _TAKEN = frozenset({"environments", "learned"})
+# Characters that a name or a date may have.
 _LONGEST = 200
-"""Characters that a name or a date may have."""
 
 
 class Archive:

@@ -30,11 +30,11 @@ from tmd.studio.demonstrations.session import DemonstratedStep, Session
 from tmd.veil.corpus import Corpus
 from tmd.veil.world import World
 
+# The environment variable that names the directory of all drafts.
 VARIABLE = "TMD_STUDIO_STATE"
-"""The environment variable that names the directory of all drafts."""
 _VISITOR = re.compile(r"[A-Za-z0-9_-]{1,64}")
+# Maximum number of bytes of a draft.
 _LARGEST = 1_000_000
-"""Maximum number of bytes of a draft."""
 
 
 def place(corpus: Corpus) -> Path:
@@ -56,8 +56,8 @@ def _checked(line: str) -> str:
 
 
 _Line: TypeAlias = Annotated[str, AfterValidator(_checked)]
+# An instruction with its clause.
 _Step: TypeAlias = tuple[_Line, int]
-"""An instruction with its clause."""
 
 
 class _Kept(JsonRecord):

@@ -23,8 +23,8 @@ from tmd.veil.demonstration import Segment
 from tmd.veil.world import World
 from tmd.view.wording import Wording
 
+# Longer demonstrations are refused: the longest of the bundled ones has about thirty steps.
 MAX_STEPS = 500
-"""Longer demonstrations are refused: the longest of the bundled ones has about thirty steps."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -26,10 +26,10 @@ OWN = "(own words)"
 NONE = "(no object)"
 NOTHING = "(nothing)"
 GOAL_HINT = "A PDDL condition such as (contains cup1 water), or nothing; it is saved with what was shown."
+# Number of the instructions that apply with a hot key: 1 to 9.
 NUMBERED = 9
-"""Number of the instructions that apply with a hot key: 1 to 9."""
+# Maximum number of instructions of an action with a button each; the object itself comes before its parts.
 _FEW = 4
-"""Maximum number of instructions of an action with a button each; the object itself comes before its parts."""
 
 
 class DemonstratePanel:

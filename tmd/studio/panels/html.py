@@ -20,10 +20,10 @@ from tmd.view.goals import ShownGoal
 from tmd.view.markup import data, macro
 from tmd.view.wording import Wording
 
+# Maximum number of reasons listed why instructions do not apply.
 MOST = 30
-"""Maximum number of reasons listed why instructions do not apply."""
+# Maximum number of instructions named for each.
 _NAMED = 6
-"""Maximum number of instructions named for each."""
 _TEMPLATE = "studio.html.j2"
 
 

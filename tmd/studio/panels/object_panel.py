@@ -18,10 +18,10 @@ if TYPE_CHECKING:
     from viser import GuiDropdownHandle
 
 NOTHING = "(nothing)"
+# Maximum number of object graphs drawn at once.
 DRAWN = 24
-"""Maximum number of object graphs drawn at once."""
+# Those that domains know; what one does not have is refused.
 RELATIONS = ("on", "in", "next_to")
-"""Those that domains know; what one does not have is refused."""
 
 
 class ObjectPanel:

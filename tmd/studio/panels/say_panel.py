@@ -39,8 +39,8 @@ if TYPE_CHECKING:
     from viser import GuiButtonHandle, GuiDropdownHandle
 
 
+# How many plans are ranked.
 TOP = 3
-"""How many plans are ranked."""
 OWN = "(own words)"
 RULES, LLM = "rules", "language model"
 _FILES = ("plan", "problem", "page")

@@ -9,8 +9,8 @@ from tmd.diagnostics import TmdError
 if TYPE_CHECKING:
     from viser import GuiButtonGroupHandle, GuiDropdownHandle
 
+# Set by its name: the inputs' own types say that a program cannot set it.
 _VALUE = "value"
-"""Set by its name: the inputs' own types say that a program cannot set it."""
 
 
 def put(handle: object, value: object) -> None:

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
     from tmd.robot.sim.simulator import Simulator
     from tmd.robot.skills.results import ExecutedStep
 
+# Physics steps from one picture to the next: 15 a simulated second.
 EVERY = 16
-"""Physics steps from one picture to the next: 15 a simulated second."""
 
 
 class _StoppedError(Exception):

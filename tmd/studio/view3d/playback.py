@@ -10,8 +10,8 @@ from tmd.pddl.task import Bits
 from tmd.robot.video.symbolic_renderer import Picture
 from tmd.studio.environment_view import Setting
 
+# Drawing is quick, and who draws keeps notes in what all visitors of a setting share.
 _DRAWING = Lock()
-"""Drawing is quick, and who draws keeps notes in what all visitors of a setting share."""
 
 
 class Reel:

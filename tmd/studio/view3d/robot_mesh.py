@@ -16,12 +16,12 @@ from tmd.robot.sim.pose import Pose
 from tmd.robot.video.symbolic_renderer import HANDS
 from tmd.studio.view3d.meshes import MeshPiece, pieces
 
+# Metres: how high it is lifted.
 _TORSO = 0.15
-"""Metres: how high it is lifted."""
+# Radians: it looks down a little.
 _NOD = 0.35
-"""Radians: it looks down a little."""
+# From where the posture of an arm that holds something is sought.
 _OUT = (0.0, 0.3, 0.0, -1.2, 0.0, -0.6, 0.0)
-"""From where the posture of an arm that holds something is sought."""
 
 
 class Figure:

@@ -26,18 +26,18 @@ if TYPE_CHECKING:
         SceneNodeHandle,
     )
 
+# Of what is selected; told from the others by its lines and its label as well.
 ORANGE = (230, 159, 0)
-"""Of what is selected; told from the others by its lines and its label as well."""
+# Metres: the height of the robot's eyes.
 _EYE = 1.35
-"""Metres: the height of the robot's eyes."""
+# Radians: how far the view of the whole room looks down.
 _ELEVATION = 0.66
-"""Radians: how far the view of the whole room looks down."""
+# How much of the view the room takes.
 _FILL = 0.94
-"""How much of the view the room takes."""
+# Metres: the distances that the room may be seen from.
 _LEAST, _MOST = 2.0, 60.0
-"""Metres: the distances that the room may be seen from."""
+# The root link of an object's URDF.
 _ROOT = "root"
-"""The root link of an object's URDF."""
 
 
 class Scenery:
