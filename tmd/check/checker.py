@@ -110,7 +110,7 @@ def domains_in(directory: Path) -> dict[str, tuple[Path, ...]]:
     return found
 
 
-# The files of domains and problems that are no PDDL, beside environments.
+# The files of domains and problems that are not PDDL, beside environments.
 DATA_FILES = frozenset({"objects.yaml", "lexicon.yaml", "skills.yaml", "templates.yaml", "demonstrations.jsonl"})
 # What the other files of a folder are checked against.
 _FIRST = ("domain.pddl", "objects.yaml")
@@ -128,7 +128,7 @@ class Checker:
 
     Args:
         domains: The directory of all domains; the usual one by default.
-        domain: The file of the domain of all problems, where it shall not be looked for.
+        domain: The file of the domain of all problems, if it is known.
         problems: The directory of all problems; the usual one by default.
         given: Files that are checked together: a problem that nothing else has a domain for is of one of these.
     """
@@ -247,7 +247,7 @@ class Checker:
         return named[close[0]] if close else None
 
     def problem(self, file: Path) -> Problem | None:
-        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are told."""
+        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are reported."""
         key = real(file)
         if key not in self._read:
             self._read[key] = None
@@ -272,7 +272,7 @@ class Checker:
                 return
 
     def read(self, file: Path) -> str | None:
-        """Return the text of a file; ``None`` where it cannot be read, which is told."""
+        """Return the text of a file; ``None`` where it cannot be read, which is reported."""
         self.files[file] = None
         try:
             if file.is_file() and file.stat().st_size > MAX_BYTES:

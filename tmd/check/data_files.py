@@ -34,7 +34,7 @@ def check_demonstrations(path: Path, world: Callable[[str], Problem | None], kno
 
     Args:
         path: JSON Lines.
-        world: The environment of a name; ``None`` where it has faults of its own.
+        world: Returns the environment of a name; ``None`` where it has faults.
         known: The names of all environments.
         report: Takes the faults.
 
@@ -189,7 +189,7 @@ def check_shapes(folder: DomainFolder) -> None:
 def check_scene(environment: Environment, folder: DomainFolder) -> None:
     """Check the places of things: each finds room, and no two overlap.
 
-    Only given positions can put things into each other, which the simulator tells to the millimetre; without
+    Only given positions can put things into each other, which the simulator finds to the millimetre; without
     ``tmd[robot]`` that is left out.
 
     Raises:
@@ -250,7 +250,7 @@ def _check_fact(
     elif len(words) - 1 != arities[name]:
         message = f"'{fact}': '{name}' takes {arities[name]} argument(s), found {len(words) - 1}"
         source.fault(source.error(path, message, None, "wrong-arity"))
-    for term in words[1:] if "edges" not in path else ():  # classes tell what is wrong with the names of edges
+    for term in words[1:] if "edges" not in path else ():  # classes report the names of edges
         meant = [] if term in names else get_close_matches(term, sorted(names), n=1, cutoff=_ONE_LETTER)
         if meant:
             message = f"({' '.join(words)}): there is no '{term}'"
@@ -262,7 +262,7 @@ _ONE_LETTER = 0.65
 
 
 def _is_of(diagnostic: Diagnostic, folder: DomainFolder) -> bool:
-    """Return whether something was told of the folder of a domain."""
+    """Return whether a diagnostic is about the folder of a domain."""
     return real(Path(diagnostic.location.file)).parent == real(folder.path)
 
 
@@ -278,11 +278,11 @@ class FaultCollector(Protocol):
         """Take in a fault of ``file``."""
 
     def problem(self, file: Path) -> Problem | None:
-        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are told."""
+        """Return the problem in ``file``; ``None`` where it or its domain has faults, which are reported."""
 
 
 class DataFiles:
-    """Checks the files that are no PDDL; each folder and environment is read once.
+    """Checker of files that are not PDDL; each folder and environment is read once.
 
     Args:
         checker: Takes what is found, and knows where domains and problems are.
@@ -383,7 +383,7 @@ class DataFiles:
             return None
 
     def _problems_of(self, folder: DomainFolder) -> Iterator[Problem]:
-        """Yield the environments of a domain that have no faults; faults are told where those files are checked."""
+        """Yield the environments of a domain that have no faults; faults are reported where those files are checked."""
         problems = None if self._has_faults(folder) else self._beside(folder.path)
         for path in sorted((problems / "environments").glob("*")) if problems else ():
             try:
@@ -428,7 +428,7 @@ class DataFiles:
             scene = faults if faults or problem is None else _scene_faults(file, folder)
             told = {(d.code, d.message) for d in self.checker.findings.sorted() if _is_of(d, folder)}
             for fault in scene:
-                if (fault.code, fault.message) not in told:  # what a class says wrongly is told of the class
+                if (fault.code, fault.message) not in told:  # a fault of a class is reported there
                     self.checker.report(fault, file)
             for fault in lint_cases(problem) if problem is not None and not faults else ():
                 self.checker.report(fault, file)

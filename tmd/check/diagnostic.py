@@ -43,7 +43,7 @@ class Findings:
         return len(self._found)
 
     def add(self, error: TmdError, place: Location) -> None:
-        """Take in a fault; one without a place is told at ``place``."""
+        """Add a fault, at ``place`` if it has no location."""
         self.put(Diagnostic(error.location or place, error.code or "syntax", error.message, error.hint, error.source))
 
     def put(self, diagnostic: Diagnostic) -> None:

@@ -33,7 +33,7 @@ def declared_verbs(lexicon: Lexicon, domain: Domain) -> frozenset[str]:
     try:
         return frozenset(declared_goals(lexicon, domain).verbs())
     except TmdError:
-        return lexicon.goal_verbs  # faults are told by themselves
+        return lexicon.goal_verbs  # faults are reported elsewhere
 
 
 def check_lexicon(
@@ -435,7 +435,7 @@ def _one_condition(document: Document) -> Formula:
 
 
 def _plain(node: Node) -> Node:
-    """Return a group without ``was`` and ``first``: what they are said of must be a condition all the same."""
+    """Return a group without ``was`` and ``first``: their argument must be a condition all the same."""
     if not isinstance(node, Group):
         return node
     if node.head in (WAS, FIRST) and len(node.parts) == 2 and isinstance(node.parts[1], Group):

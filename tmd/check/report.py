@@ -80,7 +80,7 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
             yield _Edit(row, column, 0, " ")
         elif diagnostic.code == "look-alike":
             plain = re.fullmatch(r'write "(.)"', diagnostic.hint or "")
-            if plain and plain[1] == " ":  # told once a line
+            if plain and plain[1] == " ":  # reported once a line
                 yield from (_Edit(row, found.start(), 1, " ") for found in ODD_BLANK.finditer(lines[row], column))
             elif plain:
                 yield _Edit(row, column, 1, plain[1])
@@ -92,7 +92,7 @@ def _edits(text: str, lines: Sequence[str], file: Path, diagnostics: Sequence[Di
 
 
 def _parenthesis(diagnostic: Diagnostic, text: str, lines: Sequence[str]) -> Iterator[_Edit]:
-    """Yield at the end of the file only: elsewhere nobody but the author knows where it belongs."""
+    """Yield the edit of a parenthesis at the end of the file; elsewhere only the author knows its place."""
     if "no opening parenthesis" in diagnostic.message:
         yield _Edit(diagnostic.location.line - 1, diagnostic.location.column - 1, 1, "")
     elif diagnostic.hint == 'add the missing ")"' and '"(define"' in diagnostic.message:
@@ -155,7 +155,7 @@ def check_paths(
 
     Args:
         paths: The files and folders.
-        domain: The file of the domain of all problems, where it shall not be looked for.
+        domain: The file of the domain of all problems, if it is known.
         domains: The directory of all domains; the usual one by default.
         problems: The directory of all problems; the usual one by default.
         fix: Fix what can be fixed without knowing what the author meant, and check again.
@@ -196,8 +196,8 @@ def _fix(checker: Checker, stamps: Mapping[Path, tuple[int, int, int] | None]) -
         stamps: The files as they were before that.
 
     Returns:
-        The files that changed; and whether somebody else, an editor or another fix, wrote one meanwhile: what was found
-        is no longer where it was then, and the file is left alone.
+        The files that changed; and whether another program, an editor or another fix, wrote one meanwhile: the
+        diagnostics are outdated then, and the file is left alone.
     """
     by_file: dict[Path, list[Diagnostic]] = {}
     for diagnostic in checker.findings.sorted():

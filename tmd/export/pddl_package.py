@@ -19,7 +19,7 @@ PddlProblem: TypeAlias = Any
 def to_pddl(problem: Problem) -> PddlProblem:
     """Return ``problem`` as a ``pddl.core.Problem`` whose ``domain`` is set, made by that package's own reader.
 
-    Names stay as they are, and so does the meaning; ``either`` becomes a type of its own.
+    Names stay as they are, and so does the meaning; ``either`` becomes a separate type.
 
     Raises:
         TmdError: The problem cannot be written in the form that other tools read, or the package refuses it.

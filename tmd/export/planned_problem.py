@@ -61,7 +61,7 @@ def planned(problem: Problem, plan: Iterable[Instruction]) -> Planned:
 def with_outcome(problem: Problem, plan: Iterable[Instruction]) -> Problem:
     """Return ``problem`` with the goal that everything is as it is after ``plan``.
 
-    The goal of a text is not stated anywhere; what its plan changed stands for it. Where nothing changed, the goal
+    The goal of a text is not stated anywhere; the changes of its plan are taken for it. Where nothing changed, the goal
     is empty.
 
     Raises:

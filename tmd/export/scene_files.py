@@ -89,7 +89,7 @@ def scene_files(environment: Environment, folder: DomainFolder, formats: tuple[s
 
 
 def _collect(parts: list[_Part]) -> dict[str, bytes]:
-    """Let boxes be boxes again and name every mesh by a file beside the scene; the files."""
+    """Turn box meshes into boxes, name every other mesh by a file beside the scene, and return the files."""
     found: dict[str, bytes] = {}
     for part in parts:
         for geometry in part.robot.iter("geometry"):

@@ -6,7 +6,7 @@ others from firing. A disjunction is decided by the literal that holds. So in ev
 applies, the instruction applies as well and does exactly the same: every plan of the export is a plan of the problem.
 The other way round that is not so: what the plan does not do cannot be done.
 
-A negated literal becomes an atom of a predicate of its own, ``not_`` and the name, which is kept in step. Atoms that
+A negated literal becomes an atom of a separate predicate, ``not_`` and the name, which is kept in step. Atoms that
 never change are compiled away. Predicates and objects keep their names; an action is named by its instruction,
 ``grasp-cup1``, with the number of its step behind it where the same instruction is decided in two ways.
 """
@@ -204,7 +204,7 @@ def _names(steps: Sequence[_Decided]) -> dict[_Decided, str]:
 
 
 class _Writer:
-    """Writes bit sets as atoms, and atoms that are needed false as atoms of a predicate of their own."""
+    """Writer of bit sets as atoms; atoms that must be false become atoms of a separate predicate."""
 
     def __init__(self, task: Task, negated: Bits) -> None:
         self.task = task
@@ -310,9 +310,9 @@ def _split(pieces: Sequence[str], count: int, objects: set[str]) -> Iterable[tup
 
 
 def with_flat_types(problem: Problem) -> Problem:
-    """Return ``problem``, which is ground, with as few types as tell its objects apart, and without unused objects.
+    """Return ``problem``, which is ground, with as few types as separate its objects, and without unused objects.
 
-    Objects that stand in the same place of a predicate are of one type: the nearest one that covers them all. Where
+    Objects in the same place of a predicate are of one type: the nearest one that covers them all. Where
     the problem has no types, or one is enough, there are none.
     """
     classes = _Classes(problem)
@@ -348,7 +348,7 @@ def _atoms(problem: Problem) -> Iterator[GroundAtom]:
 
 
 class _Classes:
-    """The objects of a ground problem, those together that stand in the same place of a predicate."""
+    """The objects of a ground problem, grouped by the places of predicates that they share."""
 
     def __init__(self, problem: Problem) -> None:
         self.parents: dict[str, str] = {}
@@ -364,7 +364,7 @@ class _Classes:
         return list(self.parents)
 
     def example(self, predicate: str, place: int) -> str:
-        """Return an object that stands in this place."""
+        """Return an object in this place."""
         return self.first[(predicate, place)]
 
     def root(self, name: str) -> str:

@@ -1,6 +1,6 @@
 """Laying out PDDL: indentation, spaces and blank lines; comments and the author's own line breaks stay.
 
-Sections and the parts of actions begin lines of their own; a line that is too long is broken; nothing is joined. A
+Sections and the parts of actions begin on new lines; a line that is too long is broken; nothing is joined. A
 group continues under its first argument, or two columns in where its head stands last on a line, unless the author
 chose another of the usual ways.
 """
@@ -22,7 +22,7 @@ MAX_CHARACTERS = 10_000_000
 # Tokens that are laid out until every line is short enough: some 30 s. A domain of a thousand lines takes 50,000.
 _MOST_WORK = 3_000_000
 _DEEPEST = 100
-# A comment that many blanks behind the code follows it; farther away it stands in a column.
+# A comment that many blanks behind the code follows it; farther away it is in a column.
 _LOOSE = 2
 _TOP = frozenset({"define", ":action"})
 # Groups that continue two columns in from their parenthesis.
@@ -32,7 +32,7 @@ _BODY = frozenset({"forall", "exists"})
 @dataclass(frozen=True, slots=True)
 class _Token:
     text: str
-    # 0: on the line of the token before; 1: on a line of its own; 2: with a blank line between.
+    # 0: on the line of the token before; 1: on a new line; 2: with a blank line between.
     breaks: int
     # Where it stood; ``indent`` is where its line began.
     column: int

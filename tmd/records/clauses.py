@@ -66,7 +66,7 @@ class _Said(JsonRecord):
 
 
 class InnerClause(_Said, _Verb):
-    """A clause of a condition: it has no place of its own in the text."""
+    """Clause of a condition, without a place in the text."""
 
     def clause(self, text: str = "", place: Place = (0, 0)) -> Clause:
         """Return the clause."""

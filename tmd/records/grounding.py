@@ -1,4 +1,4 @@
-"""``tmd ground --json``: what was said, what it asks for, and the ranked plans."""
+"""``tmd ground --json``: the text, its goals, and the ranked plans."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _condition(text: str) -> Formula:
     """Return the condition that a text states.
 
     Raises:
-        ValueError: It is none.
+        ValueError: It is not a condition.
     """
     try:
         document = parse(text, "pddl")

@@ -1,4 +1,4 @@
-"""``robot/`` of ``tmd experiment``: what a robot did with a prediction, or why there are no trials."""
+"""``robot/`` of ``tmd experiment``: trials of predictions on the robot, or the reason why there are none."""
 
 from __future__ import annotations
 

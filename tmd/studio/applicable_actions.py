@@ -15,7 +15,7 @@ from tmd.view.wording import Wording
 
 @dataclass(frozen=True, slots=True)
 class Offer:
-    """An instruction; ``why`` is empty where it applies, and tells else what it needs or what is in its way."""
+    """Instruction; ``why`` is empty where it applies, and otherwise names an unmet or an opposing condition."""
 
     instruction: Instruction
     why: str = ""

@@ -2,7 +2,7 @@
 
 Any page that is open in a visitor's browser can send requests to the studio's port. So each request is asked for three
 things. ``Host`` must be an address of this machine, so that no foreign name that was made to point here is served. A
-websocket's ``Origin``, which a browser always tells and no page can forge, must be the studio's own page. And the token
+websocket's ``Origin``, which a browser always sends and no page can forge, must be the studio's own page. And the token
 that was printed must be in the address, or in the cookie that the first visit with it set.
 """
 
@@ -77,7 +77,7 @@ class Guard:
         self._port = 0
 
     def listen(self, port: int) -> None:
-        """Know the port: cookies are told from those of another studio by it."""
+        """Set the port, which distinguishes the cookies of several studios."""
         self._port = port
 
     def refusal(self, request: Request) -> str:
@@ -104,7 +104,7 @@ class Guard:
             ipaddress.ip_address(name)
         except ValueError:
             return False
-        return self._everywhere  # by number: no name leads here that somebody else could have made up
+        return self._everywhere  # by number: no foreign name can lead here
 
     def _knows(self, request: Request) -> bool:
         return any(

@@ -14,7 +14,7 @@ from tmd.veil.world import PART_OF, World
 
 @dataclass(frozen=True, slots=True)
 class About:
-    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` tells them in words.
+    """One object in one state. Facts are sorted; :class:`~tmd.view.wording.Wording` puts them into words.
 
     Attributes:
         name: The object.
@@ -40,7 +40,7 @@ class About:
 def about(name: str, world: World, state: Bits) -> About:
     """Return the facts about ``name`` in ``state``.
 
-    That two objects belong together is said by ``whole`` and ``parts``; edges that hold both ways say no more, and are
+    ``whole`` and ``parts`` record that two objects belong together; edges that hold both ways add nothing, and are
     left out.
 
     Raises:

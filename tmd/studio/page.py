@@ -39,7 +39,7 @@ _INSTANCE = secrets.token_hex(8)
 _HEAD = b"<head>"
 # The key in the window's storage under which the script answers.
 KEY = "tmd-page"
-# The label of the input through which it tells what happens.
+# The label of the input through which it sends events.
 EVENT = "tmdevent"
 # Seconds that a window may take to answer.
 _PATIENCE = 5.0
@@ -195,12 +195,12 @@ class Window:
 
     Args:
         client: viser's side of it.
-        told: Called with what happens in it.
+        told: Called with each event in it.
 
     Attributes:
         dark: Whether its system is dark.
         width: Pixels from its left to its right; 0 where it does not say.
-        link: What its address said when it was loaded.
+        link: The view that its address had when it was loaded.
         plan: The plan that it showed before; empty for none.
     """
 
@@ -232,7 +232,7 @@ class Window:
                     self._told(event)
 
     def _is_new(self, number: int) -> bool:
-        """Return whether an event was not told yet; from now on it is."""
+        """Return whether an event is new, and remember it."""
         with self._lock:
             new, self._seen = number > self._seen, max(number, self._seen)
             return new

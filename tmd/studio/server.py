@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 LOCAL = "127.0.0.1"
 _TRIES = 8
-# Number of windows of one browser that are told from one another when they come back.
+# Number of windows of one browser that are recognised when they come back.
 _WINDOWS = 8
 # Seconds between two looks at learning that is under way.
 _LOOK = 0.5
@@ -57,7 +57,7 @@ class Server:
     def __init__(self, studio: Studio, host: str, port: int) -> None:
         viser = need_viser()
         port = free_port(host, port)
-        for name in ("websockets", "asyncio"):  # who sends nonsense is not answered, and nobody need know
+        for name in ("websockets", "asyncio"):  # invalid requests are not answered, and need no log
             logging.getLogger(name).setLevel(logging.CRITICAL)
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         self.studio = studio

@@ -74,7 +74,7 @@ class Studio:
         self.start = start or names[0]
 
     def changed(self, setting: Setting, change: Callable[[EditedEnvironment], object]) -> str:
-        """Make an environment of a changed one, for whoever changed it, and return its name; both files stay.
+        """Make a changed environment for a visitor, and return its name; both files stay.
 
         Raises:
             TmdError: It cannot be changed so.
@@ -159,9 +159,9 @@ class Studio:
         Args:
             session: The demonstration.
             task: What it is an example of.
-            who: Who showed it; empty where that is not told.
-            when: Whether the time is told.
-            goal: What the text asks for, as a closed PDDL condition; not told by default.
+            who: The name of the person; empty where it is not recorded.
+            when: Whether the time is recorded.
+            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Raises:
             TmdError: It cannot be saved; nothing is written.

@@ -156,7 +156,7 @@ def _work(connection: Connection, folder: Path, directory: Path, root: Path | No
         with suppress(BrokenPipeError):
             connection.send(("error", str(error)))
     except BrokenPipeError:
-        return  # the studio has ended: nobody wants it any more
+        return  # the studio has ended
 
 
 class Teacher:
@@ -209,7 +209,7 @@ class Teacher:
             return self.knowledge
 
     def retrain(self) -> Training:
-        """Learn everything from all demonstrations, in a process of its own, as ``tmd ground`` does when it is asked.
+        """Learn everything from all demonstrations, in a separate process, as ``tmd ground`` does.
 
         What is learned is used as soon as it is there, and kept where ``tmd ground`` finds it. Where learning is under
         way already, that goes on; if demonstrations came meanwhile, it begins once more at its end.
@@ -232,7 +232,7 @@ class Teacher:
             ModelError: There is no model, or no key for a server that needs one.
             TmdError: A file of sentence tests is wrong.
         """
-        # whoever sees the page may name any server: the key goes only to the one that the environment names
+        # a visitor may name any server: the key goes only to the one that the environment variable names
         trusted = url in ("", os.environ.get(URL, "").strip())
         settings = ModelSettings(model or None, url or None, key=None if trusted else _NO_KEY)
         with self._guard:

@@ -133,7 +133,7 @@ class Visitor:
         self.client.camera.on_update(self.guarded(self._resized))
 
     def come_back(self) -> None:
-        """Look at what the window's address says, as before it was loaded again, or as somebody sent it."""
+        """Show the view of the window's address: that before it was loaded again, or one that was sent."""
         link = self.window.link
         if link.environment in self.studio.environments() and link.environment != self.setting.name:
             self.enter(link.environment)
@@ -429,7 +429,7 @@ class Visitor:
             self._aloud = self.client.add_notification(title, said, auto_close_seconds=ALOUD, color=colour)
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """Return a callback that tells what goes wrong; nothing that a visitor does is answered by a traceback."""
+        """Return a callback that reports errors to the visitor, never by a traceback."""
 
         @wraps(act)
         def called(_: object) -> None:

@@ -71,7 +71,7 @@ def align(predicted: Sequence[str], gold: Sequence[str]) -> tuple[AlignedStep, .
 
 # One edit; more than any number of strangers, which are counted below it.
 _EDIT = 1 << 20
-# A step that stands beside nothing of its name.
+# A step that is not aligned with one of its name.
 _STRANGER = 1
 _ALONE = _EDIT + _STRANGER
 

@@ -149,7 +149,7 @@ def lit_sentence(
 
     Args:
         parsed: The text and its clauses.
-        meant: For every clause what its language-objects were grounded to; nothing is told of that without it.
+        meant: For every clause the objects that its language-objects were grounded to; without it, they are left out.
         unseen: The verbs that no demonstration has.
     """
     spans = _clipped([clause.span for clause in parsed.clauses])

@@ -24,7 +24,7 @@ class ShownGoal:
 
     Attributes:
         goal: The goal.
-        words: What it says; empty where there is none.
+        words: The goal in words; empty without a goal.
         since: After how many steps of the plan it comes to hold, for good if it holds in the end; ``None`` for never.
         until: Where it was reached and does not hold in the end, the number of the step that undid it.
         reached: Whether it holds when its own part of the plan is done.
@@ -116,8 +116,8 @@ def outcome(verdict: Verdict, goals: Sequence[ShownGoal], goal: Formula = TRUE) 
 
     Args:
         verdict: What the validator says of it.
-        goals: What was said, as :func:`followed`.
-        goal: The goal of the problem, where nothing was said.
+        goals: The goals of the text, as :func:`followed` returns them.
+        goal: The goal of the problem, for a plan without a text.
     """
     if not verdict.valid:
         return "✗ does not work"

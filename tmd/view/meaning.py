@@ -20,7 +20,7 @@ def meanings(parsed: Parsed, plan: RankedPlan, world: World) -> list[Meaning]:
     """Return the meanings of each clause's nouns in a ranked plan.
 
     A clause may have several of the plan's choices (*when you have taken the cup, …* is two steps) or none (*leave the
-    door open* asks for nothing to be done), and they need not stand in the order of the clauses.
+    door open* asks for nothing to be done), and they need not be in the order of the clauses.
     """
     owners = [goal.clause for goal in plan.goals] or list(range(len(plan.choices)))
     served: dict[int, list[Instruction]] = {}

@@ -97,7 +97,7 @@ def _edges(static: Iterable[GroundAtom], wholes: Mapping[str, str]) -> dict[str,
 
 @dataclass(frozen=True, slots=True)
 class Aspect:
-    """A fact as it is told of one of its objects.
+    """Fact as seen from one of its objects.
 
     Attributes:
         atom: The fact.

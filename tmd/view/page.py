@@ -26,7 +26,7 @@ from tmd.view.wording import Wording
 
 # A plan with more steps than this has them folded.
 FEW = 60
-# What may stand in a text, and not in a page.
+# Characters that a text may have, and a page may not.
 _UNFIT = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
 
 
@@ -150,7 +150,7 @@ def _seen(subject: Subject, steps: list[ShownStep]) -> dict[int, list[_Seen]]:
 
 
 def _picture(strip: Strip | None, place: int) -> str:
-    """Return the style that shows one picture of the sheet, at whatever size; empty where there is none."""
+    """Return the style that shows one picture of the sheet at any size; empty where there is none."""
     if strip is None or place >= len(strip.tiles):
         return ""
     tile: Tile = strip.tiles[place]

@@ -107,7 +107,7 @@ class FoundSubject:
 
     Attributes:
         subject: The subject of the page.
-        beside: Where the page goes if nobody says.
+        beside: The default file of the page.
         remarks: Lines for standard error.
         locations: Where the steps of a plan file stand.
         of_text: Whether there is a text that should have a plan.
@@ -302,7 +302,7 @@ def _beside(asked: ViewRequest) -> Path:
     return asked.path.with_suffix(".html")
 
 
-# Plans with more steps are refused: nobody reads such a page.
+# Plans with more steps are refused: such a page cannot be read.
 MAX_STEPS = 10_000
 _KINDS = "what tmd ground --json or tmd run --json printed, a log of tmd run, a plan file, or demonstrations"
 

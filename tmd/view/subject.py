@@ -25,7 +25,7 @@ class PlannedStep:
 
     Attributes:
         instruction: What to do.
-        origin: ``clause 2``, ``segment 1``; empty where nobody said anything.
+        origin: ``clause 2``, ``segment 1``; empty without a text.
         words: The words of the text that it serves.
         latent: Whether they left it unsaid.
     """
@@ -61,14 +61,14 @@ class Subject:
         title: What the page is about, in a few words.
         problem: Where the plan begins, and what its goal is.
         steps: The plan.
-        said: What was said; ``None`` for a plan without a text.
+        said: The text; ``None`` for a plan without a text.
         plans: All ranked plans, the one shown first; empty where nothing was ranked.
         refusals: Templates that could not be used.
         ran: What a robot made of it.
         strip: The pictures of that.
         made: What decides all this, as names and values.
-        refused: Why there is no plan for what was said; empty where there is one, or where nobody knows.
-        doubts: What whoever trusts the plan should know.
+        refused: The reason why there is no plan for the text; empty where there is one, or where it is not known.
+        doubts: Reasons to doubt the plan.
     """
 
     title: str

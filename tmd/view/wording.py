@@ -1,7 +1,7 @@
 """Facts, conditions and broken preconditions in plain words: those of the comments beside the domain's predicates.
 
-``(near ?r - robot ?x - thing)  ; x is within reach`` lets ``(near pr2 mug1)`` be told as *mug1 is within reach*. Where
-a comment does not speak of everything that a fact is about, the fact is told as it is written in PDDL.
+``(near ?r - robot ?x - thing)  ; x is within reach`` turns ``(near pr2 mug1)`` into *mug1 is within reach*. Where
+a comment does not mention all arguments of a fact, the fact is given as it is written in PDDL.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from tmd.pddl.writer import format_formula
 
 # Names of parameters that are words of a sentence as well: a comment on one of them is not trusted.
 _WORDS = frozenset({"a", "i"})
-# Maximum number of alternatives told; of the others, how many there are.
+# Maximum number of alternatives that are named; the others are counted.
 _SHOWN = 3
 
 
@@ -58,7 +58,7 @@ class Wording:
     def instruction(self, instruction: Instruction) -> str:
         """Return an instruction in words of the comment above the action: *Go and stand before pot1*; else its name.
 
-        Of the comment's first sentence, as much is told as speaks of all that it speaks of.
+        The first sentence of the comment is cut after the last parameter that it mentions.
         """
         action = self._actions.get(instruction.name)
         plain = " ".join((instruction.name.replace("_", " "), ", ".join(instruction.args))).strip()
@@ -85,8 +85,8 @@ class Wording:
     def condition(self, condition: Formula) -> str:
         """Return ``condition`` in words, without full stop: *there is some water in cup1, and cup1 is hot*.
 
-        Of many alternatives the first three are told: *mug1 is on counter1, counter2, table1 or 4 others*. An atom that
-        has no words is told as it is written, without brackets; what has variables, as it is written in PDDL.
+        Of many alternatives the first three are named: *mug1 is on counter1, counter2, table1 or 4 others*. An atom
+        without words is given as it is written, without brackets; a condition with variables, as it is written in PDDL.
         """
         match condition:
             case Atom(predicate, terms):
@@ -189,7 +189,7 @@ class Wording:
         return self._filled(re.split(r"[:;(]", predicate.comment)[0].strip(), predicate.parameters, args)
 
     def _filled(self, comment: str, parameters: Sequence[TypedName], args: Sequence[str]) -> str:
-        """Return a comment with ``args`` for parameters; empty where it does not speak of all that are no constants."""
+        """Return a comment with ``args`` for parameters; empty where it does not mention all that are not constants."""
         names = [parameter.name.removeprefix("?") for parameter in parameters]
         if not comment or _WORDS & set(names):
             return ""
@@ -203,7 +203,7 @@ class Wording:
 
 
 def _word(*names: str) -> re.Pattern[str]:
-    """Return any of ``names`` as a word of its own, as it is declared (``?x``) or without the question mark."""
+    """Return a pattern of any of ``names`` as a whole word, as it is declared (``?x``) or without the question mark."""
     return re.compile(rf"(?<![\w'?-])\??(?P<name>{'|'.join(map(re.escape, names))})(?![\w-])")
 
 

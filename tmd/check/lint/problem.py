@@ -173,7 +173,7 @@ def lint_together(domain: Domain, problems: Iterable[Problem], source: Source) -
         message = f'nothing makes "{lack.predicate}" true {every}, and action "{action.name}" needs it'
         message = message.replace("true in none", "true, in none")
         found.append(source.error(message, lack.location or action.location, hint, "never-produced"))
-        known = [_assuming(p, lack.predicate) for p in known]  # what only follows from this is not told
+        known = [_assuming(p, lack.predicate) for p in known]  # consequences of this are not reported
     for action in domain.actions:
         blocks = [p.blocked.get(action.name) for p in known]
         if any(block is None for block in blocks):

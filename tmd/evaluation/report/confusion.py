@@ -25,9 +25,9 @@ class VerbErrors:
         scores: The IED of each clause, 0 to 100; clauses for which nothing was done and nothing predicted count 100.
         matched: Steps that are as the person's.
         missed: Names of recorded instructions that were not predicted, with how often.
-        superfluous: Names of predicted instructions that stand beside none, with how often.
+        superfluous: Names of predicted instructions without a counterpart, with their counts.
         arguments: Names of instructions that were predicted with other arguments, with how often.
-        substituted: Recorded and predicted name of steps that stand beside each other and differ, with how often.
+        substituted: Recorded and predicted name of aligned steps that differ, with their counts.
     """
 
     verb: str
@@ -122,7 +122,7 @@ def _count(found: dict[str, VerbErrors], clauses: Sequence[PredictedClause], rec
 def belonging(text: str, clauses: Sequence[PredictedClause], segments: Sequence[SegmentRecord]) -> list[int | None]:
     """Return for each clause the number of the segment that shares most characters with it; ``None`` for no overlap.
 
-    Both are found by their words, one after the other, since both stand in the order of the text.
+    Both are found by their words, one after the other, since both are in the order of the text.
     """
     places = _places(text, [segment.text for segment in segments], overlap=False)
     found: list[int | None] = []

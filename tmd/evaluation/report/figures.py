@@ -1,6 +1,6 @@
-"""The charts of a report, as SVG that takes ink and typeface from the page it stands in.
+"""The charts of a report, as SVG that takes ink and typeface from its page.
 
-The colours are those of Okabe and Ito, which colour-blind people can tell apart; nothing is said by colour alone. The
+The colours are those of Okabe and Ito, which colour-blind people can distinguish; nothing depends on colour alone. The
 same numbers give the same bytes.
 """
 
@@ -170,7 +170,7 @@ def _figure(name: str, rows: int, columns: int, height: float) -> Iterator[tuple
 
 
 def _svg(figure: Figure, name: str) -> str:
-    """Return the figure as an element of a page: no size of its own, names that no other figure has."""
+    """Return the figure as an element of a page: without a fixed size, with unique names."""
     drawn = io.StringIO()
     figure.savefig(drawn, format="svg", transparent=True, metadata={"Date": None, "Creator": None})
     text = drawn.getvalue()

@@ -144,7 +144,7 @@ def render(run: Run, trials: Trials | None = None, pages: frozenset[str] = froze
 
     Args:
         run: The run.
-        trials: What a robot did with its predictions; ``None`` where nobody asked for it.
+        trials: The robot's trials of its predictions; ``None`` where there are none.
         pages: The pages on single predictions that are there, by file name.
     """
     metrics, fits = run.metrics, list(run.fits.values())

@@ -46,7 +46,7 @@ def print_table(metrics: Metrics, console: Console | None = None) -> None:
         found = table(metrics, narrow=True)
     try:
         shown.print(found)
-    except SystemExit:  # rich ends the program where nobody reads its output
+    except SystemExit:  # rich ends the program when its output is closed
         raise BrokenPipeError from None
 
 

@@ -1,6 +1,6 @@
 """Proposed clauses for the steps of a demonstration; the person may change them.
 
-Steps serve the clauses in the order of the text. How well a step fits a clause is said by the objects that both speak
+Steps serve the clauses in the order of the text. How well a step fits a clause depends on the objects that both speak
 of (:mod:`tmd.veil.clause_alignment`), and by what the library's demonstrations did for the clause's verb: which
 instructions, and with which of them they ended. The best division is found by dynamic programming. Clauses at the end
 may be without steps at no cost, for the person may not be there yet.
@@ -101,7 +101,7 @@ def propose(
         clauses: The clauses of the text, at least one.
         instructions: What was done, from the environment's initial state on.
         world: The environment.
-        pinned: What the person said: for the number of an instruction, from 0, that of its clause; never falling.
+        pinned: The clauses that the person chose, from 0 and never falling, by the number of the instruction, from 0.
         habits: What was done for verbs before.
     """
     if len(clauses) == 1 or not instructions:

@@ -48,7 +48,7 @@ class Correction:
 
     Args:
         world: The environment.
-        text: What was said.
+        text: The request.
         proposed: The plan that was proposed for it, each instruction with its clause.
         lexicon: The words of the domain.
         steps: What it was made already; what was proposed by default.
@@ -105,7 +105,7 @@ class Correction:
             clause: The clause it serves; that of the step behind it, or of the last, where none is given.
 
         Raises:
-            TmdError: The instruction is none of this environment, or the place is none.
+            TmdError: The environment has no such instruction, or the plan no such place.
         """
         with self._lock:
             bind(self.world.task.problem, instruction)
@@ -119,7 +119,7 @@ class Correction:
         """Make a step the one of another number; those between move up or down.
 
         Raises:
-            TmdError: One of the two numbers is none.
+            TmdError: The plan has no step of one of the numbers.
         """
         with self._lock:
             self._known(step)
@@ -133,7 +133,7 @@ class Correction:
 
         Args:
             old: The object that is in the plan.
-            new: The one that shall be.
+            new: The object to take instead.
             step: Only in this step; in all where none is given.
 
         Returns:

@@ -28,7 +28,7 @@ from tmd.veil.demonstration import (
 from tmd.veil.world import World
 from tmd.view.meaning import after
 
-# The task of demonstrations whose task nobody named.
+# The task of demonstrations for which none was named.
 SHOWN = "shown"
 FILE = "demonstrations.jsonl"
 _LOCK = f".{FILE}.lock"
@@ -70,7 +70,7 @@ class Archive:
         """Make sure that what is shown in ``world`` could be saved: everybody must find the environment again.
 
         Raises:
-            TmdError: It is none of the domain's.
+            TmdError: The domain does not have it.
         """
         directory = self.corpus.directory / "environments"
         if world.name not in self.corpus.environments():
@@ -98,12 +98,12 @@ class Archive:
         Args:
             session: The demonstration; all its steps, wherever it is looked at.
             task: The task it is an example of.
-            who: Who showed it; not told by default.
-            when: When; not told by default.
-            goal: What the text asks for, as a closed PDDL condition; not told by default.
+            who: The name of the person; not recorded by default.
+            when: The time; not recorded by default.
+            goal: The goal of the text, as a closed PDDL condition; not recorded by default.
 
         Returns:
-            The demonstration as it stands in the file now.
+            The demonstration as the file has it now.
 
         Raises:
             TmdError: There are no steps and no plan that is corrected, the task cannot have that name, the environment

@@ -34,7 +34,7 @@ class DemonstratedStep:
     Attributes:
         instruction: What was done.
         clause: The number of the clause that it serves, from 0.
-        marked: Whether the person said so; otherwise it is a proposal.
+        marked: Whether the person chose the clause; otherwise it is a proposal.
     """
 
     instruction: Instruction
@@ -67,7 +67,7 @@ class Session:
         text: What is to be done.
         lexicon: The words of the domain.
         instructions: What was done already.
-        pins: What the person said about it: for the number of a step, from 1, that of its clause, from 0.
+        pins: The clauses that the person chose, from 0, by the number of the step, from 1.
         proposed: The plan that is corrected, if one is.
         habits: What was done for verbs before; proposals of clauses are better with it.
 

@@ -42,7 +42,7 @@ class PanelContext(Protocol):
         """The words of the environment."""
 
     def guarded(self, act: Callable[[], Any]) -> Callable[[object], None]:
-        """Return a callback that tells what goes wrong."""
+        """Return a callback that reports errors to the visitor."""
 
     def holding(self) -> threading.RLock:
         """Return the lock: one thing at a time happens to what is looked at."""

@@ -121,7 +121,7 @@ class CorrectPanel:
             self.resume()
 
     def _keep(self) -> None:
-        """Write the correction down; one that changes nothing is none."""
+        """Keep the correction as a draft, if it changes anything."""
         visitor, correction = self._visitor, self._correction
         if correction is None:
             return

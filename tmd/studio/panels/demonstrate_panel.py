@@ -103,7 +103,7 @@ class DemonstratePanel:
         self._over("Begin anew?", "Throw it away, and begin", go)
 
     def take(self, session: Session, goal: str, taken: Callable[[], None]) -> None:
-        """Go on with a plan that was corrected, and with the goal that it shall reach, if one was said."""
+        """Go on with a corrected plan, and with its goal, if one was given."""
 
         def go() -> None:
             taken()

@@ -1,4 +1,4 @@
-"""The player above the tabs: one slider and one row of buttons for whatever steps are looked at, and the caption."""
+"""The player above the tabs: a slider and a row of buttons for the steps of a panel, and the caption."""
 
 from __future__ import annotations
 

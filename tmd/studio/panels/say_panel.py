@@ -119,7 +119,7 @@ class SayPanel:
             self._files.on_click(guarded(self._download))
 
     def _add_settings(self) -> None:
-        """Add the fields that say how a text is read. The key is none of them: the page never has it."""
+        """Add the settings of the reader. The key is not among them: the page never has it."""
         gui, guarded = self._visitor.client.gui, self._visitor.guarded
         model, url = os.environ.get(MODEL, ""), os.environ.get(URL, "")
         self._reader: GuiDropdownHandle[str] = gui.add_dropdown("Reader", (RULES, LLM))
@@ -212,7 +212,7 @@ class SayPanel:
         """Ground again what a question was asked about, knowing the answer."""
         with self._visitor.holding():
             if self._grounded is not grounded:
-                return  # it was pressed twice, or something else was said
+                return  # it was pressed twice, or another text was planned
             self._visitor.stop()
             self._clear()
             self._plan(request)
@@ -224,7 +224,7 @@ class SayPanel:
             put(self._text, link.say)
             self._waiting, self._step = link, link.step
             problem = visitor.setting.world.task.problem
-            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal of its own
+            works = (Status.VALID, Status.GOAL_NOT_REACHED)  # an environment has no goal
             if kept and validate(problem, [step.instruction for step in kept]).status in works:
                 self._plans, self._reels = [kept], [self._played(kept)]
                 self._which.options = ("1",)
@@ -236,7 +236,7 @@ class SayPanel:
         self._behind(lambda: self._plan_again(link, Request(visitor.studio.checked_text(link.say))))
 
     def _behind(self, act: Callable[[], None]) -> None:
-        """Do something in the background, and tell what goes wrong."""
+        """Do something in the background, and report errors."""
         threading.Thread(target=self._visitor.guarded(act), args=(None,), daemon=True).start()
 
     def _plan_again(self, link: PageLink, request: Request) -> None:
@@ -256,7 +256,7 @@ class SayPanel:
         took = time.perf_counter() - begun
         with visitor.holding():
             if self._waiting is not link:
-                return  # something else was said meanwhile
+                return  # another text was planned meanwhile
             before, step = self._plans, self._step
             found = [plan.steps for plan in grounded.plans]
             place = found.index(before[0]) if before and before[0] in found else link.plan - 1
@@ -314,7 +314,7 @@ class SayPanel:
         return studio.teacher.ground(saved.text, studio.setting(saved.environment).world, top=TOP)
 
     def _tell(self, grounded: Grounded, took: float, more: str | None = None) -> None:
-        """Say what came of it: how many plans there are, with ``more`` about them, or why there is none."""
+        """Report the number of plans, with ``more`` about them, or the reason why there is none."""
         visitor, parsed = self._visitor, grounded.parsed
         if grounded.plans:
             more = more or (_ASKED if grounded.question is not None else None)
@@ -535,7 +535,7 @@ def _plans(grounded: Grounded | None) -> list[tuple[Instruction, ...]]:
 
 
 def whether_used(shown: Sequence[Instruction], grounded: Grounded, said: Callable[[Instruction], str] = str) -> str:
-    """Return whether the plans for a text are what was shown for it; ``said`` tells an instruction in words."""
+    """Return whether the plans for a text are what was shown for it; ``said`` puts an instruction into words."""
     plans = _plans(grounded)
     if not plans:
         return f"The same sentence has no plan yet: {grounded.reason}."

@@ -23,7 +23,7 @@ def chosen(handle: GuiDropdownHandle[str] | GuiButtonGroupHandle) -> str:
     """Return the chosen option of an input.
 
     Raises:
-        TmdError: It is none of them: the page is out of date, or it was not sent by the page.
+        TmdError: The page is out of date, or did not send the value.
     """
     value = handle.value
     if value not in handle.options:

@@ -46,7 +46,7 @@ def pieces(
 
     Args:
         root: The parsed ``<robot>``; mesh files by absolute paths.
-        apart: Links that are pieces of their own although they are fixed to others.
+        apart: Links that are separate pieces although they are fixed to others.
         paint: The colour of a link: red, green, blue and alpha from 0 to 1; those of the URDF without it.
 
     Returns:

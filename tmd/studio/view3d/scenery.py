@@ -26,7 +26,7 @@ if TYPE_CHECKING:
         SceneNodeHandle,
     )
 
-# Of what is selected; told from the others by its lines and its label as well.
+# Of the selected object, which has lines and a label as well.
 ORANGE = (230, 159, 0)
 # Metres: the height of the robot's eyes.
 _EYE = 1.35
