@@ -42,7 +42,7 @@ class Mention(JsonRecord):
     line: int
 
 
-class Entry(JsonRecord):
+class BaseRow(JsonRecord):
     """Row of a base lexicon."""
 
     pattern: str
@@ -70,7 +70,7 @@ class Tried(JsonRecord):
     line: int | None
 
 
-class Unused(Entry):
+class Unused(BaseRow):
     """Row of a base lexicon that is not used for a verb, or not in this domain."""
 
     reason: str
@@ -113,7 +113,7 @@ class Explanation(JsonRecord):
     known: bool
     english: tuple[Mention, ...]
     same: tuple[str, ...]
-    bases: tuple[Entry, ...]
+    bases: tuple[BaseRow, ...]
     nearest: tuple[str, ...]
     domains: tuple[InDomain, ...]
 
@@ -210,12 +210,12 @@ def _nearest(verb: str, known_verbs: Iterable[str]) -> tuple[str, ...]:
     return tuple(found[:_MOST_NEAR])
 
 
-def _of_bases(verb: str) -> Iterator[Entry]:
+def _of_bases(verb: str) -> Iterator[BaseRow]:
     """Yield the rows of the base lexicons for a verb as they are written."""
     for file in bases_near(Path("domains") / "any" / "lexicon.yaml").values():
         for entry in read_lexicon(file).goals:
             if verb in entry.pattern.partition(" ")[0].split("|"):
-                yield Entry(**_entry(entry))
+                yield BaseRow(**_entry(entry))
 
 
 # ---------------------------------------------------------------------- in a domain
@@ -353,7 +353,7 @@ def _section(title: str, lines: Iterable[str]) -> list[str]:
     return ["", title, *found] if found else []
 
 
-def _line(text: str, at: Mention | Entry | Tried | Canonical) -> str:
+def _line(text: str, at: Mention | BaseRow | Tried | Canonical) -> str:
     return f"  {text}" + (f"   [{at.file}:{at.line}]" if at.file is not None else "")
 
 

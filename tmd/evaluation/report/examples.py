@@ -36,7 +36,7 @@ class ExampleStep:
 
 
 @dataclass(frozen=True, slots=True)
-class Example:
+class ShownPrediction:
     """Prediction as it is shown, aligned with the recorded instructions; ``longest`` is its largest weighed factor."""
 
     line: PredictionRecord
@@ -44,8 +44,10 @@ class Example:
     longest: float
 
 
-def best_and_worst(lines: Sequence[PredictionRecord], count: int = SHOWN) -> tuple[list[Example], list[Example]]:
-    """Return the best by success, then IED, then END, then EED, best first; and of the others the worst, worst first.
+def best_and_worst(
+    lines: Sequence[PredictionRecord], count: int = SHOWN
+) -> tuple[list[ShownPrediction], list[ShownPrediction]]:
+    """Return the best by success, IED, END and EED, best first; and of the others the worst, worst first.
 
     What has no goal stands between what reached its goal and what did not.
     """
@@ -59,7 +61,7 @@ def _rank(line: PredictionRecord) -> tuple[int, float, float, float, str, str]:
     return success, -line.IED, -line.END, -line.EED, line.environment, str(line.id)
 
 
-def shown(line: PredictionRecord) -> Example:
+def shown(line: PredictionRecord) -> ShownPrediction:
     """Return a prediction as it is shown."""
     origins = [
         (number, latent)
@@ -75,4 +77,4 @@ def shown(line: PredictionRecord) -> Example:
         gold = "" if step.gold is None else line.gold[step.gold]
         steps.append(ExampleStep(step.mark, SYMBOLS[step.mark], predicted, gold, *origin))
     longest = max((abs(value) for clause in line.clauses for value in clause.factors.values()), default=0.0)
-    return Example(line, tuple(steps), longest)
+    return ShownPrediction(line, tuple(steps), longest)
