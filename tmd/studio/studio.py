@@ -14,7 +14,6 @@ from threading import RLock
 from tmd.diagnostics import MissingToolError, TmdError
 from tmd.pddl.reading.syntax import nearest
 from tmd.studio.applicable_actions import Offers
-from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.demo_store import Archive
 from tmd.studio.demonstrations.drafts import Drafts, place
 from tmd.studio.demonstrations.session import Session
@@ -192,14 +191,6 @@ class Studio:
             self.figure()
             if texts:
                 self.teacher.ground(texts[0], self.setting(self.start).world, top=1)
-
-    def checked_text(self, text: str) -> str:
-        """Return the text without control characters.
-
-        Raises:
-            TmdError: There is nothing in it, or it is too long.
-        """
-        return clean(text)
 
 
 @cache

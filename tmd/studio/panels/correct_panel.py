@@ -77,7 +77,7 @@ class CorrectPanel:
             visitor.show_tab("Correct")
             visitor.tell("The plan is under Correct: click on a step, drag it, delete it, or put another behind it.")
 
-        before = visitor.studio.drafts.of(visitor.identity, CorrectionDraft)
+        before = self._draft()
         if before is None:
             go()
             return
@@ -99,14 +99,16 @@ class CorrectPanel:
 
     # what is not done yet
 
+    def _draft(self) -> CorrectionDraft | None:
+        return self._visitor.studio.drafts.of(self._visitor.identity, CorrectionDraft)
+
     def _look_for_draft(self) -> None:
-        visitor = self._visitor
-        self._resume.visible = visitor.studio.drafts.of(visitor.identity, CorrectionDraft) is not None
+        self._resume.visible = self._draft() is not None
 
     def resume(self) -> None:
         """Go on with the correction that is not done."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.of(visitor.identity, CorrectionDraft)
+        draft = self._draft()
         if draft is None:
             raise TmdError("there is no correction that is not done")
         if draft.environment != visitor.setting.name:
@@ -116,8 +118,7 @@ class CorrectPanel:
 
     def come_back(self) -> None:
         """Resume the correction after the page was loaded again, if there is one."""
-        visitor = self._visitor
-        if self._correction is None and visitor.studio.drafts.of(visitor.identity, CorrectionDraft) is not None:
+        if self._correction is None and self._draft() is not None:
             self.resume()
 
     def _keep(self) -> None:
@@ -224,12 +225,10 @@ class CorrectPanel:
         self._at = min(self._at, len(steps))
         used = sorted(set(steps[self._at - 1].instruction.args)) if self._at else []
         self._old.options = (NOTHING, *used)
-        task = visitor.setting.world.task
-        states = [task.init]
-        for step in steps[: broken.step - 1 if broken else None]:
-            states.append(task.by_instruction[step.instruction].apply(states[-1]))
-        states += [states[-1]] * (len(steps) + 1 - len(states))
-        self._reel.become(states)
+        works = broken.step - 1 if broken else len(steps)
+        self._reel.follow(step.instruction for step in steps[:works])
+        states = self._reel.states
+        self._reel.become([*states, *[states[-1]] * (len(steps) - works)])
         visitor.watch(self._reel, self._at, self, [step.instruction for step in steps])
         why = [] if broken is None else [f"✗ {broken.why}"]
         lines = [(str(step.instruction), f"clause {step.clause + 1}", False) for step in steps]

@@ -117,7 +117,7 @@ class DemonstratePanel:
 
     def _over(self, title: str, yes: str, act: Callable[[], None]) -> None:
         """Do what ends a demonstration that was not saved, if there is one, only if the visitor says so."""
-        draft = self._visitor.studio.drafts.of(self._visitor.identity, Draft)
+        draft = self._draft()
         if draft is None or not draft.instructions:
             act()
             return
@@ -175,13 +175,16 @@ class DemonstratePanel:
 
     # drafts
 
+    def _draft(self) -> Draft | None:
+        return self._visitor.studio.drafts.of(self._visitor.identity, Draft)
+
     def _look_for_draft(self) -> None:
-        self._resume.visible = self._visitor.studio.drafts.of(self._visitor.identity, Draft) is not None
+        self._resume.visible = self._draft() is not None
 
     def resume(self) -> None:
         """Go on with what was not saved."""
         visitor = self._visitor
-        draft = visitor.studio.drafts.of(visitor.identity, Draft)
+        draft = self._draft()
         if draft is None:
             raise TmdError("there is no demonstration that was not saved")
         if draft.environment != visitor.setting.name:
@@ -194,7 +197,7 @@ class DemonstratePanel:
 
     def come_back(self) -> None:
         """Resume the unsaved demonstration after the page was loaded again, if there is one."""
-        if self._session is None and self._visitor.studio.drafts.of(self._visitor.identity, Draft) is not None:
+        if self._session is None and self._draft() is not None:
             self.resume()
 
     # doing

@@ -21,6 +21,7 @@ from tmd.pddl.validator import Status, validate
 from tmd.pddl.writer import format_problem
 from tmd.readers.interface import Question, Reader
 from tmd.readers.llm.client import KEY, MODEL, URL
+from tmd.studio.demonstrations.clause_spans import clean
 from tmd.studio.demonstrations.correction import steps_of
 from tmd.studio.page import PageLink
 from tmd.studio.panels.context import PanelContext
@@ -160,7 +161,7 @@ class SayPanel:
                 return  # it was pressed twice
             visitor.stop()
             self._clear()  # what is refused must not leave another sentence's plan below it
-            text = visitor.studio.checked_text(self._text.value)
+            text = clean(self._text.value)
             self._plan(Request(text, self._chosen_reader()))
 
     def _plan(self, request: Request) -> None:
@@ -233,7 +234,7 @@ class SayPanel:
                 visitor.tell("Here is the plan that you looked at; it is planned again in the background.")
             else:
                 visitor.tell("Planning …")
-        self._behind(lambda: self._plan_again(link, Request(visitor.studio.checked_text(link.say))))
+        self._behind(lambda: self._plan_again(link, Request(clean(link.say))))
 
     def _behind(self, act: Callable[[], None]) -> None:
         """Do something in the background, and report errors."""
@@ -339,12 +340,8 @@ class SayPanel:
 
     def _played(self, plan: Sequence[PlanStep]) -> Reel:
         """Return the states that a plan leads through."""
-        task = self._visitor.setting.world.task
-        states = [task.init]
-        for step in plan:
-            states.append(task.by_instruction[step.instruction].apply(states[-1]))
         reel = Reel(self._visitor.setting)
-        reel.become(states)
+        reel.follow(step.instruction for step in plan)
         return reel
 
     def _show(

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from threading import Lock
 
-from tmd.pddl.model import State
+from tmd.pddl.model import Instruction, State
 from tmd.pddl.task import Bits
 from tmd.robot.video.symbolic_renderer import Picture
 from tmd.studio.environment_view import Setting
@@ -36,6 +36,14 @@ class Reel:
             same += 1
         self.states = tuple(states)
         del self._pictures[max(same, 1) :]
+
+    def follow(self, plan: Iterable[Instruction]) -> None:
+        """Hold the states that the instructions of a plan lead through; each of them must apply."""
+        task = self.setting.world.task
+        states = [task.init]
+        for instruction in plan:
+            states.append(task.by_instruction[instruction].apply(states[-1]))
+        self.become(states)
 
     def facts(self, step: int) -> State:
         """Return the facts after a number of steps."""
