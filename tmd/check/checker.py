@@ -124,7 +124,7 @@ MAX_BYTES = 10_000_000
 
 @dataclass(slots=True)
 class Checker:
-    """Checks files and folders, each once, and collects what is wrong with them.
+    """Checker of files and folders, each once, which collects their faults.
 
     Args:
         domains: The directory of all domains; the usual one by default.

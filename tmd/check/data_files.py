@@ -1,4 +1,4 @@
-"""YAML and JSON Lines of domains and problems: which file is checked how, and with what beside it."""
+"""Checks of the YAML and JSON Lines of domains and problems."""
 
 from __future__ import annotations
 

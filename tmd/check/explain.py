@@ -1,4 +1,4 @@
-"""Everything that the offline reader takes for granted about a verb: ``tmd check --explain``.
+"""Explanation of a verb, as the offline reader knows it: ``tmd check --explain``.
 
 English comes first: the classes of the word lists that the verb is in, the verbs that ask for the same, the words for
 its outcome. Then, in a domain, the rows that are tried for it, in the order in which they are tried, and the rows of

@@ -1,4 +1,4 @@
-"""``tmd parse --json``: the clauses of a text, and what no clause accounts for."""
+"""``tmd parse --json``: the clauses of a text, and the pieces without a clause."""
 
 from __future__ import annotations
 

@@ -222,7 +222,7 @@ class PlanEvent(RunRequest, _Event):
 
 
 class BeginEvent(_Event):
-    """Announce an instruction."""
+    """Beginning of an instruction."""
 
     event: Literal["begin"]
     number: int

@@ -47,7 +47,7 @@ def schema_text(name: str) -> str:
 
 
 class _WithoutTitles(GenerateJsonSchema):
-    """Titles of keys would only repeat the keys."""
+    """Generator of schemas without titles, which would only repeat the keys."""
 
     def field_title_should_be_set(self, schema: Any) -> bool:  # noqa: ANN401 - a schema of pydantic's core
         """Return false."""

@@ -1,4 +1,4 @@
-"""``tmd test --json``: what became of each sentence test, and how many of each kind there are."""
+"""``tmd test --json``: the outcome of each sentence test, and the number of each kind."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Changing an environment: another place, another state, a thing more or less; checked before anybody sees it."""
+"""Edits of an environment: other places and states, more or fewer things; checked before they are used."""
 
 from __future__ import annotations
 

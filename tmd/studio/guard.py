@@ -62,7 +62,7 @@ def kept_token(directory: Path) -> str:
 
 
 class Guard:
-    """Lets in, and turns away.
+    """Access control of one server.
 
     Args:
         host: The address that is listened at.

@@ -38,7 +38,7 @@ _WARMING = 5.0
 
 
 class Server:
-    """Serves a studio.
+    """Web server of a studio.
 
     Args:
         studio: What is shown.

@@ -129,7 +129,7 @@ UNSEEN = "not demonstrated"
 
 @dataclass(frozen=True, slots=True)
 class Lit:
-    """Lit words: where they stand, what they are (``verb``, ``object``, ``skipped``), and what stands under them."""
+    """Lit words: their place, their kind (``verb``, ``object``, ``skipped``), and the label below them."""
 
     span: Span
     kind: str

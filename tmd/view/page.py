@@ -206,7 +206,7 @@ class ShownStep:
 
 @dataclass
 class _Sheet:
-    """Draws for as long as there is room."""
+    """Drawings of a page, up to a limit of characters."""
 
     graph: Anatomy
     left: int = BUDGET

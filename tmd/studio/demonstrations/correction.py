@@ -1,4 +1,4 @@
-"""Correcting a plan that was proposed: edits, what breaks after each, and what a planner puts in so that it works.
+"""Corrections of a proposed plan: edits, the first broken step after each, and repair by a planner.
 
 Steps are counted from 1, clauses from 0, as in a session. Between two edits a plan may be one that cannot be carried
 out; it becomes a session when it can. Everything may be called from any thread.

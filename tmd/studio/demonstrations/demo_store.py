@@ -1,4 +1,4 @@
-"""Saving a finished session as a demonstration: ``<problems>/<domain>/<task>/demonstrations.jsonl`` grows by a line.
+"""Store of demonstrations: a line of ``<problems>/<domain>/<task>/demonstrations.jsonl`` for each finished session.
 
 The file is replaced as a whole, and one writer at a time has it, whatever thread or process that is. Before anything is
 written the demonstration is played, and its line is read back.

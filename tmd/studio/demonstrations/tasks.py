@@ -13,7 +13,7 @@ from tmd.veil.demonstration import read_demonstrations
 
 @dataclass(frozen=True, slots=True)
 class TaskText:
-    """Something to do.
+    """Text of a task in an environment.
 
     Attributes:
         task: The task it is an example of; empty for the text of a problem.

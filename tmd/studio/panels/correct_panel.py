@@ -31,7 +31,7 @@ _EDITS = ("Delete", "Earlier", "Later", "Undo", "Redo")
 
 
 class CorrectPanel:
-    """Edits a plan that was proposed, and hands it to the panel where demonstrations are saved."""
+    """Panel that edits a proposed plan, and passes it to the panel where demonstrations are saved."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

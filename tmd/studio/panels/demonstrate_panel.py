@@ -33,7 +33,7 @@ _FEW = 4
 
 
 class DemonstratePanel:
-    """Shows, marks, takes back, saves."""
+    """Panel that demonstrates: it carries out, marks, undoes and saves."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

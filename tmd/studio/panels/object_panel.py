@@ -25,7 +25,7 @@ RELATIONS = ("on", "in", "next_to")
 
 
 class ObjectPanel:
-    """Shows one object of the state that is seen."""
+    """Panel of one object of the state that is shown."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

@@ -14,7 +14,7 @@ BUTTONS = ("|◀", "◀", "▶ play", "▶", "▶|")
 
 
 class PlayerPanel:
-    """Steps through, and plays, what a panel shows."""
+    """Panel that steps through, and plays, the plan of another panel."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

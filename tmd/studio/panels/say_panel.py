@@ -73,7 +73,7 @@ class Request:
 
 
 class SayPanel:
-    """Says, plans, steps and plays."""
+    """Panel that plans a text, and shows the plans."""
 
     def __init__(self, visitor: PanelContext) -> None:
         self._visitor = visitor

@@ -1,4 +1,4 @@
-"""Small things about the page's inputs."""
+"""Helpers for the page's inputs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From URDF to meshes for the browser: each link that moves or changes colour becomes one GLB file."""
+"""Meshes of a URDF for the browser: each link that moves or changes colour becomes one GLB file."""
 
 from __future__ import annotations
 

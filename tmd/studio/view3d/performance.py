@@ -30,7 +30,7 @@ class _StoppedError(Exception):
 
 
 class _Audience:
-    """Shows what the simulation goes through.
+    """View of a running simulation.
 
     Args:
         stage: The simulation.
