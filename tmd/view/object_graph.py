@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from html import escape
 
 from tmd.pddl.model import GroundAtom, Problem, State
 from tmd.veil.world import World
+from tmd.view.markup import macro
 from tmd.world.compile import AT, PART_OF
 
 
@@ -282,7 +282,7 @@ def object_graph(world: World, state: State, name: str, changes: GraphChanges | 
 
 
 def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None = None) -> str:
-    """Return as :func:`object_graph`, for many drawings of one environment.
+    """Draw an object as :func:`object_graph` does, for many drawings of one environment.
 
     Raises:
         KeyError: There is no such object.
@@ -294,9 +294,11 @@ def draw(graph: Anatomy, state: State, name: str, changes: GraphChanges | None =
     edges = [edge for edge in graph.edges.get(root, ()) if edge.tail in lines and edge.head in lines]
     sizes = {v: (max(len(_cut(_signed(line))) for line in found), len(found)) for v, found in lines.items()}
     boxes = place(root, sizes, edges)
-    inner = "".join(_edge(edge, boxes) for edge in edges)
-    inner += "".join(_vertex(boxes[v], found, v == root) for v, found in lines.items())
-    return _svg(root, max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values()), inner)
+    curves = [_Curve(edge, boxes[edge.tail], boxes[edge.head]) for edge in edges]
+    vertices = [(v == root, boxes[v], _placed(boxes[v], found)) for v, found in lines.items()]
+    right, bottom = max(b.right for b in boxes.values()), max(b.bottom for b in boxes.values())
+    size = right + 2 * _MARGIN, bottom + 2 * _MARGIN, -_MARGIN
+    return macro("object_graph.html.j2", "graph", root, size, curves, vertices)
 
 
 def _all_lines(graph: Anatomy, state: State, root: str, changes: GraphChanges) -> dict[str, list[_Line]]:
@@ -334,50 +336,41 @@ def _cut(text: str) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
-def _svg(name: str, right: int, bottom: int, inner: str) -> str:
-    width, height = right + 2 * _MARGIN, bottom + 2 * _MARGIN
-    return (
-        f'<svg class="tmd-graph" role="img" aria-label="{escape(name)}" width="{width}" height="{height}" '
-        f'viewBox="{-_MARGIN} {-_MARGIN} {width} {height}">{inner}</svg>'
-    )
+def _placed(box: VertexBox, lines: Sequence[_Line]) -> list[tuple[int, int, str, str, str, str]]:
+    """Return each line of a vertex: x, y, its class, the whole text if it is cut, its sign, the text."""
+    found = []
+    for place, line in enumerate(lines):
+        shown, sign = _cut(_signed(line)), _SIGNS[line.mark]
+        whole = line.text if shown != _signed(line) else ""
+        kind = line.mark or ("name" if place == 0 else "")
+        found.append((box.x + PAD, box.y + LINE * (place + 1) - 3, kind, whole, sign, shown[len(sign) :]))
+    return found
 
 
-def _vertex(box: VertexBox, lines: list[_Line], is_root: bool) -> str:
-    shape = f'<rect x="{box.x}" y="{box.y}" width="{box.width}" height="{box.height}" rx="4"/>'
-    texts = "".join(_text(box.x + PAD, box.y + LINE * (place + 1) - 3, line, place) for place, line in enumerate(lines))
-    return f'<g class="{"root" if is_root else "part"}">{shape}{texts}</g>'
+@dataclass(frozen=True, slots=True)
+class _Curve:
+    """Curve of an edge from one box to another: to the right, or, where that is not possible, below both."""
 
+    edge: Edge
+    tail: VertexBox
+    head: VertexBox
 
-def _text(x: int, y: int, line: _Line, place: int) -> str:
-    shown = _cut(_signed(line))
-    whole = f"<title>{escape(line.text)}</title>" if shown != _signed(line) else ""
-    kind = f' class="{line.mark}"' if line.mark else ' class="name"' if place == 0 else ""
-    sign = _SIGNS[line.mark]
-    said = f"{sign}<tspan>{escape(shown[len(sign) :])}</tspan>" if line.mark == "removed" else escape(shown)
-    return f'<text x="{x}" y="{y}"{kind}>{whole}{said}</text>'
+    @property
+    def back(self) -> bool:
+        return self.head.x <= self.tail.right
 
+    @property
+    def path(self) -> str:
+        tail, head = self.tail, self.head
+        if self.back:
+            low = max(tail.bottom, head.bottom) + 6
+            return f"M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"
+        bend = (head.x - tail.right) // 2
+        first, second = f"{tail.right + bend} {tail.middle}", f"{head.x - bend} {head.middle}"
+        return f"M{tail.right} {tail.middle}C{first} {second} {head.x - 5} {head.middle}"
 
-def _edge(edge: Edge, boxes: Mapping[str, VertexBox]) -> str:
-    """Return a curve with an arrow head and its word."""
-    tail, head = boxes[edge.tail], boxes[edge.head]
-    x, y, to_x, to_y = tail.right, tail.middle, head.x, head.middle
-    if to_x <= x:
-        return _bow(edge, tail, head)
-    bend = (to_x - x) // 2
-    path = f'<path d="M{x} {y}C{x + bend} {y} {to_x - bend} {to_y} {to_x - 5} {to_y}"/>'
-    return f'<g class="edge">{path}{_arrow(to_x, to_y)}{_word(edge, x + bend, (y + to_y) // 2 - 3)}</g>'
-
-
-def _bow(edge: Edge, tail: VertexBox, head: VertexBox) -> str:
-    """Return an edge that leads back: below the boxes and around."""
-    low = max(tail.bottom, head.bottom) + 6
-    path = f'<path d="M{tail.x + tail.width // 2} {tail.bottom}V{low}H{head.x + head.width // 2}V{head.bottom}"/>'
-    return f'<g class="edge back">{path}<title>{escape(edge.words)}</title></g>'
-
-
-def _arrow(x: int, y: int) -> str:
-    return f'<path class="head" d="M{x} {y}l-6 -3.5v7z"/>'
-
-
-def _word(edge: Edge, x: int, y: int) -> str:
-    return f'<text x="{x}" y="{y}" text-anchor="middle">{escape(edge.words)}</text>'
+    @property
+    def middle(self) -> tuple[int, int]:
+        """The place of its words."""
+        tail, head = self.tail, self.head
+        return tail.right + (head.x - tail.right) // 2, (tail.middle + head.middle) // 2 - 3
